@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "segmentation/surface/surface.hpp"
+
+namespace brainshift {
+
+enum class CellKind : std::uint8_t { hexahedron, tetrahedron };
+
+/// The part of a cut cell that lies inside the body, split in eight: volumes and centroids, so that integration points
+/// never lie outside.
+struct InsideOctants {
+  double volume[8];       ///< mm³; 0 where an octant has no inside part
+  double centroid[8][3];  ///< mm; undefined where the volume is 0
+};
+
+/// Background cells for integration; they need not conform to the body or to the nodes. All cells are of one kind.
+struct BackgroundCells {
+  CellKind kind = CellKind::hexahedron;
+  Points vertices;                         ///< mm, LPS
+  std::vector<std::int32_t> connectivity;  ///< 8 (VTK order) or 4 vertices a cell
+  std::vector<double> inside_fraction;     ///< one a cell, in (0, 1]: inside volume / volume
+  std::vector<std::int32_t> label;         ///< one a cell, tissue at its inside part's centroid
+  std::vector<std::int32_t> cut_index;   ///< one a cell: row of cut_parts for a cell cut by the surface, -1 for a whole
+                                         ///< one; empty when no cell is cut
+  std::vector<InsideOctants> cut_parts;  ///< one a cut hexahedron, octants in the order x fastest, z slowest
+
+  std::size_t size() const { return inside_fraction.size(); }
+  int corners() const { return kind == CellKind::hexahedron ? 8 : 4; }
+};
+
+/// cells.vtu: cell arrays inside_fraction, label and, where cells are cut, octant_volume (8) and octant_centroid (24; 0
+/// where there is no volume). On reading, inside_fraction may be absent (1), label too (1) and the octant arrays (a cut
+/// cell's points are then those of the whole cell, weighted by its fraction). Throws std::invalid_argument, naming file
+/// and cell, on a file that is none, no cell, mixed or other kinds of cell, an inverted or flat cell, a fraction
+/// outside (0, 1], non-finite numbers.
+BackgroundCells read_background_cells(const std::filesystem::path& file);
+void write_background_cells(const std::filesystem::path& file, const BackgroundCells& cells);
+
+}  // namespace brainshift

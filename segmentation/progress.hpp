@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+namespace brainshift {
+
+/// Called now and then from inside a stage, from one thread at a time: the fraction of the stage that is done, 0 to 1,
+/// and what is being done. A stage never prints; who wants to see progress passes a function. May be empty.
+using Progress = std::function<void(double fraction, std::string_view what)>;
+
+inline void report(const Progress& progress, double fraction, std::string_view what) {
+  if (progress) {
+    progress(fraction, what);
+  }
+}
+
+}  // namespace brainshift

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "segmentation/surface/surface.hpp"
+#include "solve/shape/shape_options.hpp"
+
+namespace brainshift::solve {
+
+/// Shape functions at many points, compressed rows: row i holds the support of point i.
+struct ShapeRows {
+  std::vector<std::int64_t> begin;  ///< (points + 1) offsets into the arrays below
+  std::vector<std::int32_t> node;   ///< supporting node
+  std::vector<double> value;        ///< φ_a(x_i)
+  std::vector<double> derivative;   ///< (pairs × 3) ∂φ_a/∂X_J, 1/mm; empty when not asked for
+  std::size_t grown = 0;            ///< points whose support had to be grown until it was admissible
+
+  std::size_t size() const { return begin.size() - 1; }
+};
+
+/// The shape functions of a cloud: prepared once (search tree), evaluated anywhere. Cheap to copy; const calls may run
+/// on many threads.
+class ShapeFunctions {
+ public:
+  /// positions (n × 3) mm, spacing one a node, mm. Throws std::invalid_argument when there are fewer nodes than the
+  /// basis needs.
+  ShapeFunctions(const Points& positions, std::span<const double> spacing, const ShapeOptions& options);
+
+  /// Values, and derivatives if asked, at points (m × 3). Uses all threads; the result does not depend on their number.
+  /// Throws std::invalid_argument, naming the point, where no support is admissible (all nodes in one plane).
+  ShapeRows evaluate(const Points& points, bool with_derivatives) const;
+
+  /// The field Σφ_a(x) values_a at points (m × 3); values (n × 3). What evaluate() and a product would give, without
+  /// the rows in memory.
+  Points interpolate(const Points& points, const Points& values) const;
+
+  std::size_t nodes() const;
+
+  struct Impl;
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// û from u: solves Σ_b φ_b(X_a) û_b = u_a at all nodes. displacement (n × 3), mm. Afterwards
+/// shape.interpolate(x, û) is the displacement field that the solver had.
+/// Throws std::runtime_error when the iteration does not reach 1e-9 of the largest displacement.
+Points parameters_from_displacement(const ShapeFunctions& shape, const Points& positions, const Points& displacement);
+
+}  // namespace brainshift::solve

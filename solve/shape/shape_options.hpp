@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+namespace brainshift {
+
+enum class Basis : std::uint8_t {
+  linear,              ///< MLS, 1 x y z
+  quadratic,           ///< MLS, all ten monomials up to order two; singular on some clouds
+  modified_quadratic,  ///< MMLS: quadratic, its six highest coefficients held by a small penalty (eqs 11-15)
+};
+
+enum class Derivatives : std::uint8_t {
+  full,     ///< of p M⁻¹ Pᵀ W as a whole
+  diffuse,  ///< of the basis alone: ∂M⁻¹ and ∂W dropped, cheaper and inexact
+};
+
+struct ShapeOptions {
+  Basis basis = Basis::modified_quadratic;
+  Derivatives derivatives = Derivatives::full;
+  double dilatation = 0;  ///< support radius / local spacing; 0: 1.6 for the linear basis, 2.0 for the quadratic ones
+  double penalty = 1e-7;  ///< µ of MMLS, in scaled coordinates
+};
+
+}  // namespace brainshift

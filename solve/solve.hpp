@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "discretise/background_cells.hpp"
+#include "discretise/node_cloud.hpp"
+#include "segmentation/image/image.hpp"
+#include "segmentation/progress.hpp"
+#include "solve/material/material.hpp"
+#include "solve/solution.hpp"
+
+namespace brainshift::solve {
+
+/// How the volumetric part of the strain energy is integrated.
+enum class Volumetric : std::uint8_t {
+  mean_dilatation,  ///< one pressure a background cell, K(J̄ − 1): no volumetric locking
+  pointwise,        ///< the plain method
+};
+
+struct SolveOptions {
+  ShapeOptions shape;
+  Volumetric volumetric = Volumetric::mean_dilatation;
+  int points_per_cell = 8;  ///< hexahedra: 1 or 8; tetrahedra: 1 or 4
+  double tolerance = 0.01;  ///< stop when the bound of the remaining error is below this, mm
+  int load_steps = 0;       ///< steps of 3-4-5 loading; 0: chosen from the estimate of the lowest eigenvalue
+  int max_steps = 50000;
+};
+
+/// What is solved.
+struct Model {
+  NodeCloud cloud;  ///< prescribed_displacement holds the essential conditions
+  BackgroundCells cells;
+  std::optional<LabelMap> labels;              ///< tissue at an integration point; absent, or 0 there: the cell's label
+  std::map<std::int32_t, Material> materials;  ///< by label
+  std::optional<Surface> skull;                ///< rigid, frictionless contact from inside; absent: none
+};
+
+/// A row of history.csv. Energies in µJ-like units g mm²/s² = 1e-9 J; written in mJ.
+struct HistoryRow {
+  int step = 0;
+  double time = 0;            ///< fraction of the load, 0 to 1
+  double external_work = 0;   ///< mJ
+  double strain_energy = 0;   ///< mJ
+  double kinetic_energy = 0;  ///< mJ, fictitious in dynamic relaxation
+  double residual = 0;        ///< |f_int - reactions| / |reactions|
+  double error_bound = 0;     ///< mm; NaN until it is estimated
+};
+
+struct SolveMeasures {
+  std::size_t nodes = 0;
+  std::size_t integration_points = 0;
+  std::size_t pairs = 0;    ///< (integration point, node) pairs
+  double mean_support = 0;  ///< nodes an integration point
+  std::size_t grown_supports = 0;
+  std::size_t outside_label = 0;  ///< integration points that took their cell's label
+  std::size_t loaded_nodes = 0;
+  std::size_t contact_nodes = 0;  ///< in touch at the end
+  int steps = 0;
+  bool converged = false;
+  double error_bound = 0;           ///< mm
+  double critical_step = 0;         ///< eq 25 with the physical mass, s
+  double largest_displacement = 0;  ///< mm
+  double constraint_error = 0;      ///< largest |Σφû − prescribed|, mm
+  double largest_penetration = 0;   ///< deepest node outside the skull, mm
+  double smallest_jacobian = 0;     ///< least det F over integration points
+  double largest_stretch = 0;       ///< largest principal stretch
+  double seconds_setup = 0;
+  double seconds_stepping = 0;
+};
+
+struct SolveResult {
+  Solution solution;  ///< the last good state, also when not converged
+  std::vector<HistoryRow> history;
+  SolveMeasures measures;
+  std::string failure;  ///< empty when converged; else one sentence: what went wrong, where and when (exit 3)
+};
+
+/// Runs the stage: MTLED with adaptive dynamic relaxation to the steady state. Throws std::invalid_argument when the
+/// model cannot be solved: a label without a material, too few nodes for a support, constraints that contradict each
+/// other, nothing that holds the body.
+SolveResult solve(const Model& model, const SolveOptions& options, const Progress& progress = {});
+
+void write_history(const std::filesystem::path& file, const std::vector<HistoryRow>& history);
+
+}  // namespace brainshift::solve
