@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/image_format.hpp"
+
+#include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
+#include <itkNrrdImageIO.h>
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+namespace brainshift {
+
+ImageFormat image_format(const std::filesystem::path& file) {
+  std::string name = file.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  if (name.ends_with(".nii")) {
+    return ImageFormat::nifti;
+  }
+  if (name.ends_with(".nii.gz")) {
+    return ImageFormat::nifti_gz;
+  }
+  if (name.ends_with(".nrrd")) {
+    return ImageFormat::nrrd;
+  }
+  if (name.ends_with(".mha")) {
+    return ImageFormat::meta;
+  }
+  throw std::invalid_argument(file.string() +
+                              ": images end in .nii, .nii.gz, .nrrd or .mha, or are a folder with one DICOM series");
+}
+
+itk::ImageIOBase::Pointer make_image_io(ImageFormat format) {
+  switch (format) {
+    case ImageFormat::nifti:
+    case ImageFormat::nifti_gz:
+      return itk::NiftiImageIO::New().GetPointer();
+    case ImageFormat::nrrd:
+      return itk::NrrdImageIO::New().GetPointer();
+    case ImageFormat::meta:
+      return itk::MetaImageIO::New().GetPointer();
+  }
+  throw std::logic_error("unknown image format");
+}
+
+std::string reason_of(const std::exception& fault) {
+  const auto* itk_fault = dynamic_cast<const itk::ExceptionObject*>(&fault);
+  std::string text = itk_fault != nullptr ? itk_fault->GetDescription() : fault.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const auto name_end = text.find("): ");  // ITK begins with the class and address
+  return text.starts_with("ITK ERROR:") && name_end != std::string::npos ? text.substr(name_end + 3) : text;
+}
+
+}  // namespace brainshift

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Private: which of ITK's readers and writers takes a file. Chosen explicitly, so no factory has to be registered.
+
+#include <itkImageIOBase.h>
+
+#include <filesystem>
+
+namespace brainshift {
+
+enum class ImageFormat : std::uint8_t { nifti, nifti_gz, nrrd, meta };
+
+/// By the ending, in any case. Throws std::invalid_argument, naming the file and the endings that are known.
+ImageFormat image_format(const std::filesystem::path& file);
+
+itk::ImageIOBase::Pointer make_image_io(ImageFormat format);
+
+/// What ITK says of a fault, without its file and line, as the end of a sentence.
+std::string reason_of(const std::exception& fault);
+
+}  // namespace brainshift

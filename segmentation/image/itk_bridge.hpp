@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Private to .cpp files of segmentation and register: our images as ITK's and back. Copies the voxels.
+
+#include <itkImage.h>
+#include <itkVector.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "segmentation/image/image.hpp"
+
+namespace brainshift {
+
+template <class T>
+struct ItkPixel {
+  using type = T;
+};
+template <>
+struct ItkPixel<std::array<float, 3>> {
+  using type = itk::Vector<float, 3>;
+};
+
+template <class T>
+using ItkImage = itk::Image<typename ItkPixel<T>::type, 3>;
+
+/// Gives an ITK image of any pixel our geometry; the voxels are allocated but not set.
+template <class Pixel>
+void set_geometry(itk::Image<Pixel, 3>& image, const ImageGeometry& geometry) {
+  typename itk::Image<Pixel, 3>::SizeType size;
+  typename itk::Image<Pixel, 3>::SpacingType spacing;
+  typename itk::Image<Pixel, 3>::PointType origin;
+  typename itk::Image<Pixel, 3>::DirectionType direction;
+  for (unsigned row = 0; row < 3; ++row) {
+    size[row] = static_cast<itk::SizeValueType>(geometry.size[row]);
+    spacing[row] = geometry.spacing[row];
+    origin[row] = geometry.origin[row];
+    for (unsigned column = 0; column < 3; ++column) {
+      direction(row, column) = geometry.direction(row, column);
+    }
+  }
+  image.SetRegions(size);
+  image.SetSpacing(spacing);
+  image.SetOrigin(origin);
+  image.SetDirection(direction);
+  image.Allocate();
+}
+
+template <class Pixel>
+ImageGeometry geometry_of(const itk::Image<Pixel, 3>& image) {
+  const auto& region = image.GetLargestPossibleRegion();
+  ImageGeometry geometry;
+  for (unsigned row = 0; row < 3; ++row) {
+    geometry.size[row] = static_cast<int>(region.GetSize()[row]);
+    geometry.spacing[row] = image.GetSpacing()[row];
+    geometry.origin[row] = image.GetOrigin()[row];
+    for (unsigned column = 0; column < 3; ++column) {
+      geometry.direction(row, column) = image.GetDirection()(row, column);
+    }
+  }
+  return geometry;
+}
+
+template <class T>
+typename ItkImage<T>::Pointer to_itk(const Image<T>& image) {
+  auto result = ItkImage<T>::New();
+  set_geometry(*result, image.geometry);
+  using Pixel = typename ItkPixel<T>::type;
+  std::transform(image.voxels.begin(), image.voxels.end(), result->GetBufferPointer(),
+                 [](const T& value) { return std::bit_cast<Pixel>(value); });
+  return result;
+}
+
+/// The whole image must be buffered and start at index zero, as readers and filters leave it.
+template <class T>
+Image<T> from_itk(const ItkImage<T>& image) {
+  Image<T> result;
+  result.geometry = geometry_of(image);
+  result.voxels.resize(result.geometry.voxel_count());
+  using Pixel = typename ItkPixel<T>::type;
+  std::transform(image.GetBufferPointer(), image.GetBufferPointer() + result.voxels.size(), result.voxels.begin(),
+                 [](const Pixel& value) { return std::bit_cast<T>(value); });
+  return result;
+}
+
+}  // namespace brainshift
