@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/boundary/signed_distance.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "solve/boundary/pseudonormals.hpp"
+#include "solve/boundary/triangle_distance.hpp"
+
+namespace brainshift::solve {
+namespace {
+
+constexpr double band_in_spacings = 3;
+constexpr double most_samples = 2e8;
+constexpr std::int32_t none = -1;
+
+struct Grid {
+  double spacing;
+  Eigen::Vector3d origin;
+  Eigen::Array3i size;
+
+  Eigen::Vector3d position(int i, int j, int k) const { return origin + spacing * Eigen::Vector3d(i, j, k); }
+  std::size_t offset(const Eigen::Array3i& index) const {
+    const auto nx = static_cast<std::size_t>(size.x()), ny = static_cast<std::size_t>(size.y());
+    return static_cast<std::size_t>(index.x()) +
+           nx * (static_cast<std::size_t>(index.y()) + ny * static_cast<std::size_t>(index.z()));
+  }
+  std::size_t count() const { return offset({0, 0, size.z()}); }
+};
+
+/// Per sample: the nearest triangle known so far and the squared distance to it.
+struct Nearest {
+  std::vector<std::int32_t> triangle;
+  std::vector<double> squared;
+
+  void offer(std::size_t sample, std::int32_t candidate, double distance_squared) {
+    if (distance_squared < squared[sample]) {
+      squared[sample] = distance_squared;
+      triangle[sample] = candidate;
+    }
+  }
+};
+
+Grid grid_around(const Surface& surface, const SignedDistanceOptions& options) {
+  if (!(options.spacing > 0) || !(options.margin >= 0) || !std::isfinite(options.spacing + options.margin)) {
+    throw std::invalid_argument("signed distance: the grid's spacing must be positive and its margin not negative");
+  }
+  const Eigen::Vector3d low = surface.vertices.colwise().minCoeff().transpose().array() - options.margin;
+  const Eigen::Vector3d high = surface.vertices.colwise().maxCoeff().transpose().array() + options.margin;
+  const Eigen::Array3d steps = ((high - low) / options.spacing).array().ceil().max(1.0);
+  if (!((steps + 1).prod() <= most_samples)) {
+    throw std::invalid_argument("signed distance: a grid of " + std::to_string(options.spacing) +
+                                " mm over a surface that is " + std::to_string((high - low).maxCoeff()) +
+                                " mm wide is too large; are the surface's coordinates in millimetres?");
+  }
+  return {options.spacing, low, steps.cast<int>() + 1};
+}
+
+std::vector<TriangleFrame> triangle_frames(const Surface& surface) {
+  std::vector<TriangleFrame> frames(static_cast<std::size_t>(surface.triangles.rows()));
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    const auto corner = surface.triangles.row(static_cast<Eigen::Index>(t));
+    const Eigen::Vector3d a = surface.vertices.row(corner[0]);
+    frames[t] = {a, surface.vertices.row(corner[1]).transpose() - a, surface.vertices.row(corner[2]).transpose() - a};
+  }
+  return frames;
+}
+
+/// A flat triangle adds nothing: its edges are those of its neighbours too.
+bool is_flat(const TriangleFrame& t) {
+  const double longest = std::max(t.ab.squaredNorm(), t.ac.squaredNorm());
+  return !(t.ab.cross(t.ac).squaredNorm() > 1e-24 * longest * longest);
+}
+
+struct IndexBox {
+  Eigen::Array3i low, high;  ///< both included
+};
+
+IndexBox samples_near(const TriangleFrame& t, const Grid& grid, double band) {
+  const Eigen::Array3d low = t.a.array() + t.ab.array().min(t.ac.array()).min(0.0) - band;
+  const Eigen::Array3d high = t.a.array() + t.ab.array().max(t.ac.array()).max(0.0) + band;
+  const Eigen::Array3d first = ((low - grid.origin.array()) / grid.spacing).ceil();
+  const Eigen::Array3d last = ((high - grid.origin.array()) / grid.spacing).floor();
+  return {first.cast<int>().max(0), last.cast<int>().min(grid.size - 1)};
+}
+
+/// Exact distances of all samples nearer to the surface than the band; upper bounds at some others. Each thread fills
+/// whole layers and meets the triangles in their order, so that the number of threads changes nothing.
+Nearest nearest_in_band(const std::vector<TriangleFrame>& frames, const Grid& grid, double band) {
+  Nearest nearest{std::vector<std::int32_t>(grid.count(), none),
+                  std::vector<double>(grid.count(), std::numeric_limits<double>::infinity())};
+  std::vector<IndexBox> boxes(frames.size());
+  std::vector<std::vector<std::int32_t>> in_layer(static_cast<std::size_t>(grid.size.z()));
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    if (is_flat(frames[t])) {
+      continue;
+    }
+    boxes[t] = samples_near(frames[t], grid, band);
+    for (int k = boxes[t].low.z(); k <= boxes[t].high.z(); ++k) {
+      in_layer[static_cast<std::size_t>(k)].push_back(static_cast<std::int32_t>(t));
+    }
+  }
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int k = 0; k < grid.size.z(); ++k) {
+    for (const std::int32_t t : in_layer[static_cast<std::size_t>(k)]) {
+      const TriangleFrame& frame = frames[static_cast<std::size_t>(t)];
+      const IndexBox& box = boxes[static_cast<std::size_t>(t)];
+      for (int j = box.low.y(); j <= box.high.y(); ++j) {
+        for (int i = box.low.x(); i <= box.high.x(); ++i) {
+          const Eigen::Vector3d p = grid.position(i, j, k);
+          nearest.offer(grid.offset({i, j, k}), t, (nearest_on_triangle(frame, p).point - p).squaredNorm());
+        }
+      }
+    }
+  }
+  return nearest;
+}
+
+/// Hands the nearest triangles on from layer to layer along one axis. A layer reads only the layer before it, so its
+/// samples can be filled in any order.
+void sweep(const std::vector<TriangleFrame>& frames, const Grid& grid, double band, int axis, bool forward,
+           Nearest& nearest) {
+  const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+  const int layers = grid.size[axis];
+  const std::array<std::array<int, 2>, 5> cross = {{{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  const auto fill = [&](const Eigen::Array3i& index) {
+    const std::size_t sample = grid.offset(index);
+    if (nearest.squared[sample] <= band * band) {
+      return;
+    }
+    const Eigen::Vector3d p = grid.position(index.x(), index.y(), index.z());
+    std::int32_t tried = nearest.triangle[sample];
+    for (const auto& step : cross) {
+      Eigen::Array3i from = index;
+      from[axis] += forward ? -1 : 1;
+      from[u] = std::clamp(from[u] + step[0], 0, grid.size[u] - 1);
+      from[v] = std::clamp(from[v] + step[1], 0, grid.size[v] - 1);
+      const std::int32_t candidate = nearest.triangle[grid.offset(from)];
+      if (candidate != none && candidate != tried && candidate != nearest.triangle[sample]) {
+        const TriangleFrame& frame = frames[static_cast<std::size_t>(candidate)];
+        nearest.offer(sample, candidate, (nearest_on_triangle(frame, p).point - p).squaredNorm());
+        tried = candidate;
+      }
+    }
+  };
+#pragma omp parallel
+  for (int step = 1; step < layers; ++step) {
+#pragma omp for schedule(static)
+    for (int b = 0; b < grid.size[v]; ++b) {
+      for (int a = 0; a < grid.size[u]; ++a) {
+        Eigen::Array3i index;
+        index[axis] = forward ? step : layers - 1 - step;
+        index[u] = a;
+        index[v] = b;
+        fill(index);
+      }
+    }
+  }
+}
+
+/// Signs: within the band by the normal of the nearest part; elsewhere that of the sample before in the row, as no
+/// step between samples outside the band crosses the surface. A row starts outside, or within the band.
+std::vector<float> signed_samples(const std::vector<TriangleFrame>& frames, const Pseudonormals& normals,
+                                  const Grid& grid, double band, const Nearest& nearest) {
+  std::vector<float> samples(grid.count());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int k = 0; k < grid.size.z(); ++k) {
+    for (int j = 0; j < grid.size.y(); ++j) {
+      double sign = 1;
+      for (int i = 0; i < grid.size.x(); ++i) {
+        const std::size_t sample = grid.offset({i, j, k});
+        const double squared = nearest.squared[sample];
+        if (squared <= band * band) {
+          const Eigen::Vector3d p = grid.position(i, j, k);
+          const auto t = static_cast<std::size_t>(nearest.triangle[sample]);
+          const NearestOnTriangle on = nearest_on_triangle(frames[t], p);
+          sign = (p - on.point).dot(normals.of(t, on.part)) < 0 ? -1 : 1;
+        }
+        samples[sample] = static_cast<float>(sign * std::sqrt(squared));
+      }
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+SignedDistance::SignedDistance(const Surface& surface, const SignedDistanceOptions& options) {
+  const Pseudonormals normals = pseudonormals(surface);
+  const Grid grid = grid_around(surface, options);
+  const std::vector<TriangleFrame> frames = triangle_frames(surface);
+  const double band = band_in_spacings * grid.spacing;
+  Nearest nearest = nearest_in_band(frames, grid, band);
+  for (const int axis : {2, 1, 0}) {
+    sweep(frames, grid, band, axis, true, nearest);
+    sweep(frames, grid, band, axis, false, nearest);
+  }
+  spacing_ = grid.spacing;
+  origin_ = grid.origin;
+  size_ = grid.size;
+  samples_ = signed_samples(frames, normals, grid, band, nearest);
+}
+
+double SignedDistance::value(const Eigen::Vector3d& position) const {
+  const Eigen::Array3d wanted = (position - origin_).array() / spacing_;
+  std::array<std::size_t, 3> cell;
+  std::array<double, 3> t;
+  Eigen::Array3d inside;
+  for (int axis = 0; axis < 3; ++axis) {
+    // The order of the arguments turns NaN into a place of the grid.
+    inside[axis] = std::min(std::max(0.0, wanted[axis]), size_[axis] - 1.0);
+    cell[static_cast<std::size_t>(axis)] =
+        std::min(static_cast<std::size_t>(inside[axis]), static_cast<std::size_t>(size_[axis] - 2));
+    t[static_cast<std::size_t>(axis)] = inside[axis] - static_cast<double>(cell[static_cast<std::size_t>(axis)]);
+  }
+  const auto row = static_cast<std::size_t>(size_.x());
+  const std::size_t layer = row * static_cast<std::size_t>(size_.y());
+  const float* corner = samples_.data() + cell[0] + row * cell[1] + layer * cell[2];
+  const auto along_x = [&](const float* s) { return (1 - t[0]) * s[0] + t[0] * s[1]; };
+  const auto along_y = [&](const float* s) { return (1 - t[1]) * along_x(s) + t[1] * along_x(s + row); };
+  const double sampled = (1 - t[2]) * along_y(corner) + t[2] * along_y(corner + layer);
+  return sampled + spacing_ * (wanted - inside).matrix().norm();
+}
+
+Eigen::Vector3d SignedDistance::gradient(const Eigen::Vector3d& position) const {
+  Eigen::Vector3d difference;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d half = 0.5 * spacing_ * Eigen::Vector3d::Unit(axis);
+    difference[axis] = value(position + half) - value(position - half);
+  }
+  return difference.normalized();
+}
+
+}  // namespace brainshift::solve
