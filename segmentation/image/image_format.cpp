@@ -48,8 +48,9 @@ std::string reason_of(const std::exception& fault) {
   const auto* itk_fault = dynamic_cast<const itk::ExceptionObject*>(&fault);
   std::string text = itk_fault != nullptr ? itk_fault->GetDescription() : fault.what();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  const auto name_end = text.find("): ");  // ITK begins with the class and address
-  return text.starts_with("ITK ERROR:") && name_end != std::string::npos ? text.substr(name_end + 3) : text;
+  const auto begin = text.find("ERROR: ");  // of ITK's macros: then come the class and an address
+  const auto end = text.find("): ");
+  return begin < 10 && end != std::string::npos ? text.substr(end + 3) : text;
 }
 
 }  // namespace brainshift

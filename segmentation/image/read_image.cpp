@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 
@@ -56,6 +57,24 @@ void check_nifti_whole(const fs::path& file, const itk::ImageIOBase& io) {
   }
 }
 
+// Nor does a short MetaImage stop it: its data begin after the line that says LOCAL.
+void check_meta_whole(const fs::path& file, const itk::ImageIOBase& io) {
+  std::ifstream in(file, std::ios::binary);
+  std::uintmax_t expected = static_cast<std::uintmax_t>(io.GetImageSizeInBytes());
+  std::string line;
+  while (std::getline(in, line) && !line.starts_with("ElementDataFile")) {
+    if (line.starts_with("CompressedDataSize")) {
+      expected = std::stoull(line.substr(line.find('=') + 1));
+    }
+  }
+  const auto begin = in.tellg();
+  const auto found = begin < 0 ? 0 : fs::file_size(file) - static_cast<std::uintmax_t>(begin);
+  if (found < expected) {
+    throw std::invalid_argument(file.string() + ": truncated: the header promises " + std::to_string(expected) +
+                                " bytes of voxels, the file holds " + std::to_string(found) + "; copy the file again");
+  }
+}
+
 void check_shape(const fs::path& file, const itk::ImageIOBase& io, unsigned components) {
   const unsigned dimensions = io.GetNumberOfDimensions();
   bool one_volume = dimensions >= 3;
@@ -92,7 +111,7 @@ using Pointer = typename itk::Image<Pixel, 3>::Pointer;
 template <class Pixel>
 Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
   const ImageFormat format = image_format(file);
-  auto io = make_image_io(format);
+  const auto io = make_image_io(format);
   if (!io->CanReadFile(file.c_str())) {
     throw std::invalid_argument(file.string() + ": is not an image of the kind that its ending says, or is damaged");
   }
@@ -101,6 +120,9 @@ Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
   check_shape(file, *io, components);
   if (format == ImageFormat::nifti || format == ImageFormat::nifti_gz) {
     check_nifti_whole(file, *io);
+  }
+  if (format == ImageFormat::meta) {
+    check_meta_whole(file, *io);
   }
   auto reader = itk::ImageFileReader<itk::Image<Pixel, 3>>::New();
   reader->SetImageIO(io);

@@ -56,6 +56,9 @@ void write_any(const fs::path& file, const Image<T>& image) {
   const fs::path written = format == ImageFormat::nifti_gz ? fs::path(file.string() + ".part.nii") : file;
   std::error_code ignored;
   try {
+    if (!std::ofstream(written, std::ios::binary)) {
+      throw std::runtime_error("cannot be opened for writing");
+    }
     const auto itk_image = to_itk(image);
     write_with_itk(written, *itk_image);
     check_written(written, *itk_image);
