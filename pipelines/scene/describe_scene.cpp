@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/scene/describe_scene.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "pipelines/scene/scene_table.hpp"
+
+namespace brainshift::pipelines {
+namespace {
+
+bool is_stage(const std::string& path) {
+  return std::any_of(all_stages.begin(), all_stages.end(), [&](StageId id) { return stage_name(id) == path; });
+}
+
+template <class T>
+std::string help_lines(const std::vector<Option<T>>& options, const std::string& indent) {
+  std::string text;
+  for (const auto& option : options) {
+    text += indent + option.name + ": " + option.help + " [" + option.allowed +
+            (option.unit.empty() ? "" : ", " + option.unit) + "]" + (option.required ? " (required)" : "") + "\n";
+  }
+  return text;
+}
+
+template <class T>
+std::string attributes(const std::vector<Option<T>>& options, const T& target) {
+  std::string text;
+  for (const auto& option : options) {
+    text += " " + option.name + "=\"" + option.get(target) + "\"";
+  }
+  return text;
+}
+
+std::string comment(const std::string& help, const std::string& lines) {
+  return "  <!-- " + help + (lines.empty() ? "" : "\n" + lines + "  ") + (lines.empty() ? " -->\n" : "-->\n");
+}
+
+/// An optional part: the way to name it, in the comment that explains it. (A comment cannot hold "--".)
+std::string optional_part(const Element& element, const Scene& scene) {
+  const std::size_t dot = element.path.find('.');
+  const std::string inner = element.path.substr(dot == std::string::npos ? 0 : dot + 1);
+  std::string example = "<" + inner + attributes(element.options, scene) + "/>";
+  if (dot != std::string::npos) {
+    example = "<" + element.path.substr(0, dot) + ">" + example + "</" + element.path.substr(0, dot) + ">";
+  }
+  return comment("Not built unless named. " + element.help,
+                 help_lines(element.options, "       ") + "       " + example + "\n");
+}
+
+std::string tissues_part() {
+  const std::string example = "<tissues><tissue" + attributes(tissue_options(), Tissue{1, {}, {}, {}}) + "/></tissues>";
+  return comment("The brain's tissues: one element a label.",
+                 help_lines(tissue_options(), "       ") + "       " + example + "\n");
+}
+
+}  // namespace
+
+std::string default_scene() {
+  Scene everything;
+  for (const Element& element : scene_elements()) {
+    element.add(everything);
+  }
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<!-- A brainshift scene with every option at its default. File names are relative to this file. -->\n"
+      "<scene version=\"1\">\n";
+  for (const Element& element : scene_elements()) {
+    if (element.optional) {
+      text += optional_part(element, everything);
+      continue;
+    }
+    const bool stage = is_stage(element.path);
+    text += comment(element.help, help_lines(element.options, "       "));
+    text += "  <" + (stage ? "stage name=\"" + element.path + "\"" : element.path) +
+            attributes(element.options, everything) + "/>\n";
+    if (element.path == "image") {
+      text += tissues_part();
+    }
+  }
+  return text + "</scene>\n";
+}
+
+nlohmann::ordered_json effective_options(const Scene& scene) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const Element& element : scene_elements()) {
+    if (!element.present(scene)) {
+      continue;
+    }
+    auto& part = json[element.path] = nlohmann::ordered_json::object();
+    for (const auto& option : element.options) {
+      part[option.name] = option.get(scene);
+    }
+    if (element.path == "image") {
+      auto& tissues = json["tissues"] = nlohmann::ordered_json::object();
+      for (const Tissue& tissue : scene.tissues) {
+        for (const auto& option : tissue_options()) {
+          tissues[std::to_string(tissue.label)][option.name] = option.get(tissue);
+        }
+      }
+    }
+  }
+  return json;
+}
+
+}  // namespace brainshift::pipelines

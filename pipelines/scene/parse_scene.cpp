@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/scene/parse_scene.hpp"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "pipelines/scene/scene_table.hpp"
+
+namespace brainshift::pipelines {
+namespace {
+
+/// Where a value is written, as messages say it.
+struct Where {
+  const SceneSource& source;
+  int line = 0;  ///< 0: --set
+  std::string element;
+
+  [[noreturn]] void fail(const std::string& what) const {
+    const std::string at = line == 0 ? "--set" : source.file.string() + ":" + std::to_string(line);
+    throw std::invalid_argument(at + ": " + what);
+  }
+};
+
+template <class T>
+void set_option(const Option<T>& option, T& target, const std::string& value, const Where& where) {
+  std::string stored = value;
+  if (option.is_path && !value.empty()) {
+    stored = (where.source.file.parent_path() / value).lexically_normal().string();
+  }
+  if (!option.set(target, stored)) {
+    where.fail(where.element + " " + option.name + " is '" + value + "', but must be " + option.allowed +
+               (option.unit.empty() ? "" : " (" + option.unit + ")"));
+  }
+}
+
+template <class T>
+const Option<T>& known_option(const std::vector<Option<T>>& options, const std::string& name, const Where& where) {
+  const Option<T>* option = find_option(options, name);
+  if (option == nullptr) {
+    where.fail(where.element + " has no attribute '" + name + "'; allowed: " + option_names(options));
+  }
+  return *option;
+}
+
+/// Reads the attributes of an element into the target, and where they were written into the source.
+template <class T>
+void read_attributes(const tinyxml2::XMLElement& xml, const std::vector<Option<T>>& options, T& target,
+                     const std::string& path, SceneSource& source) {
+  const std::string name = "<" + std::string(xml.Name()) + ">";
+  std::set<std::string> seen;
+  for (const auto* attribute = xml.FirstAttribute(); attribute != nullptr; attribute = attribute->Next()) {
+    const std::string attribute_name = attribute->Name();
+    if (attribute_name == "name" && std::string(xml.Name()) == "stage") {
+      continue;
+    }
+    const Where where{source, attribute->GetLineNum(), name};
+    const Option<T>& option = known_option(options, attribute_name, where);
+    if (!seen.insert(attribute_name).second) {
+      where.fail(name + " names " + attribute_name + " twice");
+    }
+    set_option(option, target, attribute->Value(), where);
+    source.lines[path + "." + attribute_name] = attribute->GetLineNum();
+  }
+  for (const auto& option : options) {
+    if (option.required && !seen.contains(option.name)) {
+      Where{source, xml.GetLineNum(), name}.fail(name + " needs the attribute '" + option.name + "' (" + option.help +
+                                                 ")");
+    }
+  }
+}
+
+/// The element of the table that an XML element stands for; its path under `parent`.
+std::string path_of(const tinyxml2::XMLElement& xml, const std::string& parent, const SceneSource& source) {
+  const std::string name = xml.Name();
+  if (name != "stage" || !parent.empty()) {
+    return parent.empty() ? name : parent + "." + name;
+  }
+  const char* stage = xml.Attribute("name");
+  if (stage == nullptr) {
+    Where{source, xml.GetLineNum(), ""}.fail("<stage> needs the attribute 'name'");
+  }
+  try {
+    stage_from_name(stage);
+  } catch (const std::invalid_argument& error) {
+    Where{source, xml.GetLineNum(), ""}.fail(error.what());
+  }
+  return stage;
+}
+
+bool is_stage(const std::string& path) {
+  return std::any_of(all_stages.begin(), all_stages.end(), [&](StageId id) { return stage_name(id) == path; });
+}
+
+/// The names that may stand under an element, for messages.
+std::string allowed_children(const std::string& parent) {
+  std::string names = parent.empty() ? "tissues, stage" : "";
+  for (const Element& element : scene_elements()) {
+    const bool under = parent.empty() ? element.path.find('.') == std::string::npos && !is_stage(element.path)
+                                      : element.path.starts_with(parent + ".");
+    if (under) {
+      names += (names.empty() ? "" : ", ") + element.path.substr(parent.empty() ? 0 : parent.size() + 1);
+    }
+  }
+  return names.empty() ? "none" : names;
+}
+
+void read_tissues(const tinyxml2::XMLElement& xml, Scene& scene) {
+  if (const auto* attribute = xml.FirstAttribute()) {
+    Where{scene.source, attribute->GetLineNum(), ""}.fail("<tissues> has no attribute '" +
+                                                          std::string(attribute->Name()) + "'; allowed: none");
+  }
+  for (const auto* child = xml.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const Where where{scene.source, child->GetLineNum(), ""};
+    if (std::string(child->Name()) != "tissue") {
+      where.fail("<tissues> has no element <" + std::string(child->Name()) + ">; allowed: tissue");
+    }
+    const char* label = child->Attribute("label");
+    const std::string path = "tissues." + std::string(label == nullptr ? "" : label);
+    Tissue tissue;
+    read_attributes(*child, tissue_options(), tissue, path, scene.source);
+    const auto same = [&](const Tissue& other) { return other.label == tissue.label; };
+    if (std::any_of(scene.tissues.begin(), scene.tissues.end(), same)) {
+      where.fail("there are two tissues of label " + std::to_string(tissue.label));
+    }
+    scene.source.lines[path] = child->GetLineNum();
+    scene.tissues.push_back(std::move(tissue));
+  }
+}
+
+void refuse_text(const tinyxml2::XMLElement& xml, const SceneSource& source) {
+  for (const auto* node = xml.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (node->ToText() != nullptr) {
+      Where{source, node->GetLineNum(), ""}.fail("<" + std::string(xml.Name()) + "> holds the text '" + node->Value() +
+                                                 "', but takes attributes and elements only");
+    }
+  }
+}
+
+void read_children(const tinyxml2::XMLElement& xml, const std::string& parent, Scene& scene) {
+  refuse_text(xml, scene.source);
+  for (const auto* child = xml.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const Where where{scene.source, child->GetLineNum(), "<" + std::string(child->Name()) + ">"};
+    const std::string path = path_of(*child, parent, scene.source);
+    const Element* element = find_element(path);
+    const bool tissues = path == "tissues";
+    const bool wrong_spelling = is_stage(path) && std::string(child->Name()) != "stage";
+    if (!tissues && (element == nullptr || wrong_spelling)) {
+      where.fail("<" + std::string(xml.Name()) + "> has no element " + where.element +
+                 "; allowed: " + allowed_children(parent));
+    }
+    if (!scene.source.lines.emplace(path, child->GetLineNum()).second) {
+      where.fail(where.element + " '" + path + "' is there twice");
+    }
+    if (tissues) {
+      refuse_text(*child, scene.source);
+      read_tissues(*child, scene);
+      continue;
+    }
+    element->add(scene);
+    read_attributes(*child, element->options, scene, path, scene.source);
+    read_children(*child, path, scene);
+  }
+}
+
+void set_tissue_option(Scene& scene, const std::string& label, const std::string& name, const std::string& value) {
+  const Where where{scene.source, 0, "tissues." + label};
+  for (Tissue& tissue : scene.tissues) {
+    if (std::to_string(tissue.label) == label) {
+      const Option<Tissue>& option = known_option(tissue_options(), name, where);
+      if (option.required) {
+        where.fail("the label of a tissue cannot be changed; change the scene's file");
+      }
+      set_option(option, tissue, value, where);
+      scene.source.lines["tissues." + label + "." + name] = 0;
+      return;
+    }
+  }
+  where.fail("the scene has no tissue of label '" + label + "'");
+}
+
+void apply_override(Scene& scene, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string path = text.substr(0, equals);
+  const std::size_t dot = path.rfind('.');
+  const Where where{scene.source, 0, path.substr(0, dot)};
+  if (equals == std::string::npos || dot == std::string::npos) {
+    where.fail("'" + text + "' is not PATH=VALUE, as segment.edge_length=4 is");
+  }
+  const std::string value = text.substr(equals + 1);
+  if (path.starts_with("tissues.")) {
+    set_tissue_option(scene, path.substr(8, dot < 8 ? 0 : dot - 8), path.substr(dot + 1), value);
+    return;
+  }
+  const Element* element = find_element(where.element);
+  if (element == nullptr) {
+    std::string names = "tissues.LABEL";
+    for (const Element& known : scene_elements()) {
+      names += ", " + known.path;
+    }
+    where.fail("there is no element '" + where.element + "'; allowed: " + names);
+  }
+  element->add(scene);
+  set_option(known_option(element->options, path.substr(dot + 1), where), scene, value, where);
+  scene.source.lines[path] = 0;
+}
+
+/// What --set names may have left out.
+void require_options(const Scene& scene) {
+  for (const Element& element : scene_elements()) {
+    for (const auto& option : element.options) {
+      if (option.required && element.present(scene) && !scene.source.lines.contains(element.path + "." + option.name)) {
+        Where{scene.source, 0, ""}.fail(element.path + " needs " + element.path + "." + option.name + " too (" +
+                                        option.help + ")");
+      }
+    }
+  }
+}
+
+const tinyxml2::XMLElement& open_scene(tinyxml2::XMLDocument& document, const SceneSource& source) {
+  if (!std::filesystem::is_regular_file(source.file)) {
+    throw std::invalid_argument(source.file.string() + ": there is no such file; a scene (.xml) was expected");
+  }
+  if (document.LoadFile(source.file.c_str()) != tinyxml2::XML_SUCCESS) {
+    Where{source, std::max(1, document.ErrorLineNum()), ""}.fail(
+        "this is not well-formed XML (" + std::string(tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID())) +
+        "); see 'brainshift scene --defaults' for how a scene looks");
+  }
+  const tinyxml2::XMLElement* root = document.RootElement();
+  if (root == nullptr || std::string(root->Name()) != "scene") {
+    Where{source, root == nullptr ? 1 : root->GetLineNum(), ""}.fail("a scene begins with <scene version=\"1\">");
+  }
+  const char* version = root->Attribute("version");
+  if (version == nullptr || std::string(version) != "1" || root->FirstAttribute()->Next() != nullptr) {
+    Where{source, root->GetLineNum(), ""}.fail("<scene> needs exactly the attribute version=\"1\"");
+  }
+  return *root;
+}
+
+}  // namespace
+
+Scene parse_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  Scene scene;
+  scene.source.file = file;
+  tinyxml2::XMLDocument document;
+  read_children(open_scene(document, scene.source), "", scene);
+  for (const std::string& text : overrides) {
+    apply_override(scene, text);
+  }
+  require_options(scene);
+  return scene;
+}
+
+}  // namespace brainshift::pipelines

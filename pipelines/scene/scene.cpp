@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/scene/scene.hpp"
+
+#include <stdexcept>
+
+namespace brainshift::pipelines {
+
+std::string_view stage_name(StageId stage) {
+  constexpr std::array<std::string_view, all_stages.size()> names = {"segment", "discretise", "solve", "register",
+                                                                     "report"};
+  return names[index_of(stage)];
+}
+
+StageId stage_from_name(std::string_view name) {
+  std::string names;
+  for (const StageId stage : all_stages) {
+    if (stage_name(stage) == name) {
+      return stage;
+    }
+    names += (names.empty() ? "" : ", ") + std::string(stage_name(stage));
+  }
+  throw std::invalid_argument("there is no stage '" + std::string(name) + "'; the stages are " + names);
+}
+
+std::string place(const SceneSource& source, const std::string& path) {
+  const auto found = source.lines.find(path);
+  if (found == source.lines.end()) {
+    return source.file.string();
+  }
+  return found->second == 0 ? "--set" : source.file.string() + ":" + std::to_string(found->second);
+}
+
+}  // namespace brainshift::pipelines

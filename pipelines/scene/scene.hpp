@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "discretise/discretise.hpp"
+#include "register/registration.hpp"
+#include "segmentation/segment.hpp"
+#include "solve/load/craniotomy_load.hpp"
+#include "solve/solve.hpp"
+
+namespace brainshift::pipelines {
+
+/// The stages in the order in which they run.
+enum class StageId : std::uint8_t { segment, discretise, solve, registration, report };
+inline constexpr std::array<StageId, 5> all_stages = {StageId::segment, StageId::discretise, StageId::solve,
+                                                      StageId::registration, StageId::report};
+
+/// "segment", "discretise", "solve", "register", "report": in scenes, on the command line and as folders of a run.
+std::string_view stage_name(StageId stage);
+/// Throws std::invalid_argument, listing the names, on another name.
+StageId stage_from_name(std::string_view name);
+
+struct ImageInputs {
+  std::filesystem::path t1;
+  std::filesystem::path labels;
+  std::filesystem::path brain_mask;
+  std::filesystem::path tumour_mask;
+  std::filesystem::path surface;
+  /// labels of the label map that are not tissue of the brain; every other label must have a tissue
+  std::vector<std::int16_t> other_labels = {segmentation::default_label::csf, segmentation::default_label::skull,
+                                            segmentation::default_label::skin};
+  std::optional<std::int16_t> skull_label;
+};
+
+/// Material laws; one more joins here and in the table of options.
+enum class Law : std::uint8_t { neo_hookean };
+
+struct Tissue {
+  std::int16_t label = 0;
+  std::string name;
+  Law law = Law::neo_hookean;
+  solve::Material material;
+};
+
+struct BeforeAfter {
+  std::filesystem::path before;
+  std::filesystem::path after;
+};
+
+/// A load made up from the surface instead of measured: inward at the nearest point of the cortex.
+struct SimulatedLoad {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mm, LPS
+  double radius = 25;                                ///< mm
+  double depth = 8;                                  ///< mm at the centre
+};
+
+/// What is measured and imposed: at most one of the four.
+struct Load {
+  solve::OpeningOptions opening;
+  std::optional<std::filesystem::path> craniotomy;  ///< craniotomy.csv
+  std::optional<BeforeAfter> markups;
+  std::optional<BeforeAfter> surfaces;
+  std::optional<SimulatedLoad> simulated;
+
+  bool empty() const { return !craniotomy && !markups && !surfaces && !simulated; }
+};
+
+struct Contact {
+  std::filesystem::path skull;  ///< empty: the skull of the segment stage
+};
+
+/// Finer nodes towards the load.
+struct CraniotomyRefinement {
+  double factor = 1;   ///< spacing at the load / uniform spacing; 1: no refinement
+  double radius = 20;  ///< mm
+};
+
+/// A whole-number index for arrays with one entry a stage.
+constexpr std::size_t index_of(StageId stage) {
+  return static_cast<std::size_t>(stage);
+}
+
+/// Where a value of the scene was written, for messages: line of the scene's file, or 0 for the command line. The key
+/// is the path of an option ("segment.edge_length") or element ("load.simulated").
+struct SceneSource {
+  std::filesystem::path file;
+  std::map<std::string, int> lines;
+};
+
+/// The whole problem. Members that are empty are parts that the scene does not name: they are not built. File names are
+/// absolute or relative to the working directory, not to the scene's file.
+struct Scene {
+  ImageInputs image;
+  std::vector<Tissue> tissues;
+  std::optional<Load> load;
+  std::optional<Contact> contact;
+  std::optional<std::filesystem::path> landmarks;
+  segmentation::SegmentOptions segment;  ///< brain_labels and skull_label are filled in from tissues and image
+  discretise::DiscretiseOptions discretise;
+  CraniotomyRefinement refinement;
+  solve::SolveOptions solve;
+  registration::RegisterOptions registration;
+  std::array<std::string, all_stages.size()> commands;  ///< external commands that replace stages; empty: our own stage
+  SceneSource source;
+};
+
+/// "scene.xml:12" where the option or element was written, "--set" for the command line, the file alone when unknown.
+std::string place(const SceneSource& source, const std::string& path);
+
+}  // namespace brainshift::pipelines

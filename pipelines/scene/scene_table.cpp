@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/scene/scene_table.hpp"
+
+namespace brainshift::pipelines {
+namespace {
+
+constexpr Range above_zero{.low = 0, .low_allowed = false};
+constexpr Range not_negative{.low = 0};
+constexpr Range any_number{};
+
+// The accessor of a member, for const and non-const scenes.
+#define MEMBER(expression) \
+  [](auto& s) -> auto& {   \
+    return s.expression;   \
+  }
+
+Option<Scene> command(StageId stage) {
+  return text<Scene>(
+      "command", [stage](auto& s) -> auto& { return s.commands[index_of(stage)]; },
+      "a program that takes the stage's place; {in} is the run's folder, {out} the folder that it writes to, both "
+      "absolute; it runs in the scene's folder");
+}
+
+bool always(const Scene&) {
+  return true;
+}
+void nothing(Scene&) {}
+
+void add_load(Scene& scene) {
+  if (!scene.load) {
+    scene.load.emplace();
+  }
+}
+
+template <class Member>
+void add_to_load(Scene& scene, Member Load::*member) {
+  add_load(scene);
+  if (!(*scene.load.*member)) {
+    (*scene.load.*member).emplace();
+  }
+}
+
+template <class Member>
+Element load_part(std::string name, std::string help, std::optional<Member> Load::*member,
+                  std::vector<Option<Scene>> options) {
+  return {"load." + std::move(name),
+          std::move(help),
+          true,
+          [member](const Scene& s) { return s.load && (*s.load.*member).has_value(); },
+          [member](Scene& s) { add_to_load(s, member); },
+          std::move(options)};
+}
+
+Element image_element() {
+  return {"image",
+          "What comes in: labels, or a T1 with a brain mask, or a brain surface; a T1 is needed to warp it.",
+          false,
+          always,
+          nothing,
+          {file<Scene>("t1", MEMBER(image.t1), "T1-weighted MRI: .nii, .nii.gz, .nrrd, .mha or a DICOM folder"),
+           file<Scene>("labels", MEMBER(image.labels), "label map on the T1's grid"),
+           file<Scene>("brain_mask", MEMBER(image.brain_mask),
+                       "non-zero is brain; its tissues are then classified from the T1"),
+           file<Scene>("tumour_mask", MEMBER(image.tumour_mask), "non-zero is tumour, which becomes label 3"),
+           file<Scene>("surface", MEMBER(image.surface), "brain surface in place of labels: .vtp, .stl, .ply, .obj"),
+           labels<Scene>("other_labels", MEMBER(image.other_labels),
+                         "labels of the map that are not tissue of the brain; every label that is not here needs a "
+                         "tissue"),
+           number<Scene>("skull_label", MEMBER(image.skull_label), {.low = 1, .high = 32767}, "",
+                         "the skull's label; its inner surface is the skull; without it the brain's surface is")}};
+}
+
+std::vector<Element> load_elements() {
+  return {
+      {"load",
+       "What is measured and imposed; one of the parts below.",
+       true,
+       [](const Scene& s) { return s.load.has_value(); },
+       add_load,
+       {number<Scene>("margin", MEMBER(load->opening.margin), any_number, "mm",
+                      "how far past the outermost measured points the opening reaches; negative: half their median "
+                      "distance to each other"),
+        number<Scene>("farthest", MEMBER(load->opening.farthest), above_zero, "mm",
+                      "a measured point farther than this from any surface node is an error")}},
+      load_part("craniotomy", "Displacements measured on the exposed cortex.", &Load::craniotomy,
+                {required(file<Scene>("file", MEMBER(load->craniotomy.value()),
+                                      "x,y,z,ux,uy,uz in mm, with a header and a line '# frame: LPS' or RAS"))}),
+      load_part("markups", "Two 3D Slicer markups of the same points (.mrk.json, .fcsv).", &Load::markups,
+                {required(file<Scene>("before", MEMBER(load->markups->before), "preop positions")),
+                 required(file<Scene>("after", MEMBER(load->markups->after), "intraop positions"))}),
+      load_part("surfaces", "Two surfaces of the exposed cortex.", &Load::surfaces,
+                {required(file<Scene>("before", MEMBER(load->surfaces->before), "preop surface")),
+                 required(file<Scene>("after", MEMBER(load->surfaces->after), "intraop surface"))}),
+      load_part("simulated", "A craniotomy made up on the brain's surface: say so when you show the result.",
+                &Load::simulated,
+                {required(point<Scene>("centre", MEMBER(load->simulated->centre),
+                                       "near the middle of the opening; the nearest point of the surface is taken")),
+                 number<Scene>("radius", MEMBER(load->simulated->radius), above_zero, "mm", "of the opening"),
+                 number<Scene>("depth", MEMBER(load->simulated->depth), any_number, "mm",
+                               "inward displacement at the centre")})};
+}
+
+Element segment_element() {
+  return {"segment",
+          "Labels or image to closed surfaces.",
+          false,
+          always,
+          nothing,
+          {number<Scene>("edge_length", MEMBER(segment.edge_length), above_zero, "mm",
+                         "target edge of the remeshed surfaces"),
+           number<Scene>("classes", MEMBER(segment.classes), {.low = 2, .high = 10}, "",
+                         "fuzzy c-means classes (CSF, grey, white) when there are no labels"),
+           number<Scene>("ventricle_depth", MEMBER(segment.ventricle_depth), not_negative, "mm",
+                         "CSF is ventricle when its component reaches this deep under the brain's surface"),
+           command(StageId::segment)}};
+}
+
+Element discretise_element() {
+  return {"discretise",
+          "Surface to nodes and background cells.",
+          false,
+          always,
+          nothing,
+          {number<Scene>("nodes", MEMBER(discretise.nodes), {.low = 20, .high = 10000000}, "",
+                         "wanted number of nodes, or spacing; 12000 when neither is given"),
+           number<Scene>("spacing", MEMBER(discretise.spacing), above_zero, "mm", "distance between nodes, or nodes"),
+           number<Scene>("minimum_distance", MEMBER(discretise.minimum_distance), {.low = 0, .high = 0.9}, "",
+                         "no two nodes nearer than this fraction of the local spacing"),
+           number<Scene>("craniotomy_factor", MEMBER(refinement.factor), {.low = 0.1, .high = 1}, "",
+                         "spacing near the load / uniform spacing"),
+           number<Scene>("craniotomy_radius", MEMBER(refinement.radius), above_zero, "mm", "how far near the load is"),
+           number<Scene>("tumour_factor", MEMBER(discretise.tumour_factor), {.low = 0.1, .high = 1}, "",
+                         "spacing in and at the tumour / uniform spacing"),
+           number<Scene>("tumour_label", MEMBER(discretise.tumour_label), {.low = 1, .high = 32767}, "",
+                         "label of the tumour"),
+           number<Scene>("tissue_boundary_factor", MEMBER(discretise.tissue_boundary_factor), {.low = 0.1, .high = 1},
+                         "", "spacing at boundaries between tissues / uniform spacing"),
+           choice<Scene>("cells", MEMBER(discretise.cells),
+                         std::vector<std::pair<std::string, CellKind>>{{"hexahedra", CellKind::hexahedron},
+                                                                       {"tetrahedra", CellKind::tetrahedron}},
+                         "background cells for integration"),
+           number<Scene>("cells_per_node", MEMBER(discretise.cells_per_node), {.low = 0.1, .high = 100}, "",
+                         "hexahedra: cells a node"),
+           number<Scene>("seed", MEMBER(discretise.seed), not_negative, "",
+                         "of the randomness; the same seed gives the same files"),
+           command(StageId::discretise)}};
+}
+
+Element solve_element() {
+  return {"solve",
+          "MTLED with adaptive dynamic relaxation.",
+          false,
+          always,
+          nothing,
+          {choice<Scene>("basis", MEMBER(solve.shape.basis),
+                         std::vector<std::pair<std::string, Basis>>{{"linear", Basis::linear},
+                                                                    {"quadratic", Basis::quadratic},
+                                                                    {"modified_quadratic", Basis::modified_quadratic}},
+                         "of the shape functions: MLS, or MMLS (modified_quadratic)"),
+           choice<Scene>("derivatives", MEMBER(solve.shape.derivatives),
+                         std::vector<std::pair<std::string, Derivatives>>{{"full", Derivatives::full},
+                                                                          {"diffuse", Derivatives::diffuse}},
+                         "of the shape functions; diffuse is cheaper and inexact"),
+           number<Scene>("dilatation", MEMBER(solve.shape.dilatation), {.low = 0, .high = 10}, "",
+                         "support radius / local spacing; 0: 1.6 for linear, 2.0 for quadratic bases"),
+           number<Scene>("penalty", MEMBER(solve.shape.penalty), {.low = 0, .high = 1}, "",
+                         "on the quadratic terms of MMLS"),
+           choice<Scene>("volumetric", MEMBER(solve.volumetric),
+                         std::vector<std::pair<std::string, solve::Volumetric>>{
+                             {"mean_dilatation", solve::Volumetric::mean_dilatation},
+                             {"pointwise", solve::Volumetric::pointwise}},
+                         "volumetric strain energy: one pressure a cell, or the plain method, which locks"),
+           choice<Scene>("points_per_cell", MEMBER(solve.points_per_cell),
+                         std::vector<std::pair<std::string, int>>{{"1", 1}, {"4", 4}, {"8", 8}},
+                         "integration points a cell: hexahedra 1 or 8, tetrahedra 1 or 4"),
+           number<Scene>("tolerance", MEMBER(solve.tolerance), above_zero, "mm",
+                         "stop when the bound of the remaining error is below this"),
+           number<Scene>("load_steps", MEMBER(solve.load_steps), not_negative, "",
+                         "steps of the 3-4-5 loading; 0: chosen from the lowest eigenvalue"),
+           number<Scene>("max_steps", MEMBER(solve.max_steps), {.low = 1}, "", "give up after so many steps"),
+           command(StageId::solve)}};
+}
+
+Element register_element() {
+  return {"register",
+          "Displacement to fields and warped images.",
+          false,
+          always,
+          nothing,
+          {number<Scene>("fade", MEMBER(registration.fade), above_zero, "mm",
+                         "outside the brain the field goes to zero over this distance"),
+           choice<Scene>(
+               "interpolation", MEMBER(registration.interpolation),
+               std::vector<std::pair<std::string, registration::Interpolation>>{
+                   {"linear", registration::Interpolation::linear}, {"bspline", registration::Interpolation::bspline}},
+               "of the warped image"),
+           number<Scene>("inverse_tolerance", MEMBER(registration.inverse_tolerance), above_zero, "mm",
+                         "of the inversion of the field"),
+           command(StageId::registration)}};
+}
+
+std::vector<Element> make_elements() {
+  std::vector<Element> elements = {image_element()};
+  for (Element& element : load_elements()) {
+    elements.push_back(std::move(element));
+  }
+  elements.push_back(
+      {"contact",
+       "The brain slides in the rigid skull, without friction.",
+       true,
+       [](const Scene& s) { return s.contact.has_value(); },
+       [](Scene& s) {
+         if (!s.contact) {
+           s.contact.emplace();
+         }
+       },
+       {file<Scene>("skull", MEMBER(contact->skull), "surface of the skull's inside; empty: the segment stage's")}});
+  elements.push_back({"landmarks",
+                      "Points to move with the brain.",
+                      true,
+                      [](const Scene& s) { return s.landmarks.has_value(); },
+                      [](Scene& s) {
+                        if (!s.landmarks) {
+                          s.landmarks.emplace();
+                        }
+                      },
+                      {required(file<Scene>("file", MEMBER(landmarks.value()), "markups: .mrk.json or .fcsv"))}});
+  elements.push_back(segment_element());
+  elements.push_back(discretise_element());
+  elements.push_back(solve_element());
+  elements.push_back(register_element());
+  elements.push_back({"report", "The page of pictures.", false, always, nothing, {command(StageId::report)}});
+  return elements;
+}
+
+std::vector<Option<Tissue>> make_tissue_options() {
+  return {required(number<Tissue>("label", MEMBER(label), {.low = 1, .high = 32767}, "", "in the label map")),
+          text<Tissue>("name", MEMBER(name), "for people"),
+          choice<Tissue>("law", MEMBER(law),
+                         std::vector<std::pair<std::string, Law>>{{"neo_hookean", Law::neo_hookean}}, "material law"),
+          number<Tissue>("youngs_modulus", MEMBER(material.youngs_modulus), above_zero, "Pa", "stiffness"),
+          number<Tissue>("poisson_ratio", MEMBER(material.poisson_ratio),
+                         {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false}, "",
+                         "0.5 would be incompressible"),
+          number<Tissue>("density", MEMBER(material.density), above_zero, "kg/m3", "mass")};
+}
+
+#undef MEMBER
+
+}  // namespace
+
+const std::vector<Element>& scene_elements() {
+  static const std::vector<Element> elements = make_elements();
+  return elements;
+}
+
+const std::vector<Option<Tissue>>& tissue_options() {
+  static const std::vector<Option<Tissue>> options = make_tissue_options();
+  return options;
+}
+
+const Element* find_element(const std::string& path) {
+  for (const Element& element : scene_elements()) {
+    if (element.path == path) {
+      return &element;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace brainshift::pipelines

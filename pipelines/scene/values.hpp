@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <charconv>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace brainshift::pipelines {
+
+/// The numbers that an option may take.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_allowed = true;
+  bool high_allowed = true;
+
+  bool holds(double value) const;  ///< false for NaN
+};
+
+/// "a number > 0", "a whole number from 1 to 8".
+std::string describe(const Range& range, bool whole);
+
+/// Reads the whole of the text as a number in the range; nothing may follow it. Empty on failure.
+template <class T>
+std::optional<T> read_number(std::string_view text, const Range& range) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !range.holds(static_cast<double>(value))) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+/// The shortest text that reads back as the same number.
+template <class T>
+std::string write_number(T value) {
+  char text[64];
+  const auto result = std::to_chars(text, text + sizeof text, value);
+  return {text, result.ptr};
+}
+
+/// Numbers separated by blanks or commas; empty on failure.
+template <class T>
+std::optional<std::vector<T>> read_numbers(std::string_view text, const Range& range) {
+  std::vector<T> values;
+  std::size_t begin = 0;
+  while ((begin = text.find_first_not_of(" ,\t\n", begin)) != std::string_view::npos) {
+    const std::size_t end = std::min(text.find_first_of(" ,\t\n", begin), text.size());
+    const auto value = read_number<T>(text.substr(begin, end - begin), range);
+    if (!value) {
+      return std::nullopt;
+    }
+    values.push_back(*value);
+    begin = end;
+  }
+  return values;
+}
+
+template <class Numbers>
+std::string write_numbers(const Numbers& values) {
+  std::string text;
+  for (const auto value : values) {
+    text += (text.empty() ? "" : " ") + write_number(value);
+  }
+  return text;
+}
+
+}  // namespace brainshift::pipelines
