@@ -1,2 +1,85 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/registration.hpp"
+
+#include <sstream>
+#include <stdexcept>
+
+#include "register/field/brain_zones.hpp"
+#include "register/field/forward_field.hpp"
+#include "register/field/jacobian.hpp"
+#include "register/field/measures.hpp"
+#include "register/field/resampling_field.hpp"
+
+namespace brainshift::registration {
+
+namespace {
+
+template <class T>
+void check_image(const Image<T>& image, const char* what) {
+  if (image.geometry.voxel_count() == 0 || image.voxels.size() != image.geometry.voxel_count()) {
+    throw std::invalid_argument(std::string(what) + " has no voxels");
+  }
+}
+
+std::string described(const ImageGeometry& g) {
+  std::ostringstream text;
+  text << g.size.transpose() << " voxels of " << g.spacing.transpose() << " mm from (" << g.origin.transpose() << ")";
+  return text.str();
+}
+
+void check(const RegisterInput& input, const RegisterOptions& options) {
+  check_image(input.t1, "the T1");
+  if (input.labels) {
+    check_image(*input.labels, "the label map");
+    if (!same_geometry(input.labels->geometry, input.t1.geometry)) {
+      throw std::invalid_argument("the labels and the T1 must lie on the same grid: the labels have " +
+                                  described(input.labels->geometry) + ", the T1 " + described(input.t1.geometry) +
+                                  ", or their directions differ; resample the labels to the T1");
+    }
+  }
+  if (!(options.inverse_tolerance > 0)) {
+    throw std::invalid_argument("the tolerance of the inversion must be above 0 mm");
+  }
+  if (!input.solution.displacement.allFinite() || !input.solution.positions.allFinite()) {
+    throw std::invalid_argument("the solution holds a number that is not finite; solve again");
+  }
+  if (!input.landmarks.allFinite()) {
+    throw std::invalid_argument("a landmark's position is not finite");
+  }
+}
+
+Progress part_of(const Progress& progress, double begin, double end) {
+  if (!progress) {
+    return {};
+  }
+  return [=](double fraction, std::string_view what) { progress(begin + (end - begin) * fraction, what); };
+}
+
+}  // namespace
+
+Registration register_images(const RegisterInput& input, const RegisterOptions& options, const Progress& progress) {
+  check(input, options);
+  const ImageGeometry& grid = input.t1.geometry;
+  report(progress, 0.0, "distance to the brain's surface");
+  const BrainZones zones = brain_zones(input.brain, grid, options.fade);
+  Registration result;
+  result.forward = forward_field(input.solution, zones, grid, options.fade, part_of(progress, 0.1, 0.6));
+  report(progress, 0.6, "inverting the field");
+  InvertedField inverted = resampling_field(result.forward, options.inverse_tolerance);
+  result.resampling = std::move(inverted.field);
+  report(progress, 0.8, "warping the images");
+  result.warped = warp(input.t1, result.resampling, options.interpolation);
+  if (input.labels) {
+    result.warped_labels = warp(*input.labels, result.resampling);
+  }
+  result.preop_landmarks = input.landmarks;
+  result.landmarks = move_points(result.forward, input.landmarks);
+  report(progress, 0.9, "measuring the fields");
+  result.jacobian = jacobian(result.forward);
+  result.measures = measure_fields(result.forward, result.resampling, result.jacobian, zones.zone, input.solution);
+  result.measures.not_inverted = inverted.not_inverted;
+  report(progress, 1.0, "done");
+  return result;
+}
+
+}  // namespace brainshift::registration

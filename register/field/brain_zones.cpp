@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "register/field/brain_zones.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+namespace brainshift::registration {
+
+namespace {
+
+void check_fade(double fade, double diagonal) {
+  if (!(fade > diagonal && fade < 1e3)) {
+    std::ostringstream text;
+    text << "the fade is " << fade << " mm, but must be wider than a voxel's diagonal (" << diagonal
+         << " mm) and below 1000 mm; the default is 20 mm";
+    throw std::invalid_argument(text.str());
+  }
+}
+
+Zone zone_at(double distance, double shell, double fade) {
+  if (distance <= 0) {
+    return Zone::brain;
+  }
+  if (distance <= shell) {
+    return Zone::shell;
+  }
+  return distance < fade ? Zone::fading : Zone::beyond;
+}
+
+}  // namespace
+
+BrainZones brain_zones(const Surface& brain, const ImageGeometry& geometry, double fade) {
+  const double diagonal = geometry.spacing.norm();
+  check_fade(fade, diagonal);
+  solve::SignedDistanceOptions options;
+  options.margin = fade + options.spacing;
+  BrainZones zones{std::vector<Zone>(geometry.voxel_count(), Zone::beyond), solve::SignedDistance(brain, options),
+                   diagonal};
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int k = 0; k < geometry.size.z(); ++k) {
+    for (int j = 0; j < geometry.size.y(); ++j) {
+      for (int i = 0; i < geometry.size.x(); ++i) {
+        const double distance = zones.outside.value(geometry.to_world(Eigen::Vector3d(i, j, k)));
+        zones.zone[geometry.offset(i, j, k)] = zone_at(distance, zones.shell, fade);
+      }
+    }
+  }
+  if (std::find(zones.zone.begin(), zones.zone.end(), Zone::brain) == zones.zone.end()) {
+    throw std::invalid_argument(
+        "the brain's surface encloses no voxel of the image; are both of the same head and in the same frame?");
+  }
+  return zones;
+}
+
+}  // namespace brainshift::registration

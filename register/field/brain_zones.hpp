@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "segmentation/image/image.hpp"
+#include "segmentation/surface/surface.hpp"
+#include "solve/boundary/signed_distance.hpp"
+
+namespace brainshift::registration {
+
+/// What a voxel is to the brain's surface.
+enum class Zone : std::uint8_t {
+  beyond,  ///< farther than the fade: does not move
+  fading,  ///< outside the brain: moves with the nearest place of its surface, less with the distance
+  shell,   ///< outside, but within a voxel's diagonal of the surface: the surface itself is interpolated from it
+  brain,
+};
+
+/// The zones of an image's voxels, and the distance that the fading ones are told by.
+struct BrainZones {
+  std::vector<Zone> zone;         ///< one a voxel
+  solve::SignedDistance outside;  ///< mm from the brain's surface, negative inside
+  double shell;                   ///< thickness of the shell: a voxel's diagonal, mm
+};
+
+/// Throws std::invalid_argument when the surface is not closed or encloses no voxel, or when the fade is not wider than
+/// a voxel's diagonal.
+BrainZones brain_zones(const Surface& brain, const ImageGeometry& geometry, double fade);
+
+}  // namespace brainshift::registration

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "register/field/forward_field.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "register/field/field_sampler.hpp"
+#include "solve/shape/shape_functions.hpp"
+
+namespace brainshift::registration {
+
+namespace {
+
+constexpr std::size_t chunk = 1 << 17;   // voxels evaluated between two reports of progress
+constexpr double smoothing_width = 3.0;  // mm, standard deviation of the smoothing outside the brain
+
+using Displacement = std::array<float, 3>;
+
+struct Voxel {
+  int i, j, k;
+  std::size_t offset;
+  Eigen::Vector3d index() const { return {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}; }
+};
+
+std::vector<Voxel> voxels_of(const BrainZones& zones, const ImageGeometry& geometry, bool fading) {
+  std::vector<Voxel> voxels;
+  for (int k = 0; k < geometry.size.z(); ++k) {
+    for (int j = 0; j < geometry.size.y(); ++j) {
+      for (int i = 0; i < geometry.size.x(); ++i) {
+        const std::size_t offset = geometry.offset(i, j, k);
+        const Zone zone = zones.zone[offset];
+        if (zone != Zone::beyond && (zone == Zone::fading) == fading) {
+          voxels.push_back({i, j, k, offset});
+        }
+      }
+    }
+  }
+  return voxels;
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Shape functions at the voxels of brain and shell. They are asked for no place farther out than half the spacing of
+/// the nodes, as they extrapolate there.
+void evaluate(const Solution& solution, const BrainZones& zones, const std::vector<Voxel>& voxels, VectorImage& field,
+              const Progress& progress) {
+  const solve::ShapeFunctions shape(solution.positions, solution.spacing, solution.shape);
+  const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
+  const double farthest = 0.5 * mean(solution.spacing);
+  for (std::size_t begin = 0; begin < voxels.size(); begin += chunk) {
+    report(progress, 0.8 * static_cast<double>(begin) / static_cast<double>(voxels.size()),
+           "displacement at the voxels");
+    const std::size_t end = std::min(begin + chunk, voxels.size());
+    Points places(static_cast<Eigen::Index>(end - begin), 3);
+#pragma omp parallel for schedule(static)
+    for (std::size_t v = begin; v < end; ++v) {
+      Eigen::Vector3d place = field.geometry.to_world(voxels[v].index());
+      const double outside = zones.outside.value(place);
+      if (outside > farthest) {
+        place -= (outside - farthest) * zones.outside.gradient(place);
+      }
+      places.row(static_cast<Eigen::Index>(v - begin)) = place;
+    }
+    const Points displacement = shape.interpolate(places, parameters);
+    for (std::size_t v = begin; v < end; ++v) {
+      const Eigen::RowVector3f u = displacement.row(static_cast<Eigen::Index>(v - begin)).cast<float>();
+      field.voxels[voxels[v].offset] = {u.x(), u.y(), u.z()};
+    }
+  }
+}
+
+/// A place on the brain's surface near x, by walking down the distance. One step suffices but where the surface is
+/// hollow and its distance has a kink.
+Eigen::Vector3d place_on_surface(const solve::SignedDistance& outside, Eigen::Vector3d x, double close_enough) {
+  for (int step = 0; step < 10; ++step) {
+    const double distance = outside.value(x);
+    if (distance <= close_enough && step > 0) {
+      break;
+    }
+    x -= distance * outside.gradient(x);
+  }
+  return x;
+}
+
+/// Gives the fading voxels the displacement of the surface near by.
+void extend(const BrainZones& zones, const std::vector<Voxel>& fading, VectorImage& field) {
+  const FieldSampler sampler(field);
+  std::vector<Displacement> extended(fading.size());
+#pragma omp parallel for schedule(dynamic, 1024)
+  for (std::size_t v = 0; v < fading.size(); ++v) {
+    const Eigen::Vector3d x = field.geometry.to_world(fading[v].index());
+    const Eigen::Vector3d place = place_on_surface(zones.outside, x, 0.1 * zones.shell);
+    const Eigen::Vector3f u = sampler.value(sampler.to_index(place)).cast<float>();
+    extended[v] = {u.x(), u.y(), u.z()};
+  }
+  for (std::size_t v = 0; v < fading.size(); ++v) {
+    field.voxels[fading[v].offset] = extended[v];
+  }
+}
+
+/// Mean of a fading voxel's six neighbours, those nearer to it counting more; neighbours beyond the fade do not count.
+Displacement mean_of_neighbours(const VectorImage& field, const BrainZones& zones, const Voxel& voxel) {
+  const ImageGeometry& g = field.geometry;
+  const std::size_t stride[3] = {1, g.offset(0, 1, 0), g.offset(0, 0, 1)};
+  const int place[3] = {voxel.i, voxel.j, voxel.k};
+  float sum[3] = {0, 0, 0};
+  float total = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto weight = static_cast<float>(1 / (g.spacing[axis] * g.spacing[axis]));
+    const auto add = [&](std::size_t neighbour) {
+      if (zones.zone[neighbour] != Zone::beyond) {
+        const Displacement& u = field.voxels[neighbour];
+        total += weight;
+        for (std::size_t c = 0; c < 3; ++c) {
+          sum[c] += weight * u[c];
+        }
+      }
+    };
+    if (place[axis] > 0) {
+      add(voxel.offset - stride[axis]);
+    }
+    if (place[axis] + 1 < g.size[axis]) {
+      add(voxel.offset + stride[axis]);
+    }
+  }
+  return total > 0 ? Displacement{sum[0] / total, sum[1] / total, sum[2] / total} : field.voxels[voxel.offset];
+}
+
+/// Smooths the extended displacement where two parts of the surface are equally near and it would jump; brain and shell
+/// are held. Each sweep of averaging spreads by the spacing / √3.
+void smooth(const BrainZones& zones, const std::vector<Voxel>& fading, VectorImage& field) {
+  const double sweeps = 3 * std::pow(smoothing_width / field.geometry.spacing.maxCoeff(), 2);
+  std::vector<Displacement> next(fading.size());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+#pragma omp parallel for schedule(static)
+    for (std::size_t v = 0; v < fading.size(); ++v) {
+      next[v] = mean_of_neighbours(field, zones, fading[v]);
+    }
+#pragma omp parallel for schedule(static)
+    for (std::size_t v = 0; v < fading.size(); ++v) {
+      field.voxels[fading[v].offset] = next[v];
+    }
+  }
+}
+
+void fade_out(const BrainZones& zones, const std::vector<Voxel>& fading, double fade, VectorImage& field) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t v = 0; v < fading.size(); ++v) {
+    const double distance = zones.outside.value(field.geometry.to_world(fading[v].index()));
+    const auto factor = static_cast<float>(ramp((distance - zones.shell) / (fade - zones.shell)));
+    for (float& component : field.voxels[fading[v].offset]) {
+      component *= factor;
+    }
+  }
+}
+
+}  // namespace
+
+double ramp(double t) {
+  constexpr double bend = 0.2;  // the part of the way over which the slope grows, and again over which it falls
+  const auto start = [](double s) { return s * s / (2 * bend * (1 - bend)); };
+  if (t <= 0 || t >= 1) {
+    return t <= 0 ? 1 : 0;
+  }
+  if (t < bend) {
+    return 1 - start(t);
+  }
+  return t > 1 - bend ? start(1 - t) : 0.5 - (t - 0.5) / (1 - bend);
+}
+
+VectorImage forward_field(const Solution& solution, const BrainZones& zones, const ImageGeometry& geometry, double fade,
+                          const Progress& progress) {
+  VectorImage field{geometry, std::vector<Displacement>(geometry.voxel_count(), Displacement{0, 0, 0})};
+  evaluate(solution, zones, voxels_of(zones, geometry, false), field, progress);
+  report(progress, 0.8, "fading outside the brain");
+  const std::vector<Voxel> fading = voxels_of(zones, geometry, true);
+  extend(zones, fading, field);
+  smooth(zones, fading, field);
+  fade_out(zones, fading, fade, field);
+  return field;
+}
+
+}  // namespace brainshift::registration

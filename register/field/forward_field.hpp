@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "register/field/brain_zones.hpp"
+#include "segmentation/image/image.hpp"
+#include "segmentation/progress.hpp"
+#include "solve/solution.hpp"
+
+namespace brainshift::registration {
+
+/// The displacement of every voxel of a grid, mm, LPS. In the brain and in the shell around it u(x) = Σφ_a(x) û_a with
+/// the solver's own shape functions. Farther out the displacement of the surface near by, times a ramp of the distance
+/// with a continuous slope, from 1 at the shell to 0 at the fade. Throws std::invalid_argument when the solution's
+/// shape functions do not reach a voxel of the brain.
+VectorImage forward_field(const Solution& solution, const BrainZones& zones, const ImageGeometry& geometry, double fade,
+                          const Progress& progress);
+
+/// Falls from 1 at 0 to 0 at 1, with zero slope at both ends and at most 1.25 between: the gentlest way out, as a
+/// field that pushes outward by u folds where the ramp is steeper than 1/u.
+double ramp(double t);
+
+}  // namespace brainshift::registration

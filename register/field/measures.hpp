@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "register/field/brain_zones.hpp"
+#include "register/registration.hpp"
+#include "segmentation/image/image.hpp"
+#include "solve/solution.hpp"
+
+namespace brainshift::registration {
+
+/// All measures but not_inverted, which the inversion counts.
+RegisterMeasures measure_fields(const VectorImage& forward, const VectorImage& resampling, const ScalarImage& jacobian,
+                                const std::vector<Zone>& zone, const Solution& solution);
+
+}  // namespace brainshift::registration

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <itkBSplineInterpolateImageFunction.h>
+#include <itkLinearInterpolateImageFunction.h>
+#include <omp.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "register/field/field_sampler.hpp"
+#include "register/registration.hpp"
+#include "segmentation/image/itk_bridge.hpp"
+
+namespace brainshift::registration {
+
+namespace {
+
+/// The image with each voxel that moves replaced by look_up(continuous index of its preop place, thread); 0 where that
+/// lies outside the image.
+template <class T, class LookUp>
+Image<T> resample(const Image<T>& image, const VectorImage& resampling, const LookUp& look_up) {
+  const ImageGeometry& g = image.geometry;
+  const FieldSampler field(resampling);
+  const bool on_the_fields_grid = same_geometry(g, resampling.geometry);
+  const Eigen::Matrix3d to_voxels = (g.direction * g.spacing.asDiagonal()).inverse();
+  const Eigen::Array3d high = g.size.cast<double>() - 0.5;
+  Image<T> result = image;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int k = 0; k < g.size.z(); ++k) {
+    for (int j = 0; j < g.size.y(); ++j) {
+      for (int i = 0; i < g.size.x(); ++i) {
+        const Eigen::Vector3d index(i, j, k);
+        const Eigen::Vector3d at = on_the_fields_grid ? index : field.to_index(g.to_world(index));
+        const Eigen::Vector3d d = field.inside(at) ? field.value(at) : Eigen::Vector3d::Zero();
+        if (d == Eigen::Vector3d::Zero()) {
+          continue;
+        }
+        const Eigen::Vector3d preop = index + to_voxels * d;
+        const bool inside = (preop.array() >= -0.5).all() && (preop.array() <= high).all();
+        result.at(i, j, k) = inside ? look_up(preop, omp_get_thread_num()) : T{0};
+      }
+    }
+  }
+  return result;
+}
+
+itk::ContinuousIndex<double, 3> as_itk(const Eigen::Vector3d& index) {
+  itk::ContinuousIndex<double, 3> result;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    result[axis] = index[axis];
+  }
+  return result;
+}
+
+using ItkScalar = itk::Image<float, 3>;
+
+ScalarImage warp_linear(const ScalarImage& image, const VectorImage& resampling) {
+  const ItkScalar::Pointer voxels = to_itk(image);
+  const auto interpolator = itk::LinearInterpolateImageFunction<ItkScalar, double>::New();
+  interpolator->SetInputImage(voxels);
+  return resample(image, resampling, [&](const Eigen::Vector3d& index, int) {
+    return static_cast<float>(interpolator->EvaluateAtContinuousIndex(as_itk(index)));
+  });
+}
+
+ScalarImage warp_bspline(const ScalarImage& image, const VectorImage& resampling) {
+  if ((image.geometry.size < 4).any()) {
+    throw std::invalid_argument(
+        "cubic B-splines need at least four voxels along each axis of the image; use linear interpolation");
+  }
+  const ItkScalar::Pointer voxels = to_itk(image);
+  const auto interpolator = itk::BSplineInterpolateImageFunction<ItkScalar, double, float>::New();
+  interpolator->SetSplineOrder(3);
+  interpolator->SetNumberOfWorkUnits(static_cast<itk::ThreadIdType>(omp_get_max_threads()));
+  interpolator->SetInputImage(voxels);
+  return resample(image, resampling, [&](const Eigen::Vector3d& index, int thread) {
+    return static_cast<float>(
+        interpolator->EvaluateAtContinuousIndex(as_itk(index), static_cast<itk::ThreadIdType>(thread)));
+  });
+}
+
+}  // namespace
+
+ScalarImage warp(const ScalarImage& image, const VectorImage& resampling, Interpolation interpolation) {
+  return interpolation == Interpolation::linear ? warp_linear(image, resampling) : warp_bspline(image, resampling);
+}
+
+LabelMap warp(const LabelMap& labels, const VectorImage& resampling) {
+  return resample(labels, resampling, [&](const Eigen::Vector3d& index, int) {
+    const Eigen::Array3i last = labels.geometry.size - 1;
+    const Eigen::Array3i nearest = (index.array() + 0.5).floor().cast<int>().max(0).min(last);
+    return labels.at(nearest.x(), nearest.y(), nearest.z());
+  });
+}
+
+}  // namespace brainshift::registration
