@@ -66,8 +66,8 @@ std::vector<std::array<Eigen::Vector3d, 3>> edge_normals(const Surface& surface,
       throw std::invalid_argument("signed distance: the surface is open " + described(surface, edges[e]) +
                                   "; close it first");
     }
-    const auto own = static_cast<std::size_t>(edges[e].triangle);
-    normals[own][static_cast<std::size_t>(edges[e].side)] = face[own] + face[static_cast<std::size_t>(twin->triangle)];
+    const auto own = edges[e].triangle;
+    normals[own][edges[e].side] = face[own] + face[twin->triangle];
   }
   return normals;
 }
@@ -75,13 +75,13 @@ std::vector<std::array<Eigen::Vector3d, 3>> edge_normals(const Surface& surface,
 std::vector<Eigen::Vector3d> vertex_normals(const Surface& surface, const std::vector<Eigen::Vector3d>& face) {
   std::vector<Eigen::Vector3d> normals(static_cast<std::size_t>(surface.vertices.rows()), Eigen::Vector3d::Zero());
   for (std::size_t t = 0; t < face.size(); ++t) {
-    const auto corner = surface.triangles.row(static_cast<Eigen::Index>(t));
+    const auto corner = surface.triangles.row(t);
     for (int side = 0; side < 3; ++side) {
       const Eigen::Vector3d at = surface.vertices.row(corner[side]);
       const Eigen::Vector3d next = surface.vertices.row(corner[(side + 1) % 3]).transpose() - at;
       const Eigen::Vector3d last = surface.vertices.row(corner[(side + 2) % 3]).transpose() - at;
       const double angle = std::atan2(next.cross(last).norm(), next.dot(last));
-      normals[static_cast<std::size_t>(corner[side])] += angle * face[t];
+      normals[corner[side]] += angle * face[t];
     }
   }
   return normals;
@@ -90,14 +90,14 @@ std::vector<Eigen::Vector3d> vertex_normals(const Surface& surface, const std::v
 }  // namespace
 
 const Eigen::Vector3d& Pseudonormals::of(std::size_t triangle, TrianglePart part) const {
-  const auto corner = triangles.row(static_cast<Eigen::Index>(triangle));
+  const auto corner = triangles.row(triangle);
   switch (part) {
     case TrianglePart::vertex_a:
-      return vertex[static_cast<std::size_t>(corner[0])];
+      return vertex[corner[0]];
     case TrianglePart::vertex_b:
-      return vertex[static_cast<std::size_t>(corner[1])];
+      return vertex[corner[1]];
     case TrianglePart::vertex_c:
-      return vertex[static_cast<std::size_t>(corner[2])];
+      return vertex[corner[2]];
     case TrianglePart::edge_ab:
       return edge[triangle][0];
     case TrianglePart::edge_bc:
@@ -116,7 +116,7 @@ Pseudonormals pseudonormals(const Surface& surface) {
   normals.triangles = surface.triangles;
   normals.face.resize(static_cast<std::size_t>(surface.triangles.rows()));
   for (std::size_t t = 0; t < normals.face.size(); ++t) {
-    const auto corner = surface.triangles.row(static_cast<Eigen::Index>(t));
+    const auto corner = surface.triangles.row(t);
     const Eigen::Vector3d a = surface.vertices.row(corner[0]);
     const Eigen::Vector3d ab = surface.vertices.row(corner[1]).transpose() - a;
     const Eigen::Vector3d ac = surface.vertices.row(corner[2]).transpose() - a;

@@ -25,13 +25,15 @@ struct Grid {
   Eigen::Vector3d origin;
   Eigen::Array3i size;
 
-  Eigen::Vector3d position(int i, int j, int k) const { return origin + spacing * Eigen::Vector3d(i, j, k); }
-  std::size_t offset(const Eigen::Array3i& index) const {
-    const auto nx = static_cast<std::size_t>(size.x()), ny = static_cast<std::size_t>(size.y());
-    return static_cast<std::size_t>(index.x()) +
-           nx * (static_cast<std::size_t>(index.y()) + ny * static_cast<std::size_t>(index.z()));
+  Eigen::Vector3d position(const Eigen::Array3i& index) const {
+    return origin + spacing * index.cast<double>().matrix();
   }
-  std::size_t count() const { return offset({0, 0, size.z()}); }
+  /// Samples from one to the next along an axis.
+  std::ptrdiff_t stride(int axis) const { return size.head(axis).cast<std::ptrdiff_t>().prod(); }
+  std::ptrdiff_t offset(const Eigen::Array3i& index) const {
+    return index.x() + std::ptrdiff_t{size.x()} * (index.y() + std::ptrdiff_t{size.y()} * index.z());
+  }
+  std::size_t count() const { return static_cast<std::size_t>(stride(3)); }
 };
 
 /// Per sample: the nearest triangle known so far and the squared distance to it.
@@ -39,13 +41,22 @@ struct Nearest {
   std::vector<std::int32_t> triangle;
   std::vector<double> squared;
 
-  void offer(std::size_t sample, std::int32_t candidate, double distance_squared) {
+  void offer(std::ptrdiff_t sample, std::int32_t candidate, double distance_squared) {
     if (distance_squared < squared[sample]) {
       squared[sample] = distance_squared;
       triangle[sample] = candidate;
     }
   }
 };
+
+struct Direction {
+  int axis;
+  bool forward;
+};
+
+double squared_distance(const TriangleFrame& triangle, const Eigen::Vector3d& p) {
+  return (nearest_on_triangle(triangle, p).point - p).squaredNorm();
+}
 
 Grid grid_around(const Surface& surface, const SignedDistanceOptions& options) {
   if (!(options.spacing > 0) || !(options.margin >= 0) || !std::isfinite(options.spacing + options.margin)) {
@@ -65,7 +76,7 @@ Grid grid_around(const Surface& surface, const SignedDistanceOptions& options) {
 std::vector<TriangleFrame> triangle_frames(const Surface& surface) {
   std::vector<TriangleFrame> frames(static_cast<std::size_t>(surface.triangles.rows()));
   for (std::size_t t = 0; t < frames.size(); ++t) {
-    const auto corner = surface.triangles.row(static_cast<Eigen::Index>(t));
+    const auto corner = surface.triangles.row(t);
     const Eigen::Vector3d a = surface.vertices.row(corner[0]);
     frames[t] = {a, surface.vertices.row(corner[1]).transpose() - a, surface.vertices.row(corner[2]).transpose() - a};
   }
@@ -103,18 +114,17 @@ Nearest nearest_in_band(const std::vector<TriangleFrame>& frames, const Grid& gr
     }
     boxes[t] = samples_near(frames[t], grid, band);
     for (int k = boxes[t].low.z(); k <= boxes[t].high.z(); ++k) {
-      in_layer[static_cast<std::size_t>(k)].push_back(static_cast<std::int32_t>(t));
+      in_layer[k].push_back(static_cast<std::int32_t>(t));
     }
   }
 #pragma omp parallel for schedule(dynamic, 1)
   for (int k = 0; k < grid.size.z(); ++k) {
-    for (const std::int32_t t : in_layer[static_cast<std::size_t>(k)]) {
-      const TriangleFrame& frame = frames[static_cast<std::size_t>(t)];
-      const IndexBox& box = boxes[static_cast<std::size_t>(t)];
+    for (const std::int32_t t : in_layer[k]) {
+      const TriangleFrame& frame = frames[t];
+      const IndexBox& box = boxes[t];
       for (int j = box.low.y(); j <= box.high.y(); ++j) {
         for (int i = box.low.x(); i <= box.high.x(); ++i) {
-          const Eigen::Vector3d p = grid.position(i, j, k);
-          nearest.offer(grid.offset({i, j, k}), t, (nearest_on_triangle(frame, p).point - p).squaredNorm());
+          nearest.offer(grid.offset({i, j, k}), t, squared_distance(frame, grid.position({i, j, k})));
         }
       }
     }
@@ -124,38 +134,37 @@ Nearest nearest_in_band(const std::vector<TriangleFrame>& frames, const Grid& gr
 
 /// Hands the nearest triangles on from layer to layer along one axis. A layer reads only the layer before it, so its
 /// samples can be filled in any order.
-void sweep(const std::vector<TriangleFrame>& frames, const Grid& grid, double band, int axis, bool forward,
+void sweep(const std::vector<TriangleFrame>& frames, const Grid& grid, double band, Direction direction,
            Nearest& nearest) {
-  const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
-  const int layers = grid.size[axis];
-  const std::array<std::array<int, 2>, 5> cross = {{{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  const int axis = direction.axis, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
+  const std::ptrdiff_t back = direction.forward ? -grid.stride(axis) : grid.stride(axis);
   const auto fill = [&](const Eigen::Array3i& index) {
-    const std::size_t sample = grid.offset(index);
+    const std::ptrdiff_t sample = grid.offset(index);
     if (nearest.squared[sample] <= band * band) {
       return;
     }
-    const Eigen::Vector3d p = grid.position(index.x(), index.y(), index.z());
+    const Eigen::Vector3d p = grid.position(index);
+    const std::ptrdiff_t before = sample + back;
+    const std::ptrdiff_t low_u = index[u] > 0 ? -grid.stride(u) : 0, low_v = index[v] > 0 ? -grid.stride(v) : 0;
+    const std::ptrdiff_t high_u = index[u] < grid.size[u] - 1 ? grid.stride(u) : 0;
+    const std::ptrdiff_t high_v = index[v] < grid.size[v] - 1 ? grid.stride(v) : 0;
     std::int32_t tried = nearest.triangle[sample];
-    for (const auto& step : cross) {
-      Eigen::Array3i from = index;
-      from[axis] += forward ? -1 : 1;
-      from[u] = std::clamp(from[u] + step[0], 0, grid.size[u] - 1);
-      from[v] = std::clamp(from[v] + step[1], 0, grid.size[v] - 1);
-      const std::int32_t candidate = nearest.triangle[grid.offset(from)];
-      if (candidate != none && candidate != tried && candidate != nearest.triangle[sample]) {
-        const TriangleFrame& frame = frames[static_cast<std::size_t>(candidate)];
-        nearest.offer(sample, candidate, (nearest_on_triangle(frame, p).point - p).squaredNorm());
+    for (const std::ptrdiff_t side : {std::ptrdiff_t{0}, low_u, high_u, low_v, high_v}) {
+      const std::int32_t candidate = nearest.triangle[before + side];
+      if (candidate != none && candidate != tried) {
+        nearest.offer(sample, candidate, squared_distance(frames[candidate], p));
         tried = candidate;
       }
     }
   };
+  const int layers = grid.size[axis];
 #pragma omp parallel
   for (int step = 1; step < layers; ++step) {
 #pragma omp for schedule(static)
     for (int b = 0; b < grid.size[v]; ++b) {
       for (int a = 0; a < grid.size[u]; ++a) {
         Eigen::Array3i index;
-        index[axis] = forward ? step : layers - 1 - step;
+        index[axis] = direction.forward ? step : layers - 1 - step;
         index[u] = a;
         index[v] = b;
         fill(index);
@@ -174,11 +183,11 @@ std::vector<float> signed_samples(const std::vector<TriangleFrame>& frames, cons
     for (int j = 0; j < grid.size.y(); ++j) {
       double sign = 1;
       for (int i = 0; i < grid.size.x(); ++i) {
-        const std::size_t sample = grid.offset({i, j, k});
+        const std::ptrdiff_t sample = grid.offset({i, j, k});
         const double squared = nearest.squared[sample];
         if (squared <= band * band) {
-          const Eigen::Vector3d p = grid.position(i, j, k);
-          const auto t = static_cast<std::size_t>(nearest.triangle[sample]);
+          const Eigen::Vector3d p = grid.position({i, j, k});
+          const std::int32_t t = nearest.triangle[sample];
           const NearestOnTriangle on = nearest_on_triangle(frames[t], p);
           sign = (p - on.point).dot(normals.of(t, on.part)) < 0 ? -1 : 1;
         }
@@ -198,8 +207,8 @@ SignedDistance::SignedDistance(const Surface& surface, const SignedDistanceOptio
   const double band = band_in_spacings * grid.spacing;
   Nearest nearest = nearest_in_band(frames, grid, band);
   for (const int axis : {2, 1, 0}) {
-    sweep(frames, grid, band, axis, true, nearest);
-    sweep(frames, grid, band, axis, false, nearest);
+    sweep(frames, grid, band, {axis, true}, nearest);
+    sweep(frames, grid, band, {axis, false}, nearest);
   }
   spacing_ = grid.spacing;
   origin_ = grid.origin;
@@ -209,22 +218,16 @@ SignedDistance::SignedDistance(const Surface& surface, const SignedDistanceOptio
 
 double SignedDistance::value(const Eigen::Vector3d& position) const {
   const Eigen::Array3d wanted = (position - origin_).array() / spacing_;
-  std::array<std::size_t, 3> cell;
-  std::array<double, 3> t;
-  Eigen::Array3d inside;
-  for (int axis = 0; axis < 3; ++axis) {
-    // The order of the arguments turns NaN into a place of the grid.
-    inside[axis] = std::min(std::max(0.0, wanted[axis]), size_[axis] - 1.0);
-    cell[static_cast<std::size_t>(axis)] =
-        std::min(static_cast<std::size_t>(inside[axis]), static_cast<std::size_t>(size_[axis] - 2));
-    t[static_cast<std::size_t>(axis)] = inside[axis] - static_cast<double>(cell[static_cast<std::size_t>(axis)]);
-  }
-  const auto row = static_cast<std::size_t>(size_.x());
-  const std::size_t layer = row * static_cast<std::size_t>(size_.y());
-  const float* corner = samples_.data() + cell[0] + row * cell[1] + layer * cell[2];
-  const auto along_x = [&](const float* s) { return (1 - t[0]) * s[0] + t[0] * s[1]; };
-  const auto along_y = [&](const float* s) { return (1 - t[1]) * along_x(s) + t[1] * along_x(s + row); };
-  const double sampled = (1 - t[2]) * along_y(corner) + t[2] * along_y(corner + layer);
+  // The order of the arguments turns NaN into a place of the grid.
+  const Eigen::Array3d inside =
+      wanted.unaryExpr([](double w) { return std::max(0.0, w); }).min((size_ - 1).cast<double>());
+  const Eigen::Array3i cell = inside.cast<int>().min(size_ - 2);
+  const Eigen::Array3d t = inside - cell.cast<double>();
+  const std::ptrdiff_t row = size_.x(), layer = row * size_.y();
+  const float* corner = samples_.data() + cell.x() + row * cell.y() + layer * cell.z();
+  const auto along_x = [&](const float* s) { return (1 - t.x()) * s[0] + t.x() * s[1]; };
+  const auto along_y = [&](const float* s) { return (1 - t.y()) * along_x(s) + t.y() * along_x(s + row); };
+  const double sampled = (1 - t.z()) * along_y(corner) + t.z() * along_y(corner + layer);
   return sampled + spacing_ * (wanted - inside).matrix().norm();
 }
 

@@ -11,6 +11,9 @@
 
 namespace brainshift::solve {
 
+/// Support radius / local spacing that the options stand for: as given, else the basis's default.
+double dilatation(const ShapeOptions& options);
+
 /// Shape functions at many points, compressed rows: row i holds the support of point i.
 struct ShapeRows {
   std::vector<std::int64_t> begin;  ///< (points + 1) offsets into the arrays below

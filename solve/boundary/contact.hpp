@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "segmentation/surface/surface.hpp"
+#include "solve/boundary/signed_distance.hpp"
+#include "solve/dynamics/internal_force.hpp"
+#include "solve/shape/shape_functions.hpp"
+
+namespace brainshift::solve {
+
+/// Frictionless finite sliding of surface nodes inside a rigid skull, with separation. After a step every node outside
+/// is put back along the skull's normal: like the simplified EBCIEM, û ← û + M⁻¹Vᵀ D⁻¹ δ with D the row sums of |V| M⁻¹
+/// |V|ᵀ. What remains is put back in the following steps, so at rest the penetration is a small part of the last step's
+/// motion. A node that starts outside (the surfaces' own inaccuracy) may stay that far out.
+class Contact {
+ public:
+  /// nodes: those that may touch. rows: shape functions at all nodes' positions.
+  Contact(const SignedDistance& skull, const Points& positions, std::vector<std::int32_t> nodes, const ShapeRows& rows);
+
+  /// Sets the nodal masses (one a node) that weigh the correction.
+  void weigh(std::span<const double> mass);
+
+  /// Puts penetrating nodes back.
+  void apply(NodalVectors& parameters);
+
+  struct Measures {
+    std::size_t touching = 0;        ///< nodes within a hundredth of a millimetre of the skull or outside it
+    double largest_penetration = 0;  ///< mm outside the skull, whether or not it started so
+  };
+  Measures measure(const NodalVectors& parameters) const;
+
+ private:
+  Eigen::Vector3d place(std::size_t i, const NodalVectors& parameters) const;
+
+  const SignedDistance* skull_;
+  Points positions_;                 ///< of the contact nodes
+  std::vector<std::int64_t> begin_;  ///< V, compressed rows
+  std::vector<std::int32_t> node_;
+  std::vector<double> shape_;
+  std::vector<double> allowed_;          ///< mm outside the skull at the start, one a contact node
+  std::vector<double> inverse_mass_;     ///< one a node of the cloud
+  std::vector<double> inverse_row_sum_;  ///< D⁻¹
+  std::vector<double> correction_;       ///< 3 a contact node, scratch of apply()
+};
+
+}  // namespace brainshift::solve

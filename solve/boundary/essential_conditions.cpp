@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/boundary/essential_conditions.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr double smallest_pivot = 1e-10;  // of V M⁻¹ Vᵀ, relative to its largest
+
+Eigen::VectorXd component_of(const NodalVectors& vectors, int axis) {
+  using Stride = Eigen::InnerStride<4>;
+  return Eigen::Map<const Eigen::VectorXd, 0, Stride>(vectors.data() + axis,
+                                                      static_cast<Eigen::Index>(vectors.size() / 4));
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of_nodes(const ShapeRows& rows,
+                                                           const std::vector<std::int32_t>& nodes) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto node = static_cast<std::size_t>(nodes[i]);
+    for (std::int64_t k = rows.begin[node]; k < rows.begin[node + 1]; ++k) {
+      const auto pair = static_cast<std::size_t>(k);
+      entries.emplace_back(static_cast<int>(i), rows.node[pair], rows.value[pair]);
+    }
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor> shape(static_cast<Eigen::Index>(nodes.size()),
+                                                     static_cast<Eigen::Index>(rows.size()));
+  shape.setFromTriplets(entries.begin(), entries.end());
+  return shape;
+}
+
+}  // namespace
+
+EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Component& c = component_[static_cast<std::size_t>(axis)];
+    std::vector<double> values;
+    for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
+      const double value = prescribed(a, axis);
+      if (std::isinf(value)) {
+        throw std::invalid_argument("the prescribed displacement of node " + std::to_string(a) +
+                                    " is infinite; give millimetres, or NaN where it is free");
+      }
+      if (!std::isnan(value)) {
+        c.node.push_back(static_cast<std::int32_t>(a));
+        values.push_back(value);
+      }
+    }
+    c.shape = rows_of_nodes(nodal_rows, c.node);
+    c.prescribed = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    c.multiplier = Eigen::VectorXd::Zero(c.prescribed.size());
+  }
+}
+
+void EssentialConditions::factorise(std::span<const double> mass) {
+  inverse_mass_.resize(mass.size());
+  for (std::size_t a = 0; a < mass.size(); ++a) {
+    inverse_mass_[a] = 1 / mass[a];
+  }
+  const Eigen::Map<const Eigen::VectorXd> inverse(inverse_mass_.data(), static_cast<Eigen::Index>(mass.size()));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Component& c = component_[axis];
+    if (c.node.empty()) {
+      continue;
+    }
+    if (axis > 0 && c.node == component_[axis - 1].node) {
+      c.factor = component_[axis - 1].factor;
+      continue;
+    }
+    const Eigen::SparseMatrix<double> system = c.shape * inverse.asDiagonal() * c.shape.transpose();
+    c.factor = std::make_shared<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>(system);
+    Eigen::Index worst = 0;
+    const Eigen::VectorXd pivots = c.factor->vectorD();
+    if (!(c.factor->info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot * pivots.maxCoeff())) {
+      const auto at = static_cast<std::size_t>(c.factor->permutationPinv().indices()[worst]);
+      throw std::invalid_argument("the prescribed displacements contradict or repeat each other at node " +
+                                  std::to_string(c.node[at]) +
+                                  ": too many constrained nodes lie too near it; constrain fewer or add free nodes");
+    }
+  }
+}
+
+void EssentialConditions::apply(double fraction, NodalVectors& parameters) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Component& c = component_[static_cast<std::size_t>(axis)];
+    if (c.node.empty()) {
+      continue;
+    }
+    c.multiplier = c.factor->solve(fraction * c.prescribed - c.shape * component_of(parameters, axis));
+    for (Eigen::Index i = 0; i < c.shape.rows(); ++i) {
+      for (RowMatrix::InnerIterator entry(c.shape, i); entry; ++entry) {
+        const auto node = static_cast<std::size_t>(entry.col());
+        parameters[4 * node + static_cast<std::size_t>(axis)] += inverse_mass_[node] * entry.value() * c.multiplier[i];
+      }
+    }
+  }
+}
+
+Points EssentialConditions::reactions(double step_squared, std::size_t nodes) const {
+  Points forces = Points::Zero(static_cast<Eigen::Index>(nodes), 3);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Component& c = component_[static_cast<std::size_t>(axis)];
+    for (std::size_t i = 0; i < c.node.size(); ++i) {
+      forces(c.node[i], axis) = c.multiplier[static_cast<Eigen::Index>(i)] / step_squared;
+    }
+  }
+  return forces;
+}
+
+double EssentialConditions::largest_error(const NodalVectors& parameters) const {
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Component& c = component_[static_cast<std::size_t>(axis)];
+    if (!c.node.empty()) {
+      largest = std::max(largest, (c.shape * component_of(parameters, axis) - c.prescribed).cwiseAbs().maxCoeff());
+    }
+  }
+  return largest;
+}
+
+double EssentialConditions::multiplier_work() const {
+  double work = 0;
+  for (const Component& c : component_) {
+    work += c.multiplier.dot(c.prescribed);
+  }
+  return work;
+}
+
+std::size_t EssentialConditions::conditions() const {
+  return component_[0].node.size() + component_[1].node.size() + component_[2].node.size();
+}
+
+}  // namespace brainshift::solve

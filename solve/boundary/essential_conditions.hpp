@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "segmentation/surface/surface.hpp"
+#include "solve/dynamics/internal_force.hpp"
+#include "solve/shape/shape_functions.hpp"
+
+namespace brainshift::solve {
+
+/// Essential conditions on Σφû, EBCIEM (Joldes et al. 2017): after a step the parameters are projected onto V û = ū,
+///   û ← û + M⁻¹Vᵀ μ,  (V M⁻¹ Vᵀ) μ = ū − V û,
+/// with V the shape functions at the constrained nodes. The multipliers give the reaction forces.
+/// Each component (x, y, z) has its own constrained nodes.
+class EssentialConditions {
+ public:
+  /// prescribed (n × 3) mm, NaN: free. nodal_rows: shape functions at all nodes' positions. Throws
+  /// std::invalid_argument, naming the node, where a prescribed value is infinite.
+  EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows);
+
+  /// Factorises V M⁻¹ Vᵀ for nodal masses (one a node). Throws std::invalid_argument, naming a node, when it is
+  /// singular: two constrained nodes say the same.
+  void factorise(std::span<const double> mass);
+
+  /// Projects the parameters onto V û = fraction · ū. The multipliers are kept.
+  void apply(double fraction, NodalVectors& parameters);
+
+  /// Reaction forces at the nodes, (n × 3): the last multipliers over `step_squared` (the α of the time step), µN. Zero
+  /// at free components.
+  Points reactions(double step_squared, std::size_t nodes) const;
+
+  /// Largest |V û − ū| at full load, mm.
+  double largest_error(const NodalVectors& parameters) const;
+
+  /// Σ μ·ū over all conditions: the rate of work of the reactions by the load's fraction, times α.
+  double multiplier_work() const;
+
+  std::size_t conditions() const;
+  const std::vector<std::int32_t>& nodes(int component) const {
+    return component_[static_cast<std::size_t>(component)].node;
+  }
+
+ private:
+  using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  struct Component {
+    std::vector<std::int32_t> node;
+    RowMatrix shape;             ///< V, (conditions × nodes)
+    Eigen::VectorXd prescribed;  ///< ū, mm
+    Eigen::VectorXd multiplier;  ///< μ
+    std::shared_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> factor;
+  };
+  std::array<Component, 3> component_;
+  std::vector<double> inverse_mass_;
+};
+
+}  // namespace brainshift::solve

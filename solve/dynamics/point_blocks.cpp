@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/dynamics/point_blocks.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "solve/dynamics/space_filling.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr std::int32_t points_per_block =
+    512;  // a block's nodes, forces and derivatives stay in the second-level cache
+
+/// Points along the space-filling curve of their cells, the points of a cell side by side and sorted by material.
+std::vector<std::int32_t> point_order(const IntegrationPoints& points, std::span<const std::int32_t> material) {
+  const std::vector<std::int32_t> along_curve = space_filling_order(points.positions);
+  const std::int32_t cells = points.cell.empty() ? 0 : 1 + *std::max_element(points.cell.begin(), points.cell.end());
+  std::vector<std::int32_t> rank(static_cast<std::size_t>(cells), -1);
+  std::int32_t next = 0;
+  for (const std::int32_t p : along_curve) {
+    std::int32_t& r = rank[static_cast<std::size_t>(points.cell[static_cast<std::size_t>(p)])];
+    r = r < 0 ? next++ : r;
+  }
+  std::vector<std::int32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+    const auto i = static_cast<std::size_t>(a);
+    const auto j = static_cast<std::size_t>(b);
+    const std::int32_t ri = rank[static_cast<std::size_t>(points.cell[i])];
+    const std::int32_t rj = rank[static_cast<std::size_t>(points.cell[j])];
+    return ri != rj ? ri < rj : material[i] < material[j];
+  });
+  return order;
+}
+
+std::vector<Patch> group_patches(const IntegrationPoints& points, std::span<const std::int32_t> material,
+                                 const std::vector<std::int32_t>& order, bool shared_pressure) {
+  std::vector<Patch> patches;
+  std::int32_t last_cell = -1;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto p = static_cast<std::size_t>(order[k]);
+    const auto at = static_cast<std::int32_t>(k);
+    const bool same = shared_pressure && points.cell[p] == last_cell && patches.back().material == material[p];
+    if (!same) {
+      patches.push_back({at, at, material[p], 0});
+    }
+    patches.back().last_point = at + 1;
+    patches.back().volume += points.volume[p];
+    last_cell = points.cell[p];
+  }
+  return patches;
+}
+
+/// Copies the shape functions of a block's points, with its nodes numbered 0, 1, ... in the order of the nodes.
+void append_block(PointBlocks& out, const ShapeRows& rows, const std::vector<std::int32_t>& order, Block block,
+                  std::vector<std::int32_t>& slot_of_node) {
+  const std::int32_t first = out.patches[static_cast<std::size_t>(block.first_patch)].first_point;
+  const std::int32_t last = out.patches[static_cast<std::size_t>(block.last_patch - 1)].last_point;
+  std::vector<std::int32_t> nodes;
+  for (std::int32_t k = first; k < last; ++k) {
+    const auto p = static_cast<std::size_t>(order[static_cast<std::size_t>(k)]);
+    nodes.insert(nodes.end(), rows.node.begin() + rows.begin[p], rows.node.begin() + rows.begin[p + 1]);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    slot_of_node[static_cast<std::size_t>(nodes[s])] = static_cast<std::int32_t>(s);
+  }
+  block.first_slot = static_cast<std::int64_t>(out.slot_node.size());
+  block.slots = static_cast<std::int32_t>(nodes.size());
+  out.slot_node.insert(out.slot_node.end(), nodes.begin(), nodes.end());
+  for (std::int32_t k = first; k < last; ++k) {
+    const auto p = static_cast<std::size_t>(order[static_cast<std::size_t>(k)]);
+    for (std::int64_t pair = rows.begin[p]; pair < rows.begin[p + 1]; ++pair) {
+      const auto node = static_cast<std::size_t>(rows.node[static_cast<std::size_t>(pair)]);
+      out.pair_slot.push_back(static_cast<std::uint16_t>(slot_of_node[node]));
+    }
+    out.pair_derivative.insert(out.pair_derivative.end(), rows.derivative.begin() + 3 * rows.begin[p],
+                               rows.derivative.begin() + 3 * rows.begin[p + 1]);
+    out.pair_begin.push_back(static_cast<std::int64_t>(out.pair_slot.size()));
+  }
+  out.blocks.push_back(block);
+}
+
+void list_slots_of_nodes(PointBlocks& out, std::size_t nodes) {
+  out.node_begin.assign(nodes + 1, 0);
+  for (const std::int32_t node : out.slot_node) {
+    ++out.node_begin[static_cast<std::size_t>(node) + 1];
+  }
+  std::partial_sum(out.node_begin.begin(), out.node_begin.end(), out.node_begin.begin());
+  std::vector<std::int64_t> next(out.node_begin.begin(), out.node_begin.end() - 1);
+  out.node_slot.resize(out.slot_node.size());
+  for (std::size_t slot = 0; slot < out.slot_node.size(); ++slot) {
+    std::int64_t& at = next[static_cast<std::size_t>(out.slot_node[slot])];
+    out.node_slot[static_cast<std::size_t>(at++)] = static_cast<std::int32_t>(slot);
+  }
+}
+
+}  // namespace
+
+PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows, std::span<const std::int32_t> material,
+                         std::size_t nodes, bool shared_pressure) {
+  const std::vector<std::int32_t> order = point_order(points, material);
+  PointBlocks out;
+  out.patches = group_patches(points, material, order, shared_pressure);
+  out.pair_begin.push_back(0);
+  out.pair_slot.reserve(rows.node.size());
+  out.pair_derivative.reserve(rows.derivative.size());
+  for (const std::int32_t p : order) {
+    out.volume.push_back(points.volume[static_cast<std::size_t>(p)]);
+  }
+  std::vector<std::int32_t> slot_of_node(nodes, 0);
+  Block block{0, 0, 0, 0};
+  const auto patches = static_cast<std::int32_t>(out.patches.size());
+  for (std::int32_t i = 0; i < patches; ++i) {
+    block.last_patch = i + 1;
+    const std::int32_t first_point = out.patches[static_cast<std::size_t>(block.first_patch)].first_point;
+    if (i + 1 == patches || out.patches[static_cast<std::size_t>(i)].last_point - first_point >= points_per_block) {
+      append_block(out, rows, order, block, slot_of_node);
+      block.first_patch = i + 1;
+    }
+  }
+  list_slots_of_nodes(out, nodes);
+  return out;
+}
+
+}  // namespace brainshift::solve

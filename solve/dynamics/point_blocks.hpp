@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solve/quadrature/integration_points.hpp"
+#include "solve/shape/shape_functions.hpp"
+
+namespace brainshift::solve {
+
+/// The integration points that share one pressure (those of a background cell that are of one tissue) or, without mean
+/// dilatation, one point.
+struct Patch {
+  std::int32_t first_point, last_point;  ///< [first, last)
+  std::int32_t material;                 ///< row of the material table
+  double volume;                         ///< Σ w, mm³
+};
+
+/// A few hundred consecutive points, handled by one thread at a time with its nodes gathered side by side. The division
+/// into blocks does not depend on the number of threads, and the blocks' forces are added in their order: so results
+/// are the same bit for bit.
+struct Block {
+  std::int32_t first_patch, last_patch;  ///< [first, last)
+  std::int64_t first_slot;               ///< of its local nodes in slot_node
+  std::int32_t slots;                    ///< local nodes
+};
+
+/// What stepping reads, in the order in which it reads it: prepared once, never changed.
+struct PointBlocks {
+  std::vector<Block> blocks;
+  std::vector<Patch> patches;
+  std::vector<double> volume;            ///< one a point, mm³
+  std::vector<std::int64_t> pair_begin;  ///< (points + 1)
+  std::vector<std::uint16_t> pair_slot;  ///< one a (point, node) pair: local node of the block
+  std::vector<double> pair_derivative;   ///< (pairs × 3) ∂φ_a/∂X_J, 1/mm
+  std::vector<std::int32_t> slot_node;   ///< one a slot: node
+  std::vector<std::int64_t> node_begin;  ///< (nodes + 1) offsets into node_slot
+  std::vector<std::int32_t> node_slot;   ///< the slots of a node, in block order
+
+  std::size_t points() const { return volume.size(); }
+  std::size_t nodes() const { return node_begin.size() - 1; }
+  std::size_t slots() const { return slot_node.size(); }
+  std::span<const std::uint16_t> slots_of(std::int32_t point) const {
+    return std::span(pair_slot).subspan(static_cast<std::size_t>(pair_begin[static_cast<std::size_t>(point)]),
+                                        support_size(point));
+  }
+  std::size_t support_size(std::int32_t point) const {
+    const auto p = static_cast<std::size_t>(point);
+    return static_cast<std::size_t>(pair_begin[p + 1] - pair_begin[p]);
+  }
+  /// (support × 3) derivatives of a point's shape functions.
+  const double* derivatives_of(std::int32_t point) const {
+    return pair_derivative.data() + 3 * pair_begin[static_cast<std::size_t>(point)];
+  }
+};
+
+/// Lays out points and their shape functions. material: row of the material table, one a point. Points are taken in an
+/// order near in space; shared_pressure groups the points of a cell and tissue into one patch.
+PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows, std::span<const std::int32_t> material,
+                         std::size_t nodes, bool shared_pressure);
+
+}  // namespace brainshift::solve

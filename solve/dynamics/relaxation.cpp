@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/dynamics/relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "solve/boundary/load_curve.hpp"
+#include "solve/dynamics/nodal_mass.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr int window = 20;            // steps between looks at the state
+constexpr double mass_margin = 1.1;   // tangents may grow by this before the masses are made anew
+constexpr double energy_unit = 1e-6;  // g mm²/s² to mJ
+constexpr std::int64_t chunk = 2048;  // nodes summed at a time: sums do not depend on the number of threads
+
+/// Sums term(node) over the nodes, in an order that does not depend on the number of threads.
+template <class Term>
+double sum_over_nodes(std::size_t nodes, const Term& term) {
+  const std::int64_t chunks = (static_cast<std::int64_t>(nodes) + chunk - 1) / chunk;
+  std::vector<double> partial(static_cast<std::size_t>(chunks), 0.0);
+#pragma omp parallel for schedule(static)
+  for (std::int64_t c = 0; c < chunks; ++c) {
+    const auto end = std::min(static_cast<std::size_t>((c + 1) * chunk), nodes);
+    for (auto a = static_cast<std::size_t>(c * chunk); a < end; ++a) {
+      partial[static_cast<std::size_t>(c)] += term(a);
+    }
+  }
+  double sum = 0;
+  for (const double p : partial) {
+    sum += p;
+  }
+  return sum;
+}
+
+Eigen::Map<const Eigen::Vector4d> at(const NodalVectors& v, std::size_t node) {
+  return Eigen::Map<const Eigen::Vector4d>(v.data() + 4 * node);
+}
+
+/// Step size and damping of the fastest decay between the lowest and the highest eigenvalue of M⁻¹K.
+struct Pace {
+  double alpha;
+  double beta;
+  explicit Pace(double lowest) {
+    const double root = std::sqrt(lowest);
+    alpha = 4 / ((1 + root) * (1 + root));
+    beta = (1 - root) / (1 + root) * ((1 - root) / (1 + root));
+  }
+};
+
+class Relaxation {
+ public:
+  Relaxation(const System& system, const SolveOptions& options)
+      : system_(system),
+        options_(options),
+        nodes_(system.points.nodes()),
+        scratch_(system.points),
+        now_(4 * nodes_, 0.0),
+        before_(now_),
+        next_(now_),
+        force_(now_),
+        force_before_(now_),
+        load_steps_(options.load_steps > 0 ? options.load_steps : 400) {
+    internal_force(system_.points, system_.laws, now_, scratch_, force_);
+    moduli_ = tangent_moduli(system_.points, system_.laws, scratch_);
+    for (double& m : moduli_) {
+      m *= mass_margin;
+    }
+    set_masses();
+  }
+
+  RelaxationResult run(const Progress& progress) {
+    while (result_.failure.empty() && result_.steps < options_.max_steps) {
+      step(std::min(1.0, static_cast<double>(result_.steps + 1) / load_steps_));
+      if (result_.steps % window == 0) {
+        look();
+        report_progress(progress);
+        if (fraction_ >= 1 && bound_ <= options_.tolerance && calm_windows_ >= 3) {
+          return finish();
+        }
+      }
+    }
+    if (result_.failure.empty()) {
+      std::ostringstream text;
+      text << "not converged after " << result_.steps << " steps: the error bound is " << bound_ << " mm, wanted "
+           << options_.tolerance << " mm; allow more steps or a larger tolerance";
+      result_.failure = text.str();
+    }
+    return finish();
+  }
+
+ private:
+  void set_masses() {
+    mass_ = relaxation_mass(system_.points, moduli_);
+    system_.essential.factorise(mass_);
+    if (system_.contact) {
+      system_.contact->weigh(mass_);
+    }
+  }
+
+  void step(double time) {
+    if (result_.steps % window == window - 1) {
+      std::swap(force_, force_before_);
+    }
+    internal_force(system_.points, system_.laws, now_, scratch_, force_);
+    const Pace pace(lowest_);
+    const auto nodes = static_cast<std::int64_t>(nodes_);
+#pragma omp parallel for schedule(static)
+    for (std::int64_t i = 0; i < nodes; ++i) {
+      const auto a = static_cast<std::size_t>(i);
+      Eigen::Map<Eigen::Vector4d>(next_.data() + 4 * a) =
+          at(now_, a) + pace.beta * (at(now_, a) - at(before_, a)) - pace.alpha / mass_[a] * at(force_, a);
+    }
+    if (system_.contact) {
+      system_.contact->apply(next_);
+    }
+    const double fraction = smooth_load(time);
+    system_.essential.apply(fraction, next_);
+    add_external_work(fraction, pace.alpha);
+    std::swap(before_, now_);
+    std::swap(now_, next_);
+    alpha_ = pace.alpha;
+    ++result_.steps;
+  }
+
+  /// Reactions times the displacement they were moved through, by the trapezoidal rule.
+  void add_external_work(double fraction, double alpha) {
+    const double rate = system_.essential.multiplier_work() / alpha;
+    external_work_ += (fraction - fraction_) * (rate + work_rate_) / 2;
+    work_rate_ = rate;
+    fraction_ = fraction;
+  }
+
+  /// Once a window: is the state sound, how far is it from rest, how fast does it get there?
+  void look() {
+    const PointState state = point_state(system_.points, system_.laws, scratch_);
+    const double motion = largest_motion();
+    if (!sound(state, motion)) {
+      return;
+    }
+    result_.state = state;
+    good_ = now_;
+    estimate_lowest_eigenvalue();
+    estimate_error(motion);
+    record();
+    const int windows = result_.steps / window;
+    if (windows % (fraction_ < 1 ? 3 : 10) == 0) {
+      follow_tangents();
+    }
+  }
+
+  double largest_motion() const {
+    double largest = 0;
+    for (std::size_t i = 0; i < now_.size(); ++i) {
+      const double moved = std::abs(now_[i] - before_[i]);
+      largest = moved <= largest ? largest : moved;  // a NaN stays
+    }
+    return largest;
+  }
+
+  bool sound(const PointState& state, double motion) {
+    if (std::isfinite(motion) && state.smallest_jacobian > 0) {
+      return true;
+    }
+    std::ostringstream text;
+    text << "unstable at step " << result_.steps << " with " << 100 * fraction_ << " % of the load: ";
+    if (std::isfinite(motion)) {
+      text << "an integration point turned inside out (J = " << state.smallest_jacobian << ")";
+    } else {
+      text << "displacements are no longer finite";
+    }
+    text << "; the load is too large for this cloud, or a material too soft beside its neighbour";
+    result_.failure = text.str();
+    return false;
+  }
+
+  /// A_0 from the last increments: before_ and force_ are one step after next_ and force_before_.
+  void estimate_lowest_eigenvalue() {
+    const double stiffness = sum_over_nodes(nodes_, [this](std::size_t a) {
+      return (at(before_, a) - at(next_, a)).dot(at(force_, a) - at(force_before_, a));
+    });
+    const double inertia = sum_over_nodes(
+        nodes_, [this](std::size_t a) { return mass_[a] * (at(before_, a) - at(next_, a)).squaredNorm(); });
+    if (inertia > 0 && stiffness > 0) {
+      lowest_ = std::clamp(stiffness / inertia, smallest_eigenvalue, largest_eigenvalue);
+    }
+  }
+
+  void estimate_error(double motion) {
+    motions_.push_back(motion);
+    bound_ = std::numeric_limits<double>::infinity();
+    constexpr std::size_t span = 3;
+    if (motions_.size() <= span || fraction_ < 1) {
+      return;
+    }
+    const double earlier = motions_[motions_.size() - 1 - span];
+    const double measured = motion > 0 ? std::pow(motion / earlier, 1.0 / (span * window)) : 0.0;
+    const double rate = std::max(measured, std::sqrt(Pace(lowest_).beta));
+    bound_ = rate < 1 ? rate / (1 - rate) * motion : bound_;
+    calm_windows_ = bound_ <= options_.tolerance ? calm_windows_ + 1 : 0;
+  }
+
+  void record() {
+    const Pace pace(lowest_);
+    const double squared_residual = sum_over_nodes(nodes_, [&](std::size_t a) {
+      const Eigen::Vector4d push = at(now_, a) - at(before_, a) - pace.beta * (at(before_, a) - at(next_, a));
+      return (mass_[a] / alpha_ * push).squaredNorm();
+    });
+    const double squared_force = sum_over_nodes(nodes_, [this](std::size_t a) { return at(force_, a).squaredNorm(); });
+    const double inertia = sum_over_nodes(
+        nodes_, [this](std::size_t a) { return mass_[a] * (at(now_, a) - at(before_, a)).squaredNorm(); });
+    HistoryRow row;
+    row.step = result_.steps;
+    row.time = std::min(1.0, static_cast<double>(result_.steps) / load_steps_);
+    row.external_work = external_work_ * energy_unit;
+    row.strain_energy = result_.state.strain_energy * energy_unit;
+    row.kinetic_energy = inertia * (1 + pace.beta) / (4 * pace.alpha) * energy_unit;
+    row.residual = squared_force > 0 ? std::sqrt(squared_residual / squared_force) : 0;
+    row.error_bound = bound_;
+    result_.history.push_back(row);
+  }
+
+  /// Makes the masses anew when a point has become stiffer than they allow for.
+  void follow_tangents() {
+    const std::vector<double> reached = tangent_moduli(system_.points, system_.laws, scratch_);
+    bool stiffer = false;
+    for (std::size_t p = 0; p < reached.size(); ++p) {
+      stiffer = stiffer || reached[p] > moduli_[p];
+    }
+    if (stiffer) {
+      for (std::size_t p = 0; p < reached.size(); ++p) {
+        moduli_[p] = std::max(moduli_[p], mass_margin * reached[p]);
+      }
+      set_masses();
+    }
+  }
+
+  void report_progress(const Progress& progress) const {
+    std::ostringstream text;
+    text << "step " << result_.steps;
+    double done = 0.3 * fraction_;
+    if (std::isfinite(bound_)) {
+      text << ", error bound " << bound_ << " mm";
+      const double decades = std::log10(std::max(bound_ / options_.tolerance, 1.0));
+      done = 1 - 0.7 * std::min(decades / 3, 1.0);
+    }
+    report(progress, done, text.str());
+  }
+
+  RelaxationResult finish() {
+    result_.error_bound = bound_;
+    result_.parameters = result_.failure.empty() || good_.empty() ? now_ : good_;
+    result_.reactions = system_.essential.reactions(alpha_, nodes_);
+    return std::move(result_);
+  }
+
+  static constexpr double smallest_eigenvalue = 1e-8;
+  static constexpr double largest_eigenvalue = 0.25;
+
+  const System& system_;
+  const SolveOptions& options_;
+  std::size_t nodes_;
+  ForceScratch scratch_;
+  NodalVectors now_, before_, next_, force_, force_before_, good_;
+  std::vector<double> moduli_, mass_, motions_;
+  double lowest_ = 1e-4;  // A_0: a guess until there are increments
+  double alpha_ = 1;
+  double fraction_ = 0;  // of the load
+  double work_rate_ = 0;
+  double external_work_ = 0;
+  double bound_ = std::numeric_limits<double>::infinity();
+  int calm_windows_ = 0;
+  int load_steps_;
+  RelaxationResult result_;
+};
+
+}  // namespace
+
+RelaxationResult relax(const System& system, const SolveOptions& options, const Progress& progress) {
+  return Relaxation(system, options).run(progress);
+}
+
+}  // namespace brainshift::solve

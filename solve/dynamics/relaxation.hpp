@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "segmentation/progress.hpp"
+#include "solve/boundary/contact.hpp"
+#include "solve/boundary/essential_conditions.hpp"
+#include "solve/dynamics/internal_force.hpp"
+#include "solve/solve.hpp"
+
+namespace brainshift::solve {
+
+/// What dynamic relaxation moves: points and laws that resist, conditions that hold. contact may be null: then nothing
+/// is stepped over.
+struct System {
+  const PointBlocks& points;
+  std::span<const NeoHookean> laws;
+  EssentialConditions& essential;
+  Contact* contact;
+};
+
+struct RelaxationResult {
+  NodalVectors parameters;          ///< û of the last good state, mm
+  Points reactions = Points(0, 3);  ///< µN
+  std::vector<HistoryRow> history;
+  PointState state;
+  int steps = 0;
+  double error_bound = 0;  ///< mm
+  std::string failure;     ///< empty when converged
+};
+
+/// Adaptive dynamic relaxation (Joldes, Wittek & Miller 2011) to the steady state under the full load. Steps by
+///   û⁺ = û + β(û − û⁻) − α M⁻¹ f_int,  then contact, then the essential conditions,
+/// with masses that give every point the same critical step, α = 4/(√A_m + √A_0)², β = ((√A_m − √A_0)/(√A_m + √A_0))²,
+/// A_m = 1 by the choice of masses and A_0 the lowest active eigenvalue, estimated from the increments: A_0 ≈
+/// ΔûᵀΔf/(ΔûᵀMΔû). Masses follow the tangents of the state reached. Stops when the bound of the remaining error, ρ/(1 −
+/// ρ) |û⁺ − û|∞ with the measured rate ρ, is below the tolerance.
+RelaxationResult relax(const System& system, const SolveOptions& options, const Progress& progress);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/quadrature/integration_points.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace brainshift::solve {
+
+namespace {
+
+using Corners = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, 8, 3>;
+
+struct WeightedPoint {
+  Eigen::Vector3d position;
+  double volume;
+};
+
+Corners corners_of(const BackgroundCells& cells, std::size_t cell) {
+  const int n = cells.corners();
+  Corners corners(n, 3);
+  for (int i = 0; i < n; ++i) {
+    corners.row(i) =
+        cells.vertices.row(cells.connectivity[cell * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)]);
+  }
+  return corners;
+}
+
+/// Trilinear map of the hexahedron (VTK's corner order) at local coordinates in [-1, 1]³, and its volume ratio.
+WeightedPoint hexahedron_point(const Corners& corners, const Eigen::Vector3d& xi, double weight) {
+  constexpr std::array<std::array<double, 3>, 8> sign = {
+      {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 8; ++i) {
+    const auto& s = sign[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d factor(1 + s[0] * xi[0], 1 + s[1] * xi[1], 1 + s[2] * xi[2]);
+    const Eigen::Vector3d corner = corners.row(i);
+    x += factor.prod() / 8 * corner;
+    jacobian +=
+        corner / 8 *
+        Eigen::RowVector3d(s[0] * factor[1] * factor[2], s[1] * factor[0] * factor[2], s[2] * factor[0] * factor[1]);
+  }
+  return {x, weight * jacobian.determinant()};
+}
+
+void whole_hexahedron(const Corners& corners, int points, std::vector<WeightedPoint>& out) {
+  if (points == 1) {
+    out.push_back(hexahedron_point(corners, Eigen::Vector3d::Zero(), 8.0));
+    return;
+  }
+  const double g = 1 / std::sqrt(3.0);
+  for (int octant = 0; octant < 8; ++octant) {
+    const Eigen::Vector3d xi((octant & 1) ? g : -g, (octant & 2) ? g : -g, (octant & 4) ? g : -g);
+    out.push_back(hexahedron_point(corners, xi, 1.0));
+  }
+}
+
+void cut_hexahedron(const InsideOctants& part, int points, std::vector<WeightedPoint>& out) {
+  WeightedPoint whole{Eigen::Vector3d::Zero(), 0};
+  for (std::size_t octant = 0; octant < 8; ++octant) {
+    const double v = part.volume[octant];
+    if (v > 0) {
+      const Eigen::Vector3d centroid(part.centroid[octant]);
+      whole.position += v * centroid;
+      whole.volume += v;
+      if (points == 8) {
+        out.push_back({centroid, v});
+      }
+    }
+  }
+  if (points == 1) {
+    out.push_back({whole.position / whole.volume, whole.volume});
+  }
+}
+
+void whole_tetrahedron(const Corners& corners, int points, std::vector<WeightedPoint>& out) {
+  const Eigen::Vector3d centre = corners.colwise().mean();
+  const Eigen::Matrix3d edges = corners.bottomRows<3>().rowwise() - corners.row(0);
+  const double volume = edges.determinant() / 6;
+  if (points == 1) {
+    out.push_back({centre, volume});
+    return;
+  }
+  const double towards_corner = 1 / std::sqrt(5.0);  // barycentric (5 + 3√5)/20 and (5 − √5)/20: exact for quadratics
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d corner = corners.row(i);
+    out.push_back({centre + towards_corner * (corner - centre), volume / 4});
+  }
+}
+
+void append_points(const BackgroundCells& cells, std::size_t cell, int points, std::vector<WeightedPoint>& out) {
+  const std::int32_t cut = cells.cut_index.empty() ? -1 : cells.cut_index[cell];
+  if (cells.kind == CellKind::hexahedron && cut >= 0) {
+    cut_hexahedron(cells.cut_parts[static_cast<std::size_t>(cut)], points, out);
+    return;
+  }
+  const std::size_t first = out.size();
+  const Corners corners = corners_of(cells, cell);
+  if (cells.kind == CellKind::hexahedron) {
+    whole_hexahedron(corners, points, out);
+  } else {
+    whole_tetrahedron(corners, points, out);
+  }
+  for (std::size_t i = first; i < out.size(); ++i) {
+    out[i].volume *= cells.inside_fraction[cell];
+  }
+}
+
+void check_points_per_cell(CellKind kind, int points) {
+  const int many = kind == CellKind::hexahedron ? 8 : 4;
+  if (points != 1 && points != many) {
+    throw std::invalid_argument("points per cell is " + std::to_string(points) + ", but these cells take 1 or " +
+                                std::to_string(many));
+  }
+}
+
+}  // namespace
+
+IntegrationPoints integration_points(const BackgroundCells& cells, int points_per_cell, const LabelMap* labels,
+                                     const std::vector<std::int32_t>& tissues) {
+  check_points_per_cell(cells.kind, points_per_cell);
+  std::vector<WeightedPoint> points;
+  IntegrationPoints result;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    append_points(cells, cell, points_per_cell, points);
+    result.cell.resize(points.size(), static_cast<std::int32_t>(cell));
+  }
+  result.positions.resize(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    result.positions.row(static_cast<Eigen::Index>(i)) = points[i].position;
+    result.volume.push_back(points[i].volume);
+    const std::int32_t at_point = labels ? label_at(*labels, points[i].position) : 0;
+    const bool known = std::find(tissues.begin(), tissues.end(), at_point) != tissues.end();
+    result.labelled_by_cell += labels && !known ? 1 : 0;
+    result.label.push_back(known ? at_point : cells.label[static_cast<std::size_t>(result.cell[i])]);
+  }
+  return result;
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <span>
+
+#include "segmentation/surface/surface.hpp"
+#include "solve/shape/shape_options.hpp"
+#include "solve/shape/support_search.hpp"
+
+namespace brainshift::solve {
+
+/// The m monomials (4 or 10) at ξ, in the order 1 x y z xy xz yz x² y² z² (eq 2).
+template <int m>
+Eigen::Matrix<double, m, 1> monomials(const Eigen::Vector3d& xi) {
+  Eigen::Matrix<double, m, 1> p;
+  p.template head<4>() << 1, xi.x(), xi.y(), xi.z();
+  if constexpr (m == 10) {
+    p.template tail<6>() << xi.x() * xi.y(), xi.x() * xi.z(), xi.y() * xi.z(), xi.x() * xi.x(), xi.y() * xi.y(),
+        xi.z() * xi.z();
+  }
+  return p;
+}
+
+/// Quartic spline weight on d = distance / radius ≤ 1 and its derivative by d, divided by d (finite at d = 0).
+struct QuarticSpline {
+  double value;
+  double slope_over_d;
+  explicit QuarticSpline(double d) : value(1 + d * d * (-6 + d * (8 - 3 * d))), slope_over_d(-12 + d * (24 - 12 * d)) {}
+};
+
+/// One evaluation of (modified) moving least squares at a point, eqs 1-15, in local scaled coordinates ξ = (X_a − x)/r:
+/// there p(x) is the first unit vector, and the moment matrix is well conditioned in any unit and at any offset.
+template <int m>
+class MovingLeastSquares {
+ public:
+  using Vector = Eigen::Matrix<double, m, 1>;
+  using Matrix = Eigen::Matrix<double, m, m>;
+
+  /// Builds the moment matrix at x; false where the support does not determine the basis. penalty: µ of MMLS on the
+  /// quadratic coefficients, 0 for plain MLS.
+  bool build(const Eigen::Vector3d& x, std::span<const Supporter> support, const Points& positions,
+             std::span<const double> radius, double scale, double penalty) {
+    count_ = static_cast<int>(support.size());
+    if (count_ < (penalty > 0 ? 4 : m)) {
+      return false;
+    }
+    basis_.resize(m, count_);
+    weight_.resize(count_);
+    weight_gradient_.resize(3, count_);
+    length_ = 0;
+    for (const Supporter& s : support) {
+      length_ = std::max(length_, scale * radius[static_cast<std::size_t>(s.node)]);
+    }
+    moment_.setZero();
+    for (int a = 0; a < count_; ++a) {
+      const Supporter& s = support[static_cast<std::size_t>(a)];
+      const double r = scale * radius[static_cast<std::size_t>(s.node)];
+      const Eigen::Vector3d away = positions.row(s.node).transpose() - x;
+      const QuarticSpline w(s.distance / r);
+      basis_.col(a) = monomials<m>(away / length_);
+      weight_[a] = w.value;
+      weight_gradient_.col(a) = -w.slope_over_d / (r * r) * away;
+      moment_.template selfadjointView<Eigen::Lower>().rankUpdate(basis_.col(a), w.value);
+    }
+    return factorise(penalty);
+  }
+
+  /// φ_a(x), into values[0..count).
+  void values(std::span<double> phi) {
+    coefficients_ = factor_.solve(Vector::Unit(0));
+    for (int a = 0; a < count_; ++a) {
+      phi[static_cast<std::size_t>(a)] = weight_[a] * coefficients_.dot(basis_.col(a));
+    }
+  }
+
+  /// ∂φ_a/∂x_J, 1/mm, into gradient[3a + J]. Call values() first.
+  void gradients(Derivatives kind, std::span<double> gradient) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vector right = Vector::Unit(1 + axis) / length_;
+      if (kind == Derivatives::full) {
+        for (int a = 0; a < count_; ++a) {
+          right -= weight_gradient_(axis, a) * coefficients_.dot(basis_.col(a)) * basis_.col(a);
+        }
+      }
+      const Vector slope = factor_.solve(right);
+      for (int a = 0; a < count_; ++a) {
+        double g = weight_[a] * slope.dot(basis_.col(a));
+        if (kind == Derivatives::full) {
+          g += weight_gradient_(axis, a) * coefficients_.dot(basis_.col(a));
+        }
+        gradient[static_cast<std::size_t>(3 * a + axis)] = g;
+      }
+    }
+  }
+
+ private:
+  /// A support is admissible when the part of the basis that nothing else holds is determined: the linear part for
+  /// MMLS, all of it for MLS. Pivots are relative to the sum of the weights; on good clouds they are near 0.05 (linear)
+  /// and 1e-3 (quadratic).
+  bool factorise(double penalty) {
+    const double total = weight_.sum();
+    const Eigen::Matrix4d linear = moment_.template topLeftCorner<4, 4>() / total;
+    if (!well_determined<4>(linear, 2e-3)) {
+      return false;
+    }
+    if constexpr (m == 10) {
+      if (penalty > 0) {
+        moment_.diagonal().template tail<6>().array() += penalty;
+      } else if (!well_determined<10>(moment_ / total, 1e-6)) {
+        return false;
+      }
+    }
+    factor_.compute(moment_);
+    return factor_.info() == Eigen::Success;
+  }
+
+  template <int k>
+  static bool well_determined(const Eigen::Matrix<double, k, k>& lower, double smallest_pivot) {
+    const Eigen::LLT<Eigen::Matrix<double, k, k>> cholesky(lower);
+    return cholesky.info() == Eigen::Success &&
+           cholesky.matrixLLT().diagonal().array().square().minCoeff() > smallest_pivot;
+  }
+
+  int count_ = 0;
+  double length_ = 0;
+  Eigen::Matrix<double, m, Eigen::Dynamic> basis_;
+  Eigen::VectorXd weight_;
+  Eigen::Matrix3Xd weight_gradient_;
+  Matrix moment_;
+  Eigen::LLT<Matrix> factor_;
+  Vector coefficients_;
+};
+
+}  // namespace brainshift::solve
