@@ -1,48 +1,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
-#include <vector>
 
 #include "discretise/node_cloud.hpp"
 #include "segmentation/surface/surface.hpp"
 
 namespace brainshift::solve {
 
-/// Displacements measured on the exposed cortex.
+/// Displacements measured on the exposed cortex; one row a point.
 struct CraniotomyLoad {
   Points positions;     ///< preop, mm, LPS
-  Points displacement;  ///< to intraop, mm
+  Points displacement;  ///< to intraop, mm, LPS
 };
 
-/// Reads `x,y,z,ux,uy,uz` (mm). The header line is required; the frame is named by a comment line before it, "# frame:
-/// LPS" or "# frame: RAS". Throws std::invalid_argument with file and line where a line does not parse, is not finite,
-/// the frame is not named, or nothing is measured.
+/// Reads `x,y,z,ux,uy,uz` (mm). That header line is required; a comment line before it names the frame, "# frame: LPS"
+/// or "# frame: RAS" (converted). Throws std::invalid_argument with file and line where a line does not parse or is not
+/// finite, or the frame is not named; with the file where it cannot be read or holds no measurement.
 CraniotomyLoad read_craniotomy_csv(const std::filesystem::path& file);
+
+/// Writes the same, in LPS; numbers survive unchanged. Throws std::runtime_error when it cannot be written whole.
 void write_craniotomy_csv(const std::filesystem::path& file, const CraniotomyLoad& load);
 
-/// Two 3D Slicer markups of the same points, before and after (.mrk.json or .fcsv, RAS or LPS as the file says),
-/// matched by label, else by order.
+/// Two 3D Slicer markups of the same points, before and after (.mrk.json or .fcsv, RAS or LPS as the file says, an
+/// error if it does not). Matched by label where the two name the same points; by order where they share no label and
+/// are equally many. Throws std::invalid_argument, naming file and point, otherwise.
 CraniotomyLoad read_markups(const std::filesystem::path& before, const std::filesystem::path& after);
 
-/// Markup positions alone (landmarks), (n × 3) mm LPS.
+/// Markup positions alone (landmarks), (n × 3) mm LPS, in the file's order.
 Points read_markup_positions(const std::filesystem::path& file);
 
-/// Two surfaces of the exposed cortex: the displacement at the vertices of `before` is to the nearest place of `after`,
-/// smoothed over the surface (the nearest place alone slides and folds; limits in the README).
+/// Two surfaces of the exposed cortex: displacements at the vertices of `before` that lay it on `after`, by smooth
+/// non-rigid registration (nearest places along normals, the smoothing relaxed step by step; Amberg et al. 2007).
+/// Limits: movement along the surface is not seen, only smoothed; places whose partner lies past the rim of `after`
+/// take their neighbours' movement. Throws std::invalid_argument on an empty or non-finite surface, and where the two
+/// are farther apart than a brain shifts (20 mm in the median).
 CraniotomyLoad load_from_surfaces(const Surface& before, const Surface& after);
 
+/// An opening in the skull and how far the brain sinks in it: a simulation, for demonstration and tests where nothing
+/// was measured.
+struct SimulatedCraniotomy {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mm, LPS; the nearest place of the brain's surface is taken
+  double radius = 28.0;                              ///< mm, in the plane of the opening
+  double depth = 8.0;                                ///< displacement at the centre, mm
+};
+
+/// What might be measured in such an opening: the brain surface's vertices under it, displaced along the opening's mean
+/// inward normal by `depth` at the centre, falling smoothly to a twentieth of it at the rim (measured shifts are
+/// largest amid the opening and 0-1 mm at its rim). Throws std::invalid_argument on a radius or depth that is not
+/// positive and finite, and when fewer than three vertices lie under the opening.
+CraniotomyLoad simulated_craniotomy(const Surface& brain, const SimulatedCraniotomy& opening);
+
 struct OpeningOptions {
-  double margin = -1;      ///< how far past the outermost measured points the opening reaches, mm; negative: half their
-                           ///< median distance to each other
+  /// How far past the outermost measured points the opening reaches, mm. Negative: half the median distance from a
+  /// point to its nearest neighbour, 5 mm at most (a single point: the spacing of the nearest node).
+  double margin = -1;
+  double depth = 10.0;     ///< a node this far above or below the measured surface is not under the opening, mm
   double farthest = 20.0;  ///< a measured point farther than this from any surface node is an error, mm
 };
 
 /// Extends the measured displacements to the surface nodes under the opening: those whose projection on the best-fit
 /// plane of the measured points lies in their convex hull widened by the margin, and that are near them in depth too.
-/// All other components stay free (NaN). Returns (n × 3), one row a node. Throws std::invalid_argument, with the
-/// distance and the point, on a point too far from the surface (a wrong frame, most often: says so if flipping x and y
-/// would bring it near), and when no node is loaded.
+/// All other components stay free (NaN). Between the points by thin-plate splines of the nearest ones, kept within the
+/// measured values by a tenth of their range. Returns (n × 3) mm, one row a node. Throws std::invalid_argument on no
+/// measured point or one that is not finite; with the distance and the point, on one too far from the surface (a wrong
+/// frame, most often: says so if flipping x and y would bring it near); and when no node is loaded.
 Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load,
                                    const OpeningOptions& options = {});
 

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "solve/load/extension.hpp"
+
+namespace brainshift::solve {
+
+/// Corners of the convex hull of points in a plane, counter-clockwise, none repeated; two for collinear points, one for
+/// a single place (Andrew 1979).
+std::vector<Eigen::Vector2d> convex_hull(const PlanePoints& points);
+
+/// Distance of a place to a convex polygon with these corners, 0 inside it.
+double distance_to_hull(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& place);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "solve/load/convex_hull.hpp"
+#include "solve/load/craniotomy_load.hpp"
+#include "solve/load/extension.hpp"
+
+namespace brainshift::solve {
+namespace {
+
+constexpr double widest_default_margin = 5.0;
+
+void check_load(const CraniotomyLoad& load) {
+  if (load.positions.rows() == 0 || load.positions.rows() != load.displacement.rows()) {
+    throw std::invalid_argument("load: no displacement is measured, or not one at each position");
+  }
+  for (Eigen::Index p = 0; p < load.positions.rows(); ++p) {
+    if (!load.positions.row(p).allFinite() || !load.displacement.row(p).allFinite()) {
+      throw std::invalid_argument("load: measured point " + std::to_string(p + 1) + " is not finite");
+    }
+  }
+}
+
+std::vector<Eigen::Index> surface_nodes(const NodeCloud& cloud) {
+  std::vector<Eigen::Index> nodes;
+  for (std::size_t n = 0; n < cloud.size(); ++n) {
+    if (cloud.on_surface[n] != 0) {
+      nodes.push_back(static_cast<Eigen::Index>(n));
+    }
+  }
+  if (nodes.empty()) {
+    throw std::invalid_argument("load: the cloud has no surface node (on_surface is 0 everywhere) to carry a load");
+  }
+  return nodes;
+}
+
+struct Neighbour {
+  Eigen::Index row;
+  double distance;
+};
+
+Neighbour nearest_row(const Points& points, const Eigen::RowVector3d& place) {
+  Eigen::Index row = 0;
+  const double squared = (points.rowwise() - place).rowwise().squaredNorm().minCoeff(&row);
+  return {row, std::sqrt(squared)};
+}
+
+/// The measured point that lies farthest from any surface node.
+Neighbour farthest_point(const Points& measured, const Points& surface) {
+  Neighbour farthest{0, 0};
+  for (Eigen::Index p = 0; p < measured.rows(); ++p) {
+    const double distance = nearest_row(surface, measured.row(p)).distance;
+    if (distance > farthest.distance) {
+      farthest = {p, distance};
+    }
+  }
+  return farthest;
+}
+
+std::string rounded(double number) {
+  const std::string text = std::to_string(number);
+  return text.substr(0, text.find('.') + 2);
+}
+
+void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed) {
+  const Neighbour worst = farthest_point(measured, surface);
+  if (worst.distance <= farthest_allowed) {
+    return;
+  }
+  const Eigen::RowVector3d p = measured.row(worst.row);
+  Points flipped = measured;
+  flipped.leftCols(2) *= -1;
+  const double distance_flipped = farthest_point(flipped, surface).distance;
+  std::string hint = "are image and load in the same frame?";
+  if (distance_flipped <= farthest_allowed) {
+    hint = "with x and y flipped all points lie within " + rounded(distance_flipped) +
+           " mm: RAS was most likely taken for LPS, or LPS for RAS";
+  }
+  throw std::invalid_argument(
+      "load: measured point " + std::to_string(worst.row + 1) + " of " + std::to_string(measured.rows()) + " at (" +
+      rounded(p.x()) + ", " + rounded(p.y()) + ", " + rounded(p.z()) + ") LPS is " + rounded(worst.distance) +
+      " mm from the nearest surface node, " + rounded(farthest_allowed) + " mm are allowed; " + hint);
+}
+
+/// A plane with two axes in it and its normal.
+struct Plane {
+  Eigen::RowVector3d origin;
+  Eigen::Matrix3d axes;  ///< columns: wide, narrow, normal
+
+  Points local(const Points& points) const { return (points.rowwise() - origin) * axes; }
+};
+
+Plane best_fit_plane(const Points& points) {
+  const Eigen::RowVector3d centre = points.colwise().mean();
+  const Points about = points.rowwise() - centre;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(about.transpose() * about);
+  return {centre, spread.eigenvectors().rowwise().reverse()};
+}
+
+/// The plane of the measured points; with that of the surface nodes about them where they lie on a line.
+Plane opening_plane(const Points& measured, const Points& surface) {
+  const Plane plane = best_fit_plane(measured);
+  const Eigen::RowVector3d width = plane.local(measured).colwise().norm();
+  if (width[1] > 0.1 * width[0]) {
+    return plane;
+  }
+  const double reach = (measured.rowwise() - plane.origin).rowwise().norm().maxCoeff() + 10.0;
+  std::vector<Eigen::Index> around;
+  for (Eigen::Index n = 0; n < surface.rows(); ++n) {
+    if (nearest_row(measured, surface.row(n)).distance <= std::max(10.0, 0.2 * reach)) {
+      around.push_back(n);
+    }
+  }
+  return around.size() < 3 ? plane : best_fit_plane(surface(around, Eigen::all));
+}
+
+double default_margin(const Points& measured, const NodeCloud& cloud, const std::vector<Eigen::Index>& nodes,
+                      const Points& surface) {
+  if (measured.rows() == 1) {
+    return cloud.spacing[nodes[nearest_row(surface, measured.row(0)).row]];
+  }
+  std::vector<double> distances;
+  for (Eigen::Index p = 0; p < measured.rows(); ++p) {
+    Eigen::VectorXd squared = (measured.rowwise() - measured.row(p)).rowwise().squaredNorm();
+    squared[p] = std::numeric_limits<double>::infinity();
+    distances.push_back(std::sqrt(squared.minCoeff()));
+  }
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return std::min(0.5 * *middle, widest_default_margin);
+}
+
+}  // namespace
+
+Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options) {
+  check_load(load);
+  const std::vector<Eigen::Index> nodes = surface_nodes(cloud);
+  const Points surface = cloud.positions(nodes, Eigen::all);
+  check_near_surface(load.positions, surface, options.farthest);
+  const double margin = options.margin >= 0 ? options.margin : default_margin(load.positions, cloud, nodes, surface);
+  const Plane plane = opening_plane(load.positions, surface);
+  const Points measured = plane.local(load.positions), candidates = plane.local(surface);
+  const PlanePoints in_plane = measured.leftCols<2>();
+  const std::vector<Eigen::Vector2d> hull = convex_hull(in_plane);
+  Values known(measured.rows(), 4);
+  known << measured.col(2), load.displacement;
+
+  Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+  std::size_t loaded = 0;
+  double nearest_miss = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const Eigen::RowVector3d place = candidates.row(static_cast<Eigen::Index>(n));
+    const double beside = distance_to_hull(hull, place.head<2>());
+    nearest_miss = std::min(nearest_miss, nearest_row(measured, place).distance);
+    if (beside > margin) {
+      continue;
+    }
+    const Eigen::VectorXd height_and_displacement = extended(in_plane, known, place.head<2>());
+    if (std::abs(place[2] - height_and_displacement[0]) <= options.depth) {
+      prescribed.row(nodes[n]) = height_and_displacement.tail<3>();
+      ++loaded;
+    }
+  }
+  if (loaded == 0) {
+    throw std::invalid_argument(
+        "load: no surface node lies under the opening; the nearest is " + rounded(nearest_miss) +
+        " mm from a measured point: measure more points, or use a finer cloud or a wider margin");
+  }
+  return prescribed;
+}
+
+}  // namespace brainshift::solve
