@@ -87,7 +87,7 @@ std::string scene_text(const Phantom& phantom, bool has_gap) {
   text << R"(<?xml version="1.0" encoding="UTF-8"?>
 <!-- A synthetic head: nested smooth shapes whose volumes are known (answers.json), an oblique image frame, and an
      opening over the tumour through which the brain is seen to sink. -->
-<scene>
+<scene version="1">
   <image t1="t1.nii.gz" labels="labels.nii.gz" other_labels="4 5 6")"
        << (has_gap ? " skull_label=\"5\"" : "") << R"(/>
   <!-- E in Pa, density in kg/m³: constants of the brain-shift literature (Wittek, Miller, Joldes and others). -->

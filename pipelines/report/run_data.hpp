@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "segmentation/image/image.hpp"
+#include "segmentation/surface/surface.hpp"
+#include "solve/solution.hpp"
+#include "solve/solve.hpp"
+
+namespace brainshift::pipelines {
+
+/// What a run folder holds that the report shows. Parts that the run did not make are empty.
+struct RunData {
+  nlohmann::json record;  ///< run.json
+  std::optional<ScalarImage> t1;
+  std::optional<ScalarImage> warped;
+  std::optional<VectorImage> forward;  ///< preop point -> displacement
+  std::optional<Surface> brain;
+  std::optional<Solution> solution;
+  std::vector<solve::HistoryRow> history;
+};
+
+/// Throws std::invalid_argument, naming the file, when the folder holds no run.json or something that cannot be read.
+RunData read_run(const std::filesystem::path& run_folder);
+
+/// The rows of solve/history.csv.
+std::vector<solve::HistoryRow> read_history(const std::filesystem::path& file);
+
+/// The nodes on which a displacement was imposed (those with a reaction), (n × 3) mm; no row where there are none.
+Points loaded_positions(const Solution& solution);
+
+/// The solution's displacement at points: weights 1 / distance² over the eight nearest nodes; a node's own value at a
+/// node. For pictures: the register stage has the field proper.
+Points displacement_at(const Solution& solution, const Points& points);
+
+}  // namespace brainshift::pipelines
