@@ -27,8 +27,7 @@ inline constexpr std::int16_t skin = 6;
 struct SegmentOptions {
   double edge_length = 5.0;  ///< target edge of the remeshed surfaces, mm
   int classes = 3;           ///< fuzzy c-means classes (CSF, grey, white), at least 2
-  double ventricle_depth =
-      15.0;  ///< CSF counts as ventricle when its component reaches this deep under the brain's surface, mm
+  double ventricle_depth = 15.0;  ///< CSF is ventricle where most of its body lies this deep in the brain, mm
   std::vector<std::int16_t> brain_labels = {default_label::parenchyma, default_label::ventricles,
                                             default_label::tumour};
   std::optional<std::int16_t> skull_label;  ///< absent: the skull's inner surface is the brain's outer one

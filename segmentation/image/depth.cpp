@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <itkSignedMaurerDistanceMapImageFilter.h>
+
+#include <algorithm>
+
+#include "segmentation/image/itk_bridge.hpp"
+#include "segmentation/image/mask.hpp"
+
+namespace brainshift {
+
+ScalarImage depth(const Mask& mask) {
+  Mask outside = mask;
+  for (std::uint8_t& voxel : outside.voxels) {
+    voxel = voxel == 0 ? 1 : 0;
+  }
+  auto filter = itk::SignedMaurerDistanceMapImageFilter<ItkImage<std::uint8_t>, ItkImage<float>>::New();
+  filter->SetInput(to_itk(outside));
+  filter->SetSquaredDistance(false);
+  filter->SetUseImageSpacing(true);
+  filter->Update();
+  ScalarImage result = from_itk<float>(*filter->GetOutput());
+  for (float& value : result.voxels) {
+    value = std::max(value, 0.0F);
+  }
+  return result;
+}
+
+}  // namespace brainshift

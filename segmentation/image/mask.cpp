@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/mask.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+namespace brainshift {
+namespace {
+
+struct Box {
+  Eigen::Array3i lower;
+  Eigen::Array3i upper;  // inclusive
+};
+
+template <class Visit>
+void for_each_inside(const Mask& mask, const Visit& visit) {
+  const Eigen::Array3i size = mask.geometry.size;
+  for (int k = 0; k < size.z(); ++k) {
+    for (int j = 0; j < size.y(); ++j) {
+      for (int i = 0; i < size.x(); ++i) {
+        if (mask.at(i, j, k) != 0) {
+          visit(Eigen::Array3i(i, j, k));
+        }
+      }
+    }
+  }
+}
+
+Box bounding_box(const Mask& mask) {
+  Box box{mask.geometry.size, Eigen::Array3i::Constant(-1)};
+  for_each_inside(mask, [&](const Eigen::Array3i& voxel) {
+    box.lower = box.lower.min(voxel);
+    box.upper = box.upper.max(voxel);
+  });
+  return box;
+}
+
+// Index of the first voxel of `part` on the grid of `whole`.
+Eigen::Array3i shift_between(const ImageGeometry& whole, const ImageGeometry& part) {
+  return whole.to_index(part.origin).array().round().cast<int>();
+}
+
+// The neighbours through the faces of voxel n, none beyond the image.
+template <class Visit>
+void for_each_neighbour(const Eigen::Array3i& size, std::size_t n, const Visit& visit) {
+  const auto nx = static_cast<std::size_t>(size.x());
+  const auto ny = static_cast<std::size_t>(size.y());
+  const std::array<std::size_t, 3> place = {n % nx, n / nx % ny, n / (nx * ny)};
+  const std::array<std::size_t, 3> stride = {1, nx, nx * ny};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    if (place[a] > 0) {
+      visit(n - stride[a]);
+    }
+    if (place[a] + 1 < static_cast<std::size_t>(size[axis])) {
+      visit(n + stride[a]);
+    }
+  }
+}
+
+}  // namespace
+
+Mask mask_of(const LabelMap& labels, std::span<const std::int16_t> wanted) {
+  Mask mask{labels.geometry, std::vector<std::uint8_t>(labels.voxels.size())};
+  std::transform(labels.voxels.begin(), labels.voxels.end(), mask.voxels.begin(), [&](std::int16_t label) {
+    return static_cast<std::uint8_t>(std::find(wanted.begin(), wanted.end(), label) != wanted.end());
+  });
+  return mask;
+}
+
+Mask mask_of(const LabelMap& labels) {
+  Mask mask{labels.geometry, std::vector<std::uint8_t>(labels.voxels.size())};
+  std::transform(labels.voxels.begin(), labels.voxels.end(), mask.voxels.begin(),
+                 [](std::int16_t label) { return static_cast<std::uint8_t>(label != 0); });
+  return mask;
+}
+
+std::size_t count(const Mask& mask) {
+  return std::accumulate(mask.voxels.begin(), mask.voxels.end(), std::size_t{0});
+}
+
+double volume(const Mask& mask) {
+  return static_cast<double>(count(mask)) * mask.geometry.voxel_volume();
+}
+
+bool touches_border(const Mask& mask) {
+  const Box box = bounding_box(mask);
+  return count(mask) > 0 && ((box.lower == 0).any() || (box.upper == mask.geometry.size - 1).any());
+}
+
+Mask cropped(const Mask& mask, int margin) {
+  const Box box = bounding_box(mask);
+  const Eigen::Array3i lower = box.lower - margin;
+  Mask part;
+  part.geometry = mask.geometry;
+  part.geometry.size = box.upper - box.lower + 1 + 2 * margin;
+  part.geometry.origin = mask.geometry.to_world(lower.cast<double>().matrix());
+  part.voxels.assign(part.geometry.voxel_count(), 0);
+  for_each_inside(mask, [&](const Eigen::Array3i& voxel) {
+    const Eigen::Array3i place = voxel - lower;
+    part.at(place.x(), place.y(), place.z()) = 1;
+  });
+  return part;
+}
+
+Mask uncropped(const Mask& mask, const ImageGeometry& grid) {
+  const Eigen::Array3i shift = shift_between(grid, mask.geometry);
+  Mask whole{grid, std::vector<std::uint8_t>(grid.voxel_count())};
+  for_each_inside(mask, [&](const Eigen::Array3i& voxel) {
+    const Eigen::Array3i place = voxel + shift;
+    whole.at(place.x(), place.y(), place.z()) = 1;
+  });
+  return whole;
+}
+
+Components components(const Mask& mask) {
+  Components result;
+  result.number.assign(mask.voxels.size(), 0);
+  std::vector<std::size_t> front;
+  for (std::size_t seed = 0; seed < mask.voxels.size(); ++seed) {
+    if (mask.voxels[seed] == 0 || result.number[seed] != 0) {
+      continue;
+    }
+    const auto number = static_cast<std::int32_t>(result.sizes.size() + 1);
+    result.sizes.push_back(0);
+    result.number[seed] = number;
+    front.push_back(seed);
+    while (!front.empty()) {
+      const std::size_t voxel = front.back();
+      front.pop_back();
+      ++result.sizes.back();
+      for_each_neighbour(mask.geometry.size, voxel, [&](std::size_t neighbour) {
+        if (mask.voxels[neighbour] != 0 && result.number[neighbour] == 0) {
+          result.number[neighbour] = number;
+          front.push_back(neighbour);
+        }
+      });
+    }
+  }
+  return result;
+}
+
+Mask largest_component(const Mask& mask) {
+  const Components found = components(mask);
+  const auto largest = std::max_element(found.sizes.begin(), found.sizes.end());
+  const auto number = static_cast<std::int32_t>(largest - found.sizes.begin()) + 1;
+  Mask result{mask.geometry, std::vector<std::uint8_t>(mask.voxels.size())};
+  std::transform(found.number.begin(), found.number.end(), result.voxels.begin(),
+                 [number](std::int32_t n) { return static_cast<std::uint8_t>(n == number); });
+  return result;
+}
+
+Mask holes_filled(const Mask& mask) {
+  if (count(mask) == 0) {
+    return mask;
+  }
+  Mask outside = cropped(mask, 1);  // its outermost layer is empty, so the outside is one component, that of voxel 0
+  for (std::uint8_t& voxel : outside.voxels) {
+    voxel = voxel == 0 ? 1 : 0;
+  }
+  const Components found = components(outside);
+  std::transform(found.number.begin(), found.number.end(), outside.voxels.begin(),
+                 [](std::int32_t number) { return static_cast<std::uint8_t>(number != 1); });
+  return uncropped(outside, mask.geometry);
+}
+
+}  // namespace brainshift

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "segmentation/image/image.hpp"
+
+namespace brainshift {
+
+using Mask = Image<std::uint8_t>;  ///< 1 inside, 0 outside
+
+/// The voxels that carry one of the labels.
+Mask mask_of(const LabelMap& labels, std::span<const std::int16_t> wanted);
+
+/// The voxels that are not zero.
+Mask mask_of(const LabelMap& labels);
+
+std::size_t count(const Mask& mask);
+
+/// Volume of the voxels inside, mm³.
+double volume(const Mask& mask);
+
+/// Whether a voxel inside lies on the image's outermost layer.
+bool touches_border(const Mask& mask);
+
+/// The part of the image around the mask, with a margin of so many voxels on each side, whether the image reaches that
+/// far or not. The voxels keep their places in the world. The mask must not be empty.
+Mask cropped(const Mask& mask, int margin);
+
+/// A mask cropped before, back on the grid that it was cut from.
+Mask uncropped(const Mask& mask, const ImageGeometry& grid);
+
+/// Components joined through faces. number: one a voxel, 0 outside the mask; sizes: voxels, of number 1 first.
+struct Components {
+  std::vector<std::int32_t> number;
+  std::vector<std::size_t> sizes;
+};
+Components components(const Mask& mask);
+
+/// The component of most voxels; the first of equals. The mask must not be empty.
+Mask largest_component(const Mask& mask);
+
+/// Fills what cannot be reached from the image's outside through faces.
+Mask holes_filled(const Mask& mask);
+
+/// How far each voxel's centre lies inside the mask, to the nearest voxel centre outside it, mm; 0 outside the mask.
+ScalarImage depth(const Mask& mask);
+
+}  // namespace brainshift
