@@ -9,10 +9,10 @@ namespace brainshift::registration {
 
 namespace {
 
-void check_fade(double fade, double diagonal) {
-  if (!(fade > diagonal && fade < 1e3)) {
+void check_fade(double fade, double shell) {
+  if (!(fade > shell && fade < 1e3)) {
     std::ostringstream text;
-    text << "the fade is " << fade << " mm, but must be wider than a voxel's diagonal (" << diagonal
+    text << "the fade is " << fade << " mm, but must be wider than two voxel diagonals (" << shell
          << " mm) and below 1000 mm; the default is 20 mm";
     throw std::invalid_argument(text.str());
   }
@@ -31,12 +31,12 @@ Zone zone_at(double distance, double shell, double fade) {
 }  // namespace
 
 BrainZones brain_zones(const Surface& brain, const ImageGeometry& geometry, double fade) {
-  const double diagonal = geometry.spacing.norm();
-  check_fade(fade, diagonal);
+  const double shell = 2 * geometry.spacing.norm();
+  check_fade(fade, shell);
   solve::SignedDistanceOptions options;
   options.margin = fade + options.spacing;
   BrainZones zones{std::vector<Zone>(geometry.voxel_count(), Zone::beyond), solve::SignedDistance(brain, options),
-                   diagonal};
+                   shell};
 #pragma omp parallel for schedule(dynamic, 1)
   for (int k = 0; k < geometry.size.z(); ++k) {
     for (int j = 0; j < geometry.size.y(); ++j) {

@@ -14,7 +14,7 @@ namespace brainshift::registration {
 enum class Zone : std::uint8_t {
   beyond,  ///< farther than the fade: does not move
   fading,  ///< outside the brain: moves with the nearest place of its surface, less with the distance
-  shell,   ///< outside, but within a voxel's diagonal of the surface: the surface itself is interpolated from it
+  shell,   ///< outside, but within two voxel diagonals of the surface: places within one are interpolated from it
   brain,
 };
 
@@ -22,11 +22,11 @@ enum class Zone : std::uint8_t {
 struct BrainZones {
   std::vector<Zone> zone;         ///< one a voxel
   solve::SignedDistance outside;  ///< mm from the brain's surface, negative inside
-  double shell;                   ///< thickness of the shell: a voxel's diagonal, mm
+  double shell;                   ///< thickness of the shell: two voxel diagonals, mm
 };
 
 /// Throws std::invalid_argument when the surface is not closed or encloses no voxel, or when the fade is not wider than
-/// a voxel's diagonal.
+/// the shell.
 BrainZones brain_zones(const Surface& brain, const ImageGeometry& geometry, double fade);
 
 }  // namespace brainshift::registration

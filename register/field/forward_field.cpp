@@ -14,8 +14,9 @@ namespace brainshift::registration {
 
 namespace {
 
-constexpr std::size_t chunk = 1 << 17;   // voxels evaluated between two reports of progress
-constexpr double smoothing_width = 3.0;  // mm, standard deviation of the smoothing outside the brain
+constexpr std::size_t chunk = 1 << 17;     // voxels evaluated between two reports of progress
+constexpr double reach_in_spacings = 0.3;  // how far outside the nodes their shape functions are trusted
+constexpr double smoothing_width = 3.0;    // mm, standard deviation of the smoothing outside the brain
 
 using Displacement = std::array<float, 3>;
 
@@ -45,13 +46,12 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Shape functions at the voxels of brain and shell. They are asked for no place farther out than half the spacing of
-/// the nodes, as they extrapolate there.
-void evaluate(const Solution& solution, const BrainZones& zones, const std::vector<Voxel>& voxels, VectorImage& field,
-              const Progress& progress) {
+/// Shape functions at the voxels of brain and shell; a voxel farther out than `reach` has the displacement at the
+/// reach, as shape functions extrapolate out there.
+void evaluate(const Solution& solution, const BrainZones& zones, const std::vector<Voxel>& voxels, double reach,
+              VectorImage& field, const Progress& progress) {
   const solve::ShapeFunctions shape(solution.positions, solution.spacing, solution.shape);
   const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
-  const double farthest = 0.5 * mean(solution.spacing);
   for (std::size_t begin = 0; begin < voxels.size(); begin += chunk) {
     report(progress, 0.8 * static_cast<double>(begin) / static_cast<double>(voxels.size()),
            "displacement at the voxels");
@@ -61,40 +61,41 @@ void evaluate(const Solution& solution, const BrainZones& zones, const std::vect
     for (std::size_t v = begin; v < end; ++v) {
       Eigen::Vector3d place = field.geometry.to_world(voxels[v].index());
       const double outside = zones.outside.value(place);
-      if (outside > farthest) {
-        place -= (outside - farthest) * zones.outside.gradient(place);
+      if (outside > reach) {
+        place -= (outside - reach) * zones.outside.gradient(place);
       }
       places.row(static_cast<Eigen::Index>(v - begin)) = place;
     }
     const Points displacement = shape.interpolate(places, parameters);
     for (std::size_t v = begin; v < end; ++v) {
-      const Eigen::RowVector3f u = displacement.row(static_cast<Eigen::Index>(v - begin)).cast<float>();
-      field.voxels[voxels[v].offset] = {u.x(), u.y(), u.z()};
+      field.voxels[voxels[v].offset] = stored(displacement.row(static_cast<Eigen::Index>(v - begin)));
     }
   }
 }
 
-/// A place on the brain's surface near x, by walking down the distance. One step suffices but where the surface is
-/// hollow and its distance has a kink.
-Eigen::Vector3d place_on_surface(const solve::SignedDistance& outside, Eigen::Vector3d x, double close_enough) {
-  for (int step = 0; step < 10; ++step) {
-    const double distance = outside.value(x);
-    if (distance <= close_enough && step > 0) {
+/// The place near x that is `reach` away from the brain, by walking down the distance. One step suffices but where the
+/// surface is hollow and its distance has a kink.
+Eigen::Vector3d place_at_reach(const solve::SignedDistance& outside, Eigen::Vector3d x, double reach) {
+  constexpr int most_steps = 10;
+  constexpr double close_enough = 0.05;  // mm
+  for (int step = 0; step < most_steps; ++step) {
+    const double farther = outside.value(x) - reach;
+    if (farther <= close_enough) {
       break;
     }
-    x -= distance * outside.gradient(x);
+    x -= farther * outside.gradient(x);
   }
   return x;
 }
 
-/// Gives the fading voxels the displacement of the surface near by.
-void extend(const BrainZones& zones, const std::vector<Voxel>& fading, VectorImage& field) {
+/// Gives the fading voxels the displacement of the brain near by.
+void extend(const BrainZones& zones, const std::vector<Voxel>& fading, double reach, VectorImage& field) {
   const FieldSampler sampler(field);
   std::vector<Displacement> extended(fading.size());
 #pragma omp parallel for schedule(dynamic, 1024)
   for (std::size_t v = 0; v < fading.size(); ++v) {
     const Eigen::Vector3d x = field.geometry.to_world(fading[v].index());
-    const Eigen::Vector3d place = place_on_surface(zones.outside, x, 0.1 * zones.shell);
+    const Eigen::Vector3d place = place_at_reach(zones.outside, x, reach);
     const Eigen::Vector3f u = sampler.value(sampler.to_index(place)).cast<float>();
     extended[v] = {u.x(), u.y(), u.z()};
   }
@@ -148,13 +149,20 @@ void smooth(const BrainZones& zones, const std::vector<Voxel>& fading, VectorIma
   }
 }
 
-void fade_out(const BrainZones& zones, const std::vector<Voxel>& fading, double fade, VectorImage& field) {
-#pragma omp parallel for schedule(static)
-  for (std::size_t v = 0; v < fading.size(); ++v) {
-    const double distance = zones.outside.value(field.geometry.to_world(fading[v].index()));
-    const auto factor = static_cast<float>(ramp((distance - zones.shell) / (fade - zones.shell)));
-    for (float& component : field.voxels[fading[v].offset]) {
-      component *= factor;
+void fade_out(const BrainZones& zones, double reach, double fade, VectorImage& field) {
+  const ImageGeometry& g = field.geometry;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int k = 0; k < g.size.z(); ++k) {
+    for (int j = 0; j < g.size.y(); ++j) {
+      for (int i = 0; i < g.size.x(); ++i) {
+        const Zone zone = zones.zone[g.offset(i, j, k)];
+        if (zone == Zone::shell || zone == Zone::fading) {
+          const double distance = zones.outside.value(g.to_world(Eigen::Vector3d(i, j, k)));
+          const double factor = ramp((distance - reach) / (fade - reach));
+          Displacement& u = field.at(i, j, k);
+          u = stored(factor * Eigen::Vector3d(u[0], u[1], u[2]));
+        }
+      }
     }
   }
 }
@@ -176,12 +184,13 @@ double ramp(double t) {
 VectorImage forward_field(const Solution& solution, const BrainZones& zones, const ImageGeometry& geometry, double fade,
                           const Progress& progress) {
   VectorImage field{geometry, std::vector<Displacement>(geometry.voxel_count(), Displacement{0, 0, 0})};
-  evaluate(solution, zones, voxels_of(zones, geometry, false), field, progress);
+  const double reach = std::min(zones.shell / 2, reach_in_spacings * mean(solution.spacing));
+  evaluate(solution, zones, voxels_of(zones, geometry, false), reach, field, progress);
   report(progress, 0.8, "fading outside the brain");
   const std::vector<Voxel> fading = voxels_of(zones, geometry, true);
-  extend(zones, fading, field);
+  extend(zones, fading, reach, field);
   smooth(zones, fading, field);
-  fade_out(zones, fading, fade, field);
+  fade_out(zones, reach, fade, field);
   return field;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int most_steps = 40;
 constexpr int most_halvings = 6;
-constexpr double stop_fraction = 0.1;  // of the tolerance: Newton's last step is cheap and gains more than this
+constexpr double stop_fraction = 0.02;  // of the tolerance: Newton's last step is cheap and gains more than this
 
 struct Inverse {
   Eigen::Vector3d displacement;
@@ -72,8 +72,7 @@ InvertedField resampling_field(const VectorImage& forward, double tolerance) {
         const Inverse found = invert_at(sampler, Eigen::Vector3d(i, j, k), guess, stop_fraction * tolerance);
         missed += found.residual <= tolerance ? 0 : 1;
         guess = found.displacement;
-        const Eigen::Vector3f d = guess.cast<float>();
-        result.field.at(i, j, k) = {d.x(), d.y(), d.z()};
+        result.field.at(i, j, k) = stored(guess);
       }
     }
   }
