@@ -233,8 +233,9 @@ const tinyxml2::XMLElement& open_scene(tinyxml2::XMLDocument& document, const Sc
     Where{source, root == nullptr ? 1 : root->GetLineNum(), ""}.fail("a scene begins with <scene version=\"1\">");
   }
   const char* version = root->Attribute("version");
-  if (version == nullptr || std::string(version) != "1" || root->FirstAttribute()->Next() != nullptr) {
-    Where{source, root->GetLineNum(), ""}.fail("<scene> needs exactly the attribute version=\"1\"");
+  const auto* first = root->FirstAttribute();
+  if (first != nullptr && (version == nullptr || std::string(version) != "1" || first->Next() != nullptr)) {
+    Where{source, root->GetLineNum(), ""}.fail("<scene> takes the attribute version=\"1\" and no other");
   }
   return *root;
 }

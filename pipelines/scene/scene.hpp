@@ -56,20 +56,13 @@ struct BeforeAfter {
   std::filesystem::path after;
 };
 
-/// A load made up from the surface instead of measured: inward at the nearest point of the cortex.
-struct SimulatedLoad {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mm, LPS
-  double radius = 25;                                ///< mm
-  double depth = 8;                                  ///< mm at the centre
-};
-
 /// What is measured and imposed: at most one of the four.
 struct Load {
   solve::OpeningOptions opening;
   std::optional<std::filesystem::path> craniotomy;  ///< craniotomy.csv
   std::optional<BeforeAfter> markups;
   std::optional<BeforeAfter> surfaces;
-  std::optional<SimulatedLoad> simulated;
+  std::optional<solve::SimulatedCraniotomy> simulated;
 
   bool empty() const { return !craniotomy && !markups && !surfaces && !simulated; }
 };

@@ -80,6 +80,8 @@ std::vector<Element> load_elements() {
        {number<Scene>("margin", MEMBER(load->opening.margin), any_number, "mm",
                       "how far past the outermost measured points the opening reaches; negative: half their median "
                       "distance to each other"),
+        number<Scene>("depth", MEMBER(load->opening.depth), above_zero, "mm",
+                      "a node this far above or below the measured surface is not under the opening"),
         number<Scene>("farthest", MEMBER(load->opening.farthest), above_zero, "mm",
                       "a measured point farther than this from any surface node is an error")}},
       load_part("craniotomy", "Displacements measured on the exposed cortex.", &Load::craniotomy,
@@ -96,7 +98,7 @@ std::vector<Element> load_elements() {
                 {required(point<Scene>("centre", MEMBER(load->simulated->centre),
                                        "near the middle of the opening; the nearest point of the surface is taken")),
                  number<Scene>("radius", MEMBER(load->simulated->radius), above_zero, "mm", "of the opening"),
-                 number<Scene>("depth", MEMBER(load->simulated->depth), any_number, "mm",
+                 number<Scene>("depth", MEMBER(load->simulated->depth), above_zero, "mm",
                                "inward displacement at the centre")})};
 }
 

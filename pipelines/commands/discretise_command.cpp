@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <memory>
+
+#include "pipelines/commands/commands.hpp"
+
+namespace brainshift::pipelines {
+namespace {
+
+struct DiscretiseArguments {
+  Scene scene;
+  DiscretiseJob job;
+  std::filesystem::path craniotomy;
+  std::filesystem::path out;
+};
+
+void discretise(const DiscretiseArguments& arguments, const Settings& settings) {
+  DiscretiseJob job = arguments.job;
+  const auto brain_labels = job.options.brain_labels;
+  job.options = arguments.scene.discretise;
+  job.options.brain_labels = brain_labels;
+  job.refinement = arguments.scene.refinement;
+  if (job.options.nodes && job.options.spacing) {
+    throw std::invalid_argument("--nodes and --spacing are both given; give one of them");
+  }
+  if (!arguments.craniotomy.empty()) {
+    job.load = Load{};
+    job.load->craniotomy = arguments.craniotomy;
+  }
+  if (job.refinement.factor < 1 && !job.load) {
+    throw std::invalid_argument("--craniotomy-factor needs --craniotomy FILE, the place to refine towards");
+  }
+  run_single_stage(StageId::discretise, arguments.out, settings,
+                   [&](const auto& folder, const Progress& progress) { return run_job(job, folder, progress); });
+}
+
+}  // namespace
+
+void add_discretise_command(CLI::App& program, const Settings& settings) {
+  CLI::App* command = program.add_subcommand("discretise", "A closed surface to nodes and background cells.");
+  auto arguments = std::make_shared<DiscretiseArguments>();
+  command->add_option("--surface", arguments->job.surface, "the brain's closed surface")->required()->type_name("FILE");
+  command->add_option("--labels", arguments->job.labels, "label map; without it all is tissue 1")->type_name("FILE");
+  command->add_option("--brain-labels", arguments->job.options.brain_labels, "labels that are tissue of the brain")
+      ->check(CLI::Range(1, 32767))
+      ->capture_default_str();
+  command->add_option("--craniotomy", arguments->craniotomy, "craniotomy.csv, for --craniotomy-factor")
+      ->type_name("FILE");
+  for (const char* name :
+       {"nodes", "spacing", "minimum_distance", "craniotomy_factor", "craniotomy_radius", "tumour_factor",
+        "tumour_label", "tissue_boundary_factor", "cells", "cells_per_node", "seed"}) {
+    add_scene_option(*command, arguments->scene, "discretise", name);
+  }
+  command->add_option("--out", arguments->out, "folder for the artefacts")->required()->type_name("DIR");
+  command->callback([arguments, &settings] { discretise(*arguments, settings); });
+}
+
+}  // namespace brainshift::pipelines

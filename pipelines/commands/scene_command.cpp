@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+#include <memory>
+
+#include "pipelines/commands/commands.hpp"
+#include "pipelines/scene/check_scene.hpp"
+#include "pipelines/scene/describe_scene.hpp"
+#include "pipelines/scene/explain_scene.hpp"
+#include "pipelines/scene/parse_scene.hpp"
+
+namespace brainshift::pipelines {
+namespace {
+
+struct SceneArguments {
+  std::filesystem::path check;
+  std::filesystem::path explain;
+  bool defaults = false;
+  std::vector<std::string> overrides;
+};
+
+Scene checked(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  Scene scene = parse_scene(file, overrides);
+  check_scene(scene);
+  return scene;
+}
+
+void look_at_scene(const SceneArguments& arguments, const Settings& settings) {
+  if (arguments.defaults) {
+    std::cout << default_scene();
+  } else if (!arguments.check.empty()) {
+    checked(arguments.check, arguments.overrides);
+    if (!settings.quiet) {
+      std::cout << arguments.check.string() << ": no fault found\n";
+    }
+  } else {
+    std::cout << explain_scene(checked(arguments.explain, arguments.overrides));
+  }
+  std::cout.flush();
+  if (!std::cout) {
+    throw std::runtime_error("standard output cannot be written");
+  }
+}
+
+}  // namespace
+
+void add_scene_command(CLI::App& program, const Settings& settings) {
+  CLI::App* command = program.add_subcommand("scene", "Look at a scene without computing.");
+  auto arguments = std::make_shared<SceneArguments>();
+  auto* what = command->add_option_group("what")->require_option(1);
+  what->add_option("--check", arguments->check, "look for faults")->type_name("FILE");
+  what->add_option("--explain", arguments->explain, "which parts are active and what they cost")->type_name("FILE");
+  what->add_flag("--defaults", arguments->defaults, "a commented scene with every option");
+  command->add_option("--set", arguments->overrides, "override an option of the scene")
+      ->type_name("PATH=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->callback([arguments, &settings] { look_at_scene(*arguments, settings); });
+}
+
+}  // namespace brainshift::pipelines

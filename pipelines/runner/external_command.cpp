@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/external_command.hpp"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <stdexcept>
+
+namespace brainshift::pipelines {
+namespace {
+
+std::string quoted(const std::filesystem::path& path) {
+  std::string text = "'";
+  for (const char c : std::filesystem::absolute(path).lexically_normal().string()) {
+    text += c == '\'' ? "'\\''" : std::string(1, c);
+  }
+  return text + "'";
+}
+
+void replace_all(std::string& text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+}
+
+std::string last_line(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::string last;
+  while (std::getline(stream, line)) {
+    if (!line.empty()) {
+      last = line;
+    }
+  }
+  return last;
+}
+
+/// In the child: never returns. Only calls that are safe after fork.
+[[noreturn]] void become_shell(const char* text, const char* directory, const char* log) {
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  setpgid(0, 0);
+  const int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0 || chdir(directory) != 0) {
+    _exit(126);
+  }
+  execl("/bin/sh", "sh", "-c", text, static_cast<char*>(nullptr));
+  _exit(127);
+}
+
+}  // namespace
+
+std::string fill_in(const ExternalCommand& command) {
+  std::string text = command.command;
+  replace_all(text, "{in}", quoted(command.in));
+  replace_all(text, "{out}", quoted(command.out));
+  return text;
+}
+
+void run_external_command(const ExternalCommand& command, Interruption& interruption) {
+  const std::string text = fill_in(command);
+  const std::string directory = std::filesystem::absolute(command.directory).string();
+  const std::string log = (command.out / "command.log").string();
+  const pid_t child = fork();
+  if (child == 0) {
+    become_shell(text.c_str(), directory.c_str(), log.c_str());
+  }
+  if (child < 0) {
+    throw std::runtime_error("the command '" + command.command + "' cannot be started");
+  }
+  setpgid(child, child);  // as the child does, so that it holds whoever comes first
+  interruption.set_command(child);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  interruption.set_command(0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    const std::string said = last_line(log);
+    throw std::invalid_argument("the command '" + command.command + "' ended with code " + std::to_string(code) +
+                                (said.empty() ? ", saying nothing" : ", saying: " + said));
+  }
+}
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/jobs.hpp"
+
+#include <stdexcept>
+
+#include "pipelines/runner/measures.hpp"
+
+namespace brainshift::pipelines {
+namespace fs = std::filesystem;
+namespace {
+
+std::optional<LabelMap> labels_if(const fs::path& file) {
+  return file.empty() ? std::nullopt : std::optional(read_label_map(file));
+}
+
+void need_same_grid(const ImageGeometry& t1, const fs::path& t1_file, const std::optional<LabelMap>& other,
+                    const fs::path& other_file) {
+  if (other && !same_geometry(t1, other->geometry)) {
+    throw std::invalid_argument(other_file.string() +
+                                ": its grid (size, spacing, origin or direction) is not that of " + t1_file.string() +
+                                "; resample it onto that image first");
+  }
+}
+
+/// Moves one file with the run's own fields: images and label maps, surfaces, markups.
+void warp_file(const fs::path& file, const fs::path& out, const registration::Registration& fields,
+               registration::Interpolation interpolation) {
+  const std::string ending = file.extension().string();
+  const fs::path target = out / ("warped_" + file.filename().string());
+  if (ending == ".vtp" || ending == ".stl" || ending == ".ply" || ending == ".obj") {
+    Surface surface = read_surface(file);
+    surface.vertices = registration::move_points(fields.forward, surface.vertices);
+    write_surface(target, surface);
+  } else if (ending == ".json" || ending == ".fcsv") {
+    const Points before = solve::read_markup_positions(file);
+    const Points after = registration::move_points(fields.forward, before);
+    solve::write_craniotomy_csv(out / ("warped_" + file.stem().stem().string() + ".csv"), {before, after - before});
+  } else {
+    write_image(target, registration::warp(read_image(file), fields.resampling, interpolation));
+  }
+}
+
+}  // namespace
+
+solve::CraniotomyLoad read_load(const Load& load, const fs::path& surface) {
+  if (load.craniotomy) {
+    return solve::read_craniotomy_csv(*load.craniotomy);
+  }
+  if (load.markups) {
+    return solve::read_markups(load.markups->before, load.markups->after);
+  }
+  if (load.surfaces) {
+    return solve::load_from_surfaces(read_surface(load.surfaces->before), read_surface(load.surfaces->after));
+  }
+  if (load.simulated) {
+    return solve::simulated_craniotomy(read_surface(surface), *load.simulated);
+  }
+  throw std::invalid_argument("no load is named: give measured displacements, markups, surfaces or a simulated one");
+}
+
+StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& progress) {
+  segmentation::SegmentInput input;
+  report(progress, 0, "reading");
+  if (!job.image.t1.empty()) {
+    input.t1 = read_image(job.image.t1);
+  }
+  input.labels = labels_if(job.image.labels);
+  input.brain_mask = labels_if(job.image.brain_mask);
+  input.tumour_mask = labels_if(job.image.tumour_mask);
+  if (!job.image.surface.empty()) {
+    input.surface = read_surface(job.image.surface);
+  }
+  if (input.t1) {
+    need_same_grid(input.t1->geometry, job.image.t1, input.labels, job.image.labels);
+    need_same_grid(input.t1->geometry, job.image.t1, input.brain_mask, job.image.brain_mask);
+    need_same_grid(input.t1->geometry, job.image.t1, input.tumour_mask, job.image.tumour_mask);
+  }
+  const segmentation::Segmentation result = segmentation::segment(input, job.options, progress);
+  segmentation::write_segmentation(out, result);
+  return report_of(result);
+}
+
+StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progress& progress) {
+  report(progress, 0, "reading");
+  const Surface brain = read_surface(job.surface);
+  const std::optional<LabelMap> labels = labels_if(job.labels);
+  discretise::DiscretiseOptions options = job.options;
+  if (job.refinement.factor < 1 && job.load) {
+    options.craniotomy = {read_load(*job.load, job.surface).positions, job.refinement.radius, job.refinement.factor};
+  }
+  const auto result = discretise::discretise(brain, labels ? &*labels : nullptr, options, progress);
+  discretise::write_discretisation(out, result);
+  return report_of(result.measures);
+}
+
+StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& progress) {
+  report(progress, 0, "reading");
+  solve::Model model;
+  model.cloud = read_node_cloud(job.nodes);
+  model.cells = read_background_cells(job.cells);
+  model.labels = labels_if(job.labels);
+  model.materials = job.materials;
+  if (!job.skull.empty()) {
+    model.skull = read_surface(job.skull);
+  }
+  if (job.load) {
+    const solve::CraniotomyLoad load = read_load(*job.load, job.surface);
+    model.cloud.prescribed_displacement = solve::prescribed_on_surface_nodes(model.cloud, load, job.load->opening);
+    solve::write_craniotomy_csv(out / "load.csv", load);
+  }
+  const solve::SolveResult result = solve::solve(model, job.options, progress);
+  write_solution(out / "solution.vtu", result.solution);
+  solve::write_history(out / "history.csv", result.history);
+  return report_of(result);
+}
+
+StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress& progress) {
+  report(progress, 0, "reading");
+  registration::RegisterInput input;
+  input.solution = read_solution(job.solution);
+  input.brain = read_surface(job.surface);
+  input.t1 = read_image(job.t1);
+  input.labels = labels_if(job.labels);
+  need_same_grid(input.t1.geometry, job.t1, input.labels, job.labels);
+  if (!job.landmarks.empty()) {
+    input.landmarks = solve::read_markup_positions(job.landmarks);
+  }
+  const registration::Registration result = registration::register_images(input, job.options, progress);
+  registration::write_registration(out, result);
+  for (const fs::path& file : job.warp) {
+    warp_file(file, out, result, job.options.interpolation);
+  }
+  return report_of(result);
+}
+
+}  // namespace brainshift::pipelines

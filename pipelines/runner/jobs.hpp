@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipelines/scene/scene.hpp"
+
+namespace brainshift::pipelines {
+
+/// A stage with its files: what a scene's run and the stage's own command both fill in. Empty paths are not given.
+struct SegmentJob {
+  ImageInputs image;
+  segmentation::SegmentOptions options;
+};
+
+struct DiscretiseJob {
+  std::filesystem::path surface;
+  std::filesystem::path labels;
+  discretise::DiscretiseOptions options;
+  std::optional<Load> load;  ///< where the craniotomy is, for the refinement
+  CraniotomyRefinement refinement;
+};
+
+struct SolveJob {
+  std::filesystem::path nodes;
+  std::filesystem::path cells;
+  std::filesystem::path labels;
+  std::filesystem::path skull;    ///< contact when given
+  std::filesystem::path surface;  ///< the brain's, for a simulated load
+  std::optional<Load> load;       ///< absent: what the nodes prescribe
+  std::map<std::int32_t, solve::Material> materials;
+  solve::SolveOptions options;
+};
+
+struct RegisterJob {
+  std::filesystem::path solution;
+  std::filesystem::path surface;  ///< the brain's
+  std::filesystem::path t1;
+  std::filesystem::path labels;
+  std::filesystem::path landmarks;
+  std::vector<std::filesystem::path> warp;  ///< images, surfaces and markups to move with the same map
+  registration::RegisterOptions options;
+};
+
+/// What a stage says of itself, for run.json (README.md lists the fields).
+struct StageReport {
+  nlohmann::ordered_json sizes = nlohmann::ordered_json::object();
+  nlohmann::ordered_json measures = nlohmann::ordered_json::object();
+  std::string failure;  ///< empty, or the sentence of a computation that did not converge; its artefacts are written
+};
+
+/// Each reads its files, runs the stage and writes its artefacts into an existing folder. Throw std::invalid_argument
+/// where the input is at fault and std::runtime_error where writing is.
+StageReport run_job(const SegmentJob& job, const std::filesystem::path& out, const Progress& progress);
+StageReport run_job(const DiscretiseJob& job, const std::filesystem::path& out, const Progress& progress);
+StageReport run_job(const SolveJob& job, const std::filesystem::path& out, const Progress& progress);
+StageReport run_job(const RegisterJob& job, const std::filesystem::path& out, const Progress& progress);
+
+/// The measured displacements of a load. surface: the brain's, for a simulated one.
+solve::CraniotomyLoad read_load(const Load& load, const std::filesystem::path& surface);
+
+}  // namespace brainshift::pipelines

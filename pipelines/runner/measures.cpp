@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/measures.hpp"
+
+namespace brainshift::pipelines {
+
+StageReport report_of(const segmentation::Segmentation& result) {
+  StageReport report;
+  report.sizes["surfaces"] = result.measures.size();
+  if (result.labels) {
+    report.sizes["voxels"] = result.labels->geometry.voxel_count();
+  }
+  for (const auto& [name, m] : result.measures) {
+    report.measures[name] = {{"vertices", m.vertices},
+                             {"triangles", m.triangles},
+                             {"volume_mm3", m.volume},
+                             {"label_volume_mm3", m.label_volume},
+                             {"boundary_distance_95_mm", m.boundary_distance_95},
+                             {"edge_length_mean_mm", m.edge_length_mean},
+                             {"closed", m.closed},
+                             {"self_intersecting", m.self_intersecting},
+                             {"repaired", m.repaired}};
+  }
+  return report;
+}
+
+StageReport report_of(const discretise::DiscretiseMeasures& m) {
+  StageReport report;
+  report.sizes = {
+      {"nodes", m.nodes}, {"surface_nodes", m.surface_nodes}, {"cells", m.cells}, {"cut_cells", m.cut_cells}};
+  report.measures = {{"spacing_mm", m.spacing},
+                     {"smallest_distance_ratio", m.smallest_distance_ratio},
+                     {"surface_volume_mm3", m.surface_volume},
+                     {"cells_inside_volume_mm3", m.cells_inside_volume}};
+  return report;
+}
+
+StageReport report_of(const solve::SolveResult& result) {
+  const solve::SolveMeasures& m = result.measures;
+  StageReport report;
+  report.failure = result.failure;
+  report.sizes = {{"nodes", m.nodes},
+                  {"integration_points", m.integration_points},
+                  {"pairs", m.pairs},
+                  {"loaded_nodes", m.loaded_nodes},
+                  {"contact_nodes", m.contact_nodes},
+                  {"steps", m.steps}};
+  report.measures = {{"converged", m.converged},
+                     {"error_bound_mm", m.error_bound},
+                     {"mean_support", m.mean_support},
+                     {"grown_supports", m.grown_supports},
+                     {"outside_label", m.outside_label},
+                     {"critical_step_s", m.critical_step},
+                     {"largest_displacement_mm", m.largest_displacement},
+                     {"constraint_error_mm", m.constraint_error},
+                     {"largest_penetration_mm", m.largest_penetration},
+                     {"smallest_jacobian", m.smallest_jacobian},
+                     {"largest_stretch", m.largest_stretch},
+                     {"seconds_setup", m.seconds_setup},
+                     {"seconds_stepping", m.seconds_stepping}};
+  return report;
+}
+
+StageReport report_of(const registration::Registration& result) {
+  const registration::RegisterMeasures& m = result.measures;
+  StageReport report;
+  report.sizes = {{"voxels", result.warped.geometry.voxel_count()},
+                  {"brain_voxels", m.brain_voxels},
+                  {"moved_voxels", m.moved_voxels},
+                  {"landmarks", result.landmarks.rows()}};
+  report.measures = {{"inverse_mean_mm", m.inverse_mean},
+                     {"inverse_999_mm", m.inverse_999},
+                     {"inverse_max_mm", m.inverse_max},
+                     {"not_inverted", m.not_inverted},
+                     {"jacobian_min", m.jacobian_min},
+                     {"jacobian_max", m.jacobian_max},
+                     {"field_jacobian_min", m.field_jacobian_min},
+                     {"folded_voxels", m.folded_voxels},
+                     {"largest_displacement_mm", m.largest_displacement},
+                     {"fit_error_mm", m.fit_error}};
+  return report;
+}
+
+}  // namespace brainshift::pipelines

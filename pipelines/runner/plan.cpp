@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/plan.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "pipelines/report/report.hpp"
+#include "pipelines/runner/external_command.hpp"
+#include "pipelines/runner/sha256.hpp"
+#include "pipelines/scene/describe_scene.hpp"
+#include "pipelines/scene/scene_table.hpp"
+
+namespace brainshift::pipelines {
+namespace fs = std::filesystem;
+namespace {
+
+/// A file that may be there.
+fs::path if_there(const fs::path& file) {
+  return fs::exists(file) ? file : fs::path();
+}
+
+/// Options that the stage's result depends on, as text; files count by their contents, not their names.
+nlohmann::ordered_json options_of(const Scene& scene, const std::vector<std::string>& elements) {
+  const nlohmann::ordered_json all = effective_options(scene);
+  nlohmann::ordered_json options = nlohmann::ordered_json::object();
+  for (const std::string& name : elements) {
+    if (!all.contains(name)) {
+      continue;
+    }
+    options[name] = all[name];
+    if (const Element* element = find_element(name)) {
+      for (const auto& option : element->options) {
+        if (option.is_path) {
+          options[name].erase(option.name);
+        }
+      }
+    }
+  }
+  return options;
+}
+
+std::vector<InputFile> files_of(const Scene& scene, const std::vector<std::string>& elements) {
+  std::vector<InputFile> files;
+  for (const InputFile& file : scene_files(scene)) {
+    const std::string element = file.role.substr(0, file.role.rfind('.'));
+    if (std::find(elements.begin(), elements.end(), element) != elements.end()) {
+      files.push_back(file);
+    }
+  }
+  return files;
+}
+
+/// Artefacts of earlier stages, those of them that are there.
+void add_artefacts(StagePlan& plan, const fs::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (fs::exists(folder / name)) {
+      plan.inputs.push_back({name, folder / name});
+    }
+  }
+}
+
+std::vector<std::string> load_elements(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Element& element : scene_elements()) {
+    if ((element.path == "load" || element.path.starts_with("load.")) && element.present(scene)) {
+      names.push_back(element.path);
+    }
+  }
+  return names;
+}
+
+std::vector<std::int16_t> tissue_labels(const Scene& scene) {
+  std::vector<std::int16_t> labels;
+  for (const Tissue& tissue : scene.tissues) {
+    labels.push_back(tissue.label);
+  }
+  std::sort(labels.begin(), labels.end());
+  return labels;
+}
+
+StagePlan plan_segment(const Scene& scene) {
+  SegmentJob job{scene.image, scene.segment};
+  job.options.brain_labels = tissue_labels(scene);
+  job.options.skull_label = scene.image.skull_label;
+  StagePlan plan{
+      StageId::segment, files_of(scene, {"image"}), options_of(scene, {"image", "segment"}), {"brain.vtp"}, {}};
+  plan.options["brain_labels"] = job.options.brain_labels;
+  plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
+  return plan;
+}
+
+StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
+  DiscretiseJob job{folder / "segment" / "brain.vtp", if_there(folder / "segment" / "labels.nii.gz"), scene.discretise,
+                    std::nullopt, scene.refinement};
+  const auto labels = tissue_labels(scene);
+  job.options.brain_labels.assign(labels.begin(), labels.end());
+  StagePlan plan{StageId::discretise, {}, options_of(scene, {"discretise"}), {"nodes.vtu", "cells.vtu"}, {}};
+  if (job.refinement.factor < 1) {
+    job.load = scene.load;
+    const auto load = load_elements(scene);
+    plan.inputs = files_of(scene, load);
+    plan.options["load"] = options_of(scene, load);
+  }
+  plan.options["brain_labels"] = labels;
+  add_artefacts(plan, folder, {"segment/brain.vtp", "segment/labels.nii.gz"});
+  plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
+  return plan;
+}
+
+StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
+  SolveJob job{folder / "discretise" / "nodes.vtu",
+               folder / "discretise" / "cells.vtu",
+               if_there(folder / "segment" / "labels.nii.gz"),
+               {},
+               if_there(folder / "segment" / "brain.vtp"),
+               scene.load,
+               {},
+               scene.solve};
+  if (scene.contact) {
+    job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;
+  }
+  for (const Tissue& tissue : scene.tissues) {
+    job.materials[tissue.label] = tissue.material;
+  }
+  std::vector<std::string> elements = load_elements(scene);
+  elements.insert(elements.end(), {"contact", "tissues", "solve"});
+  StagePlan plan{StageId::solve, files_of(scene, elements), options_of(scene, elements), {"solution.vtu"}, {}};
+  add_artefacts(plan, folder, {"discretise/nodes.vtu", "discretise/cells.vtu", "segment/labels.nii.gz"});
+  if (scene.load && scene.load->simulated) {
+    add_artefacts(plan, folder, {"segment/brain.vtp"});
+  }
+  if (scene.contact && scene.contact->skull.empty()) {
+    add_artefacts(plan, folder, {"segment/skull.vtp"});
+  }
+  plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
+  return plan;
+}
+
+StagePlan plan_register(const Scene& scene, const fs::path& folder) {
+  const RegisterJob job{folder / "solve" / "solution.vtu",
+                        folder / "segment" / "brain.vtp",
+                        scene.image.t1,
+                        if_there(folder / "segment" / "labels.nii.gz"),
+                        scene.landmarks.value_or(fs::path()),
+                        {},
+                        scene.registration};
+  StagePlan plan{StageId::registration, {}, options_of(scene, {"register"}), {"warped.nii.gz"}, {}};
+  for (const InputFile& file : scene_files(scene)) {
+    if (file.role == "image.t1" || file.role == "landmarks.file") {
+      plan.inputs.push_back(file);
+    }
+  }
+  add_artefacts(plan, folder, {"solve/solution.vtu", "segment/brain.vtp", "segment/labels.nii.gz"});
+  plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
+  return plan;
+}
+
+/// The report shows everything: the options, and all that the other stages left, their times too.
+StagePlan plan_report(const Scene& scene, const fs::path& folder) {
+  StagePlan plan{StageId::report, scene_files(scene), effective_options(scene), {"index.html"}, {}};
+  for (const StageId stage : {StageId::segment, StageId::discretise, StageId::solve, StageId::registration}) {
+    const fs::path stage_folder = folder / stage_name(stage);
+    if (fs::is_directory(stage_folder)) {
+      plan.inputs.push_back({std::string(stage_name(stage)), stage_folder});
+    }
+  }
+  plan.work = [folder](const fs::path& out, const Progress& progress) {
+    write_report(folder, out, progress);
+    return StageReport{};
+  };
+  return plan;
+}
+
+/// What other programs write must be readable before the stage counts as done.
+void check_artefacts(StageId stage, const fs::path& out) {
+  switch (stage) {
+    case StageId::segment:
+      read_surface(out / "brain.vtp");
+      break;
+    case StageId::discretise:
+      read_node_cloud(out / "nodes.vtu");
+      read_background_cells(out / "cells.vtu");
+      break;
+    case StageId::solve:
+      read_solution(out / "solution.vtu");
+      break;
+    case StageId::registration:
+      read_image(out / "warped.nii.gz");
+      break;
+    case StageId::report:
+      break;
+  }
+}
+
+void run_command_stage(const ExternalCommand& command, const StagePlan& plan, Interruption& interruption) {
+  run_external_command(command, interruption);
+  for (const std::string& name : plan.artefacts) {
+    if (!fs::exists(command.out / name)) {
+      throw std::invalid_argument("the command '" + command.command + "' of stage " +
+                                  std::string(stage_name(plan.stage)) + " wrote no " + name +
+                                  "; it must write it to the folder given as {out}");
+    }
+  }
+  try {
+    check_artefacts(plan.stage, command.out);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("the command '" + command.command + "' of stage " +
+                                std::string(stage_name(plan.stage)) +
+                                " wrote something else than it must: " + error.what());
+  }
+}
+
+/// An external command may read all that is there before it; a script that it names counts by its contents.
+void make_external(StagePlan& plan, const Scene& scene, const fs::path& folder, Interruption& interruption) {
+  const std::string& command = scene.commands[index_of(plan.stage)];
+  const fs::path directory = fs::absolute(scene.source.file).parent_path();
+  plan.options["command"] = command;
+  plan.inputs = scene_files(scene);
+  for (const StageId stage : all_stages) {
+    if (stage < plan.stage && fs::is_directory(folder / stage_name(stage))) {
+      for (const auto& entry : fs::directory_iterator(folder / stage_name(stage))) {
+        plan.inputs.push_back({std::string(stage_name(stage)) + "/" + entry.path().filename().string(), entry.path()});
+      }
+    }
+  }
+  std::erase_if(plan.inputs, [](const InputFile& file) { return file.path.filename() == "stage.json"; });
+  std::istringstream words(command);
+  for (std::string word; words >> word;) {
+    if (fs::is_regular_file(directory / word)) {
+      plan.inputs.push_back({"command/" + word, directory / word});
+    }
+  }
+  const fs::path in = folder;
+  StagePlan expected = plan;
+  plan.work = [command, in, directory, expected, &interruption](const fs::path& out, const Progress&) {
+    run_command_stage({command, in, out, directory}, expected, interruption);
+    return StageReport{};
+  };
+}
+
+}  // namespace
+
+std::vector<InputFile> scene_files(const Scene& scene) {
+  std::vector<InputFile> files;
+  for (const Element& element : scene_elements()) {
+    for (const auto& option : element.options) {
+      if (option.is_path && element.present(scene) && !option.get(scene).empty()) {
+        files.push_back({element.path + "." + option.name, option.get(scene)});
+      }
+    }
+  }
+  return files;
+}
+
+bool is_active(StageId stage, const Scene& scene) {
+  const bool needs_image = stage == StageId::registration || stage == StageId::report;
+  return !needs_image || !scene.image.t1.empty() || !scene.commands[index_of(stage)].empty();
+}
+
+StagePlan plan_stage(StageId stage, const Scene& scene, const fs::path& folder, Interruption& interruption) {
+  const auto plan_own = [&] {
+    switch (stage) {
+      case StageId::segment:
+        return plan_segment(scene);
+      case StageId::discretise:
+        return plan_discretise(scene, folder);
+      case StageId::solve:
+        return plan_solve(scene, folder);
+      case StageId::registration:
+        return plan_register(scene, folder);
+      case StageId::report:
+        break;
+    }
+    return plan_report(scene, folder);
+  };
+  StagePlan plan = plan_own();
+  if (!scene.commands[index_of(stage)].empty()) {
+    make_external(plan, scene, folder, interruption);
+  }
+  return plan;
+}
+
+std::string stamp(const StagePlan& plan) {
+  nlohmann::ordered_json text = {{"version", BRAINSHIFT_VERSION}, {"options", plan.options}};
+  for (const InputFile& input : plan.inputs) {
+    text["inputs"][input.role] = sha256_of_file(input.path);
+  }
+  return sha256_of_text(text.dump());
+}
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "pipelines/runner/jobs.hpp"
+#include "pipelines/runner/plan.hpp"
+
+namespace brainshift::pipelines {
+
+/// stage.json, in each stage's folder: what it was made from and what the stage said of itself. It travels with the
+/// folder, so that folder and stamp cannot disagree.
+struct StageRecord {
+  std::string stamp;
+  std::string failure;
+  nlohmann::ordered_json entry;  ///< the stage's entry in run.json
+};
+
+/// What the stage did, as run.json's entry.
+nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, double peak_memory_mb);
+
+void write_stage_record(const std::filesystem::path& folder, const StageRecord& record);
+
+/// Empty when there is none that can be read.
+std::optional<StageRecord> read_stage_record(const std::filesystem::path& folder);
+
+/// run.json before any stage: version, scene, inputs with checksums, options, threads.
+nlohmann::ordered_json begin_run_record(const Scene& scene);
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/scene/check_scene.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "pipelines/scene/scene_table.hpp"
+
+namespace brainshift::pipelines {
+namespace {
+
+[[noreturn]] void fail(const Scene& scene, const std::string& path, const std::string& what) {
+  throw std::invalid_argument(place(scene.source, path) + ": " + what);
+}
+
+void check_files(const Scene& scene) {
+  for (const Element& element : scene_elements()) {
+    if (!element.present(scene)) {
+      continue;
+    }
+    for (const auto& option : element.options) {
+      const std::string path = element.path + "." + option.name;
+      if (!option.is_path) {
+        continue;
+      }
+      const std::string file = option.get(scene);
+      if (file.empty() && option.required) {
+        fail(scene, path, path + " is empty; it must name a file");
+      }
+      if (!file.empty() && !std::filesystem::exists(file)) {
+        fail(scene, path, path + " names the file " + file + ", which does not exist");
+      }
+    }
+  }
+}
+
+bool is_ours(const Scene& scene, StageId stage) {
+  return scene.commands[index_of(stage)].empty();
+}
+
+void check_image(const Scene& scene) {
+  const ImageInputs& image = scene.image;
+  const int sources = int{!image.labels.empty()} + int{!image.brain_mask.empty()} + int{!image.surface.empty()};
+  if (is_ours(scene, StageId::segment) && sources != 1) {
+    fail(scene, "image",
+         "<image> names " + std::to_string(sources) +
+             " of labels, brain_mask and surface; give exactly one, a brain_mask together with a t1");
+  }
+  if (!image.brain_mask.empty() && image.t1.empty()) {
+    fail(scene, "image", "<image> has a brain_mask but no t1; the tissues are classified from the t1");
+  }
+}
+
+void check_load(const Scene& scene) {
+  if (!scene.load) {
+    if (is_ours(scene, StageId::discretise)) {
+      fail(scene, "load",
+           "the scene has no <load>: nothing would move; name one, as <load><craniotomy file=\"...\"/></load>");
+    }
+    return;
+  }
+  const Load& load = *scene.load;
+  const int parts = int{load.craniotomy.has_value()} + int{load.markups.has_value()} + int{load.surfaces.has_value()} +
+                    int{load.simulated.has_value()};
+  if (parts != 1) {
+    fail(
+        scene, "load",
+        "<load> has " + std::to_string(parts) + " parts; give exactly one of craniotomy, markups, surfaces, simulated");
+  }
+}
+
+void check_options(const Scene& scene) {
+  if (scene.discretise.nodes && scene.discretise.spacing) {
+    fail(scene, "discretise", "stage discretise has both nodes and spacing; give one of them");
+  }
+  if (scene.refinement.factor < 1 && !scene.load) {
+    fail(scene, "discretise.craniotomy_factor", "discretise.craniotomy_factor needs a <load> to refine towards");
+  }
+  const bool hexahedra = scene.discretise.cells == CellKind::hexahedron;
+  const int points = scene.solve.points_per_cell;
+  if (is_ours(scene, StageId::discretise) && hexahedra && points == 4) {
+    fail(scene, "solve.points_per_cell", "solve.points_per_cell is 4, but hexahedra take 1 or 8");
+  }
+}
+
+std::set<std::int16_t> labels_in(const LabelMap& map) {
+  std::vector<bool> seen(65536, false);
+  for (const std::int16_t label : map.voxels) {
+    seen[static_cast<std::uint16_t>(label)] = true;
+  }
+  std::set<std::int16_t> labels;
+  for (std::size_t i = 1; i < seen.size(); ++i) {
+    if (seen[i]) {
+      labels.insert(static_cast<std::int16_t>(i));
+    }
+  }
+  return labels;
+}
+
+/// The labels that the segment stage will give: those of the map, of the classes, or tissue 1 of a bare surface.
+std::set<std::int16_t> labels_to_come(const Scene& scene) {
+  namespace label = segmentation::default_label;
+  std::set<std::int16_t> labels = {label::parenchyma};
+  if (!scene.image.labels.empty()) {
+    labels = labels_in(read_label_map(scene.image.labels));
+  } else if (!scene.image.brain_mask.empty()) {
+    labels.insert({label::ventricles, label::csf});
+  }
+  if (!scene.image.tumour_mask.empty()) {
+    labels.insert(label::tumour);
+  }
+  return labels;
+}
+
+std::string listed(const std::set<std::int16_t>& labels) {
+  return labels.empty() ? "none" : write_numbers(labels);
+}
+
+void check_tissues(const Scene& scene) {
+  if (scene.tissues.empty()) {
+    fail(scene, "tissues", "the scene has no <tissues>; name a tissue with its material for each label of the brain");
+  }
+  if (!is_ours(scene, StageId::segment)) {
+    return;
+  }
+  const std::set<std::int16_t> labels = labels_to_come(scene);
+  const std::string source = scene.image.labels.empty() ? "the segmentation" : scene.image.labels.string();
+  std::set<std::int16_t> named(scene.image.other_labels.begin(), scene.image.other_labels.end());
+  for (const Tissue& tissue : scene.tissues) {
+    if (!labels.contains(tissue.label)) {
+      fail(scene, "tissues." + std::to_string(tissue.label),
+           "tissue " + std::to_string(tissue.label) + " is not in " + source + ", whose labels are " + listed(labels) +
+               "; remove the tissue or correct its label");
+    }
+    named.insert(tissue.label);
+  }
+  for (const std::int16_t label : labels) {
+    if (!named.contains(label)) {
+      fail(
+          scene, "tissues",
+          "label " + std::to_string(label) + " of " + source +
+              " has no material; give it a <tissue>, or list it in the image's other_labels if it is not of the brain");
+    }
+  }
+  const auto skull = scene.image.skull_label;
+  if (skull && !labels.contains(*skull)) {
+    fail(scene, "image.skull_label",
+         "skull_label " + std::to_string(*skull) + " is not in " + source + ", whose labels are " + listed(labels));
+  }
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene) {
+  check_files(scene);
+  check_image(scene);
+  check_load(scene);
+  check_options(scene);
+  check_tissues(scene);
+}
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/scene/explain_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "pipelines/scene/scene_table.hpp"
+
+namespace brainshift::pipelines {
+namespace {
+
+constexpr double typical_brain_volume = 1.4e6;  // mm³
+
+struct Cost {
+  double volume = typical_brain_volume;  ///< mm³
+  double voxels = 0;
+  double nodes = 0;
+  double points = 0;
+  double pairs = 0;
+};
+
+bool is_brain(const Scene& scene, std::int16_t value, bool mask) {
+  if (mask) {
+    return value != 0;
+  }
+  return std::any_of(scene.tissues.begin(), scene.tissues.end(), [&](const Tissue& t) { return t.label == value; });
+}
+
+void measure_brain(const Scene& scene, Cost& cost) {
+  const bool mask = scene.image.labels.empty();
+  const auto& file = mask ? scene.image.brain_mask : scene.image.labels;
+  if (file.empty()) {
+    return;
+  }
+  const LabelMap map = read_label_map(file);
+  const auto count = std::count_if(map.voxels.begin(), map.voxels.end(),
+                                   [&](std::int16_t value) { return is_brain(scene, value, mask); });
+  cost.voxels = static_cast<double>(map.voxels.size());
+  cost.volume = static_cast<double>(count) * map.geometry.voxel_volume();
+}
+
+Cost estimate(const Scene& scene) {
+  Cost cost;
+  measure_brain(scene, cost);
+  const auto& discretise = scene.discretise;
+  cost.nodes = discretise.spacing ? cost.volume / std::pow(*discretise.spacing, 3)
+                                  : static_cast<double>(discretise.nodes.value_or(12000));
+  const bool hexahedra = discretise.cells == CellKind::hexahedron;
+  // Delaunay tetrahedra of a cloud: about six a node.
+  const double cells = cost.nodes * (hexahedra ? discretise.cells_per_node : 6);
+  const int points_a_cell = hexahedra ? scene.solve.points_per_cell : std::min(scene.solve.points_per_cell, 4);
+  cost.points = cells * points_a_cell;
+  const ShapeOptions& shape = scene.solve.shape;
+  const double dilatation = shape.dilatation > 0 ? shape.dilatation : (shape.basis == Basis::linear ? 1.6 : 2.0);
+  cost.pairs = cost.points * 4 * std::numbers::pi / 3 * std::pow(dilatation, 3);
+  return cost;
+}
+
+std::string round_number(double value) {
+  const double digits = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(value, 1.0))) - 1));
+  return write_number(static_cast<long>(std::round(value / digits) * digits));
+}
+
+std::string stage_cost(StageId stage, const Cost& cost) {
+  // Bytes: an image of floats with two copies; a pair with its index and derivatives, in the solver's store and while
+  // it is made; three images and two fields of three floats.
+  const auto megabytes = [](double bytes) { return ", about " + round_number(50 + bytes / 1e6) + " MB"; };
+  switch (stage) {
+    case StageId::segment:
+      return round_number(cost.voxels) + " voxels" + megabytes(cost.voxels * 12);
+    case StageId::discretise:
+      return round_number(cost.nodes) + " nodes" + megabytes(cost.nodes * 2000);
+    case StageId::solve:
+      return round_number(cost.points) + " integration points, " + round_number(cost.pairs) + " pairs" +
+             megabytes(cost.pairs * 60);
+    case StageId::registration:
+      return round_number(cost.voxels) + " voxels" + megabytes(cost.voxels * 50);
+    case StageId::report:
+      return "pictures" + megabytes(cost.voxels * 30);
+  }
+  return {};
+}
+
+void explain_parts(const Scene& scene, std::ostringstream& text) {
+  for (const Element& element : scene_elements()) {
+    if (element.optional && element.path != "load") {
+      text << "  " << element.path << ": " << (element.present(scene) ? "active" : "not built") << "\n";
+    }
+  }
+  for (const Tissue& tissue : scene.tissues) {
+    text << "  tissue " << tissue.label << (tissue.name.empty() ? "" : " (" + tissue.name + ")") << ": "
+         << find_option(tissue_options(), "law")->get(tissue) << ", E " << write_number(tissue.material.youngs_modulus)
+         << " Pa, nu " << write_number(tissue.material.poisson_ratio) << "\n";
+  }
+}
+
+}  // namespace
+
+std::string explain_scene(const Scene& scene) {
+  const Cost cost = estimate(scene);
+  std::ostringstream text;
+  text << "parts\n";
+  explain_parts(scene, text);
+  text << "stages (estimates for a brain of " << round_number(cost.volume / 1000) << " ml)\n";
+  for (const StageId stage : all_stages) {
+    const std::string& command = scene.commands[index_of(stage)];
+    const bool needs_image = stage == StageId::registration || stage == StageId::report;
+    text << "  " << stage_name(stage) << ": ";
+    if (!command.empty()) {
+      text << "external command: " << command << "\n";
+    } else if (needs_image && scene.image.t1.empty()) {
+      text << "not built (no t1)\n";
+    } else {
+      text << stage_cost(stage, cost) << "\n";
+    }
+  }
+  return text.str();
+}
+
+}  // namespace brainshift::pipelines
