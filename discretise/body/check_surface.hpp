@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "segmentation/surface/surface.hpp"
+
+namespace brainshift::discretise {
+
+/// Throws std::invalid_argument, with one sentence on what is wrong and what to do, unless the surface encloses a body:
+/// finite, closed, 2-manifold, free of self-intersection, facing outward.
+void check_encloses_body(const Surface& surface);
+
+}  // namespace brainshift::discretise

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "discretise/cloud/make_cloud.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "discretise/cloud/delaunay.hpp"
+#include "discretise/cloud/interior_nodes.hpp"
+#include "discretise/cloud/keep_apart.hpp"
+#include "discretise/cloud/surface_nodes.hpp"
+
+namespace brainshift::discretise {
+namespace {
+
+/// Rows of nodes with those too near to another taken out; `on_surface` counts the first rows. Taking one out changes
+/// the spacing around it, hence the rounds.
+void thin_out(Points& nodes, std::size_t& on_surface, double fraction) {
+  for (int round = 0; round < 20; ++round) {
+    const std::vector<char> keep = keep_apart(nodes, on_surface, fraction);
+    Eigen::Index kept = 0;
+    std::size_t surface_kept = 0;
+    for (std::size_t node = 0; node < keep.size(); ++node) {
+      if (keep[node] != 0) {
+        surface_kept += node < on_surface ? 1 : 0;
+        nodes.row(kept++) = nodes.row(static_cast<Eigen::Index>(node));
+      }
+    }
+    if (kept == nodes.rows()) {
+      return;
+    }
+    nodes.conservativeResize(kept, 3);
+    on_surface = surface_kept;
+  }
+}
+
+NodeCloud describe(const Points& nodes, std::size_t on_surface, const TissueLookup& tissue) {
+  const std::vector<std::size_t> order = hilbert_order(nodes);
+  NodeCloud cloud;
+  cloud.positions.resize(nodes.rows(), 3);
+  cloud.on_surface.resize(order.size());
+  cloud.label.resize(order.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t node = 0; node < order.size(); ++node) {
+    const auto row = static_cast<Eigen::Index>(node);
+    cloud.positions.row(row) = nodes.row(static_cast<Eigen::Index>(order[node]));
+    cloud.on_surface[node] = order[node] < on_surface ? 1 : 0;
+    cloud.label[node] = tissue.tissue_at(cloud.positions.row(row).transpose());
+  }
+  return cloud;
+}
+
+}  // namespace
+
+MadeCloud make_cloud(const Surface& surface, const Scanlines& body, const NodeDemand& demand,
+                     const TissueLookup& tissue, const DiscretiseOptions& options, const Progress& progress) {
+  Random random(options.seed);
+  report(progress, 0.15, "nodes on the surface");
+  const Points on_surface =
+      spread_over_surface(surface, body, demand.sizing, demand.spacing, demand.surface_nodes, random);
+  report(progress, 0.4, "nodes in the interior");
+  const Points interior = fill_interior(on_surface, body, demand.sizing, demand.spacing, demand.interior_nodes, random);
+  Points nodes(on_surface.rows() + interior.rows(), 3);
+  nodes << on_surface, interior;
+
+  MadeCloud made;
+  auto surface_nodes = static_cast<std::size_t>(on_surface.rows());
+  const Eigen::Index before = nodes.rows();
+  thin_out(nodes, surface_nodes, options.minimum_distance);
+  made.removed_nodes = static_cast<std::size_t>(before - nodes.rows());
+  made.cloud = describe(nodes, surface_nodes, tissue);
+  const CloudDistances distances = cloud_distances(made.cloud.positions);
+  made.cloud.spacing = distances.spacing;
+  made.smallest_distance_ratio = std::numeric_limits<double>::infinity();
+  for (std::size_t node = 0; node < made.cloud.size(); ++node) {
+    made.smallest_distance_ratio =
+        std::min(made.smallest_distance_ratio, distances.nearest[node] / distances.spacing[node]);
+  }
+  return made;
+}
+
+}  // namespace brainshift::discretise
