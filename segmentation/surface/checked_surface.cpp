@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <stdexcept>
+#include <string>
+
+#include "segmentation/segment.hpp"
+#include "segmentation/surface/remesh.hpp"
+
+namespace brainshift::segmentation {
+namespace {
+
+bool sound(const SurfaceMeasures& measures) {
+  return measures.closed && !measures.self_intersecting && measures.outward;
+}
+
+Surface turned(Surface surface) {
+  surface.triangles.col(1).swap(surface.triangles.col(2));
+  return surface;
+}
+
+// The wider the opening, the larger the holes that are bridged, and the more of the folds that are lost.
+CheckedSurface wrapped_sound(const Surface& surface, double edge_length) {
+  CheckedSurface result;
+  for (const double opening : {edge_length, 2 * edge_length, 4 * edge_length, 8 * edge_length}) {
+    const Surface wrap = wrapped(surface, opening);
+    result.surface = remeshed(wrap, edge_length);
+    result.measures = measure(result.surface);
+    if (!sound(result.measures)) {
+      result.surface = wrap;
+      result.measures = measure(wrap);
+    }
+    // A wrap that slips in through a hole follows both sides of the wall: it encloses a shell and not a body.
+    const double box = (surface.vertices.colwise().maxCoeff() - surface.vertices.colwise().minCoeff()).prod();
+    if (sound(result.measures) && result.measures.volume > 0.2 * box) {
+      break;
+    }
+  }
+  result.measures.repaired = true;
+  return result;
+}
+
+}  // namespace
+
+CheckedSurface checked_surface(const Surface& surface, double edge_length) {
+  if (surface.triangles.rows() == 0) {
+    throw std::invalid_argument("the surface holds no triangle; a closed, triangulated surface is needed");
+  }
+  SurfaceMeasures given = measure(surface);
+  const bool inside_out = given.closed && !given.self_intersecting && given.volume < 0;
+  const Surface outward = inside_out ? turned(surface) : surface;
+  CheckedSurface result;
+  if (inside_out || sound(given)) {
+    result.surface = remeshed(outward, edge_length);
+    result.measures = measure(result.surface);
+  }
+  if (!sound(result.measures)) {
+    result = wrapped_sound(outward, edge_length);
+  }
+  result.measures.edge_length_target = edge_length;
+  if (!sound(result.measures)) {
+    throw std::invalid_argument(
+        "the surface is open or cuts itself, and could not be wrapped into a closed one; close its holes first");
+  }
+  return result;
+}
+
+}  // namespace brainshift::segmentation

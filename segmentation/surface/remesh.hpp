@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "segmentation/surface/surface.hpp"
+
+namespace brainshift::segmentation {
+
+/// The same surface with triangles of one edge length (mm), vertices on the old surface (Botsch & Kobbelt 2004, by
+/// CGAL). Turned outward when it is closed. Where the input is not 2-manifold, vertices are doubled first.
+Surface remeshed(const Surface& surface, double edge_length);
+
+/// A closed, 2-manifold surface free of self-intersection around whatever came in: holes narrower than `opening` (mm)
+/// are bridged (alpha wrap, Portaneri et al. 2022, by CGAL). It lies outside the input by about a thirtieth of
+/// `opening`.
+Surface wrapped(const Surface& surface, double opening);
+
+}  // namespace brainshift::segmentation

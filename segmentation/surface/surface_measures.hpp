@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+
+#include "segmentation/surface/surface.hpp"
+
+namespace brainshift::segmentation {
+
+/// How good a surface is.
+struct SurfaceMeasures {
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  double volume = 0;                ///< mm³
+  double label_volume = 0;          ///< of the voxels it encloses, mm³
+  double boundary_distance_95 = 0;  ///< 95th percentile over the surface of the distance to the label boundary, mm
+  double edge_length_mean = 0;      ///< mm
+  double edge_length_target = 0;    ///< mm; shorter than the one asked for where that was too coarse for the label
+  bool closed = false;              ///< every edge between two triangles, 2-manifold
+  bool outward = false;             ///< the triangles face outward
+  bool self_intersecting = true;
+  bool repaired = false;  ///< made with the rescue (alpha wrap)
+};
+
+/// What can be said of a surface alone: all but label_volume, boundary_distance_95, edge_length_target and repaired.
+SurfaceMeasures measure(const Surface& surface);
+
+/// Mean length of the triangles' edges, mm.
+double mean_edge_length(const Surface& surface);
+
+}  // namespace brainshift::segmentation

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <stdexcept>
+
+#include "segmentation/segment.hpp"
+
+namespace brainshift::segmentation {
+
+void write_segmentation(const std::filesystem::path& folder, const Segmentation& segmentation) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) {
+    throw std::runtime_error(folder.string() + ": the folder cannot be made (" + failed.message() + ")");
+  }
+  if (segmentation.labels) {
+    write_image(folder / "labels.nii.gz", *segmentation.labels);
+  }
+  write_surface(folder / "brain.vtp", segmentation.brain);
+  write_surface(folder / "skull.vtp", segmentation.skull);
+  for (const auto& [label, surface] : segmentation.tissues) {
+    write_surface(folder / ("tissue_" + std::to_string(label) + ".vtp"), surface);
+  }
+  for (std::size_t c = 0; c < segmentation.memberships.size(); ++c) {
+    write_image(folder / ("membership_" + std::to_string(c) + ".nii.gz"), segmentation.memberships[c]);
+  }
+}
+
+}  // namespace brainshift::segmentation
