@@ -55,7 +55,7 @@ RunData read_run(const fs::path& run_folder) {
               .solution = {},
               .history = {}};
   const auto image = [](const fs::path& file) { return read_image(file); };
-  run.t1 = read_if_there(input_path(run.record, "t1"), image);
+  run.t1 = read_if_there(input_path(run.record, "image.t1"), image);
   run.warped = read_if_there(run_folder / "register/warped.nii.gz", image);
   run.forward = read_if_there(run_folder / "register/preop_to_intraop.nii.gz",
                               [](const fs::path& file) { return read_vector_image(file); });

@@ -20,9 +20,9 @@ struct SlicePlane {
   Eigen::Vector3d corner;
   Eigen::Vector3d right;
   Eigen::Vector3d down;
-  int width;                           ///< pixels
-  int height;                          ///< pixels
-  double scale;                        ///< pixels a mm
+  int width;                    ///< pixels
+  int height;                   ///< pixels
+  double scale;                 ///< pixels a mm
   std::array<char, 4> letters;  ///< at the left, right, upper and lower border
 
   Eigen::Vector3d world(const Eigen::Vector2d& pixel) const {

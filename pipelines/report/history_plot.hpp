@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solve/solve.hpp"
+
+namespace brainshift::pipelines {
+
+/// How the solver converged, as an SVG element: the bound of the remaining error (mm, logarithmic) over the steps, the
+/// loading phase shaded, the tolerance as a line (none where it is not positive). Empty for fewer than two rows.
+std::string convergence_plot(const std::vector<solve::HistoryRow>& history, double tolerance);
+
+/// External work, strain energy and kinetic energy (mJ) over the steps.
+std::string energy_plot(const std::vector<solve::HistoryRow>& history);
+
+}  // namespace brainshift::pipelines

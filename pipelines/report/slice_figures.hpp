@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipelines/report/canvas.hpp"
+#include "pipelines/report/colour_scale.hpp"
+#include "pipelines/report/run_data.hpp"
+#include "pipelines/report/slice_plane.hpp"
+
+namespace brainshift::pipelines {
+
+struct Figure {
+  std::string name;  ///< of the file, without its ending
+  std::string alt;   ///< what it shows, for those who cannot see it
+  Canvas picture;
+};
+
+/// What all pictures of a run share.
+struct View {
+  Points opening;                     ///< loaded nodes, mm; no row where nothing is loaded
+  Eigen::Vector3d opening_centre;     ///< on the surface, or the brain's centre where nothing is loaded
+  Eigen::Vector3d inward;             ///< unit vector from the opening into the brain
+  double opening_reach;               ///< a place nearer than this to a loaded node is in the opening, mm
+  std::array<SlicePlane, 3> planes;   ///< 12 mm under the opening's centre
+  double darkest = 0;                 ///< shown black
+  double brightest = 1;               ///< shown white
+  Surface deformed;                   ///< the brain's surface, intraop
+  std::vector<double> surface_shift;  ///< |u| at its vertices, mm
+  ColourScale shift;                  ///< colours of |u|
+};
+
+/// The run must have a brain surface and a solution.
+View make_view(const RunData& run);
+
+/// Before, after and difference in a plane; the run must have a T1 and a warped image.
+std::vector<Figure> comparison_figures(const RunData& run, const View& view, const SlicePlane& plane);
+
+/// The displacement in a plane as colours and arrows, over the T1 where there is one.
+Figure displacement_figure(const RunData& run, const View& view, const SlicePlane& plane);
+
+/// How many times too long the arrows are drawn.
+double arrow_factor(const View& view);
+
+}  // namespace brainshift::pipelines

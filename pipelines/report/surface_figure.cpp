@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/report/surface_figure.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "pipelines/report/rasteriser.hpp"
+
+namespace brainshift::pipelines {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int half_width = 520;  // of the final picture: one of the two views
+constexpr int height = 500;
+constexpr int sampling = 2;  // drawn so many times larger, then halved
+
+// The rim of the opening on the surface: where the distance to the nearest loaded node is the opening's reach. Pairs
+// of points, one pair a triangle that it crosses.
+Points opening_rim(const Surface& preop, const Surface& shown, const View& view) {
+  std::vector<double> distance;
+  for (const auto& vertex : preop.vertices.rowwise()) {
+    distance.push_back((view.opening.rowwise() - vertex).rowwise().norm().minCoeff() - view.opening_reach);
+  }
+  std::vector<Vector3d> ends;
+  for (const auto& triangle : preop.triangles.rowwise()) {
+    for (int edge = 0; edge < 3; ++edge) {
+      const auto a = static_cast<std::size_t>(triangle[edge]);
+      const auto b = static_cast<std::size_t>(triangle[(edge + 1) % 3]);
+      if ((distance[a] < 0) != (distance[b] < 0)) {
+        const Vector3d from = shown.vertices.row(triangle[edge]);
+        const Vector3d to = shown.vertices.row(triangle[(edge + 1) % 3]);
+        ends.push_back(from + (to - from) * (distance[a] / (distance[a] - distance[b])));
+      }
+    }
+  }
+  Points rim(static_cast<Eigen::Index>(ends.size()), 3);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    rim.row(static_cast<Eigen::Index>(i)) = ends[i].transpose();
+  }
+  return rim;
+}
+
+// Where left, posterior and superior point.
+void draw_axes(Canvas& canvas, const Camera& camera) {
+  const Eigen::Vector2d middle(64, height - 70);
+  const char* names[] = {"L", "P", "S"};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d end = camera.project(camera.target + Vector3d::Unit(axis)) - camera.project(camera.target);
+    const Eigen::Vector2d direction = end.head<2>() / camera.scale;
+    if (direction.norm() < 0.1) {
+      continue;
+    }
+    draw_arrow(canvas, middle, middle + 34 * direction, 2, colour::ink);
+    draw_text(canvas, middle + (34 * direction.norm() + 12) * direction.normalized(), names[axis],
+              {.size = 15, .anchor = Anchor::centre, .bold = true});
+  }
+}
+
+Canvas draw_view(const RunData& run, const View& view, const Vector3d& towards, const std::string& title) {
+  const Points& vertices = view.deformed.vertices;
+  const Vector3d low = vertices.colwise().minCoeff();
+  const Vector3d high = vertices.colwise().maxCoeff();
+  const double reach = (vertices.rowwise() - (0.5 * (low + high)).transpose()).rowwise().norm().maxCoeff();
+  const double scale = sampling * 0.5 * (height - 40) / reach;
+  const Camera camera = look_at(0.5 * (low + high), towards, scale, sampling * half_width, sampling * height);
+  DepthCanvas picture = draw_surface(camera, view.deformed, view.surface_shift, view.shift);
+  if (view.opening.rows() > 0) {
+    const Points rim = opening_rim(*run.brain, view.deformed, view);
+    for (Eigen::Index i = 0; i + 1 < rim.rows(); i += 2) {
+      draw_line_on(picture, camera, rim.middleRows(i, 2), sampling * 2.0, {215, 40, 40});
+    }
+  }
+  Canvas half = halve(picture.canvas);
+  draw_axes(half, {.target = camera.target,
+                   .towards = camera.towards,
+                   .up = camera.up,
+                   .scale = scale / sampling,
+                   .width = half_width,
+                   .height = height});
+  draw_text(half, {16, 20}, title, {.size = 17, .bold = true});
+  return half;
+}
+
+}  // namespace
+
+Figure surface_figure(const RunData& run, const View& view) {
+  constexpr int bar = 120;
+  Canvas canvas(2 * half_width + bar, height, colour::white);
+  const Vector3d sideways = (Vector3d::UnitZ() - view.inward.z() * view.inward).cross(view.inward);
+  const Vector3d side = sideways.norm() > 0.1 ? sideways.normalized() : view.inward.unitOrthogonal();
+  const bool opened = view.opening.rows() > 0;
+  paste(canvas, draw_view(run, view, view.inward, opened ? "seen through the opening" : "from above"), 0, 0);
+  paste(canvas, draw_view(run, view, side, "from the side"), half_width, 0);
+  draw_colour_bar(canvas, view.shift, 2 * half_width + 16, 80, height - 160, colour::ink);
+  return {"surface", "The brain's surface, coloured by displacement", std::move(canvas)};
+}
+
+}  // namespace brainshift::pipelines

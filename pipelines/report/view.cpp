@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "pipelines/report/slice_figures.hpp"
+
+namespace brainshift::pipelines {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double margin = 14;           // mm, shown around the brain
+constexpr double depth_of_planes = 12;  // mm; at the surface itself a plane would only graze the brain
+constexpr double pixels_per_mm = 2.5;
+
+Vector3d nearest_vertex(const Surface& surface, const Vector3d& point) {
+  Eigen::Index nearest = 0;
+  (surface.vertices.rowwise() - point.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  return surface.vertices.row(nearest);
+}
+
+// Against the mean normal of the surface's triangles that lie in the opening.
+Vector3d inward_at(const Surface& surface, const Vector3d& centre, double radius) {
+  Vector3d normal = Vector3d::Zero();
+  for (const auto& triangle : surface.triangles.rowwise()) {
+    const Vector3d a = surface.vertices.row(triangle[0]);
+    const Vector3d b = surface.vertices.row(triangle[1]);
+    const Vector3d c = surface.vertices.row(triangle[2]);
+    if ((a - centre).norm() < radius) {
+      normal += (b - a).cross(c - a);
+    }
+  }
+  return -normal.normalized();
+}
+
+// Brightness between which nearly all voxels lie; the few brightest (fat, vessels) would darken the rest.
+std::pair<double, double> grey_window(const ScalarImage& image) {
+  std::vector<float> sample;
+  for (std::size_t i = 0; i < image.voxels.size(); i += 61) {
+    sample.push_back(image.voxels[i]);
+  }
+  const auto quantile = [&](double share) {
+    const auto place = sample.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1));
+    std::nth_element(sample.begin(), place, sample.end());
+    return static_cast<double>(*place);
+  };
+  const double low = quantile(0.02);
+  const double high = quantile(0.995);
+  return {low, high > low ? high : low + 1};
+}
+
+void find_opening(const RunData& run, View& view) {
+  const Surface& brain = *run.brain;
+  view.opening = loaded_positions(*run.solution);
+  const auto& spacing = run.solution->spacing;
+  view.opening_reach = spacing.empty()
+                           ? 5.0
+                           : std::accumulate(spacing.begin(), spacing.end(), 0.0) / static_cast<double>(spacing.size());
+  if (view.opening.rows() == 0) {
+    view.opening_centre = brain.vertices.colwise().mean().transpose();
+    view.inward = -Vector3d::UnitZ();
+    return;
+  }
+  view.opening_centre = nearest_vertex(brain, view.opening.colwise().mean().transpose());
+  view.inward = inward_at(brain, view.opening_centre, 4 * view.opening_reach);
+}
+
+}  // namespace
+
+View make_view(const RunData& run) {
+  View view{};
+  find_opening(run, view);
+  const Points& vertices = run.brain->vertices;
+  const Vector3d low = vertices.colwise().minCoeff().transpose().array() - margin;
+  const Vector3d high = vertices.colwise().maxCoeff().transpose().array() + margin;
+  const double depth = view.opening.rows() == 0 ? 0 : depth_of_planes;
+  view.planes = anatomical_planes(view.opening_centre + depth * view.inward, low, high, pixels_per_mm);
+  if (run.t1) {
+    std::tie(view.darkest, view.brightest) = grey_window(*run.t1);
+  }
+  const Points shift = displacement_at(*run.solution, vertices);
+  view.deformed = {vertices + shift, run.brain->triangles};
+  for (const auto& u : shift.rowwise()) {
+    view.surface_shift.push_back(u.norm());
+  }
+  const double largest = run.solution->displacement.rowwise().norm().maxCoeff();
+  view.shift = {.map = ColourMap::sequential, .low = 0, .high = round_up(largest), .title = "|u| mm"};
+  return view;
+}
+
+}  // namespace brainshift::pipelines
