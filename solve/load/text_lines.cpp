@@ -81,7 +81,7 @@ void fail_at_line(const std::filesystem::path& file, std::size_t line, const std
 }
 
 double parse_number(const std::string& field, const std::filesystem::path& file, std::size_t line) {
-  const char* first = field.data() + (field.starts_with('+') ? 1 : 0);
+  const char* first = field.data() + (field.starts_with('+') && !field.starts_with("+-") ? 1 : 0);
   const char* last = field.data() + field.size();
   double number = 0;
   const auto [end, fault] = std::from_chars(first, last, number);
