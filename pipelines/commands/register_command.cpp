@@ -30,7 +30,11 @@ void add_register_command(CLI::App& program, const Settings& settings) {
   command->add_option("--t1", job.t1, "preop image, whose grid the fields take")->required()->type_name("FILE");
   command->add_option("--labels", job.labels, "label map to warp")->type_name("FILE");
   command->add_option("--landmarks", job.landmarks, "markups to move")->type_name("FILE");
-  command->add_option("--warp", job.warp, "another image, surface or markups file to move; again for each")
+  command->add_option("--warp", job.warp, "another image, surface or file of points to move; again for each")
+      ->type_name("FILE")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_option("--warp-labels", job.warp_labels, "another label map to move; again for each")
       ->type_name("FILE")
       ->take_all()
       ->allow_extra_args(false);

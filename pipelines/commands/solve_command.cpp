@@ -67,6 +67,7 @@ std::optional<Load> load_of(const SolveArguments& arguments) {
 void solve(const SolveArguments& arguments, const Settings& settings) {
   SolveJob job = arguments.job;
   job.options = arguments.scene.solve;
+  job.points_per_cell = arguments.scene.points_per_cell;
   job.load = load_of(arguments);
   for (const std::string& text : arguments.materials) {
     const Tissue tissue = read_material(text);

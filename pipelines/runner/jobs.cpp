@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "pipelines/runner/measures.hpp"
+#include "register/files/warp_any.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -22,22 +23,14 @@ void need_same_grid(const ImageGeometry& t1, const fs::path& t1_file, const std:
   }
 }
 
-/// Moves one file with the run's own fields: images and label maps, surfaces, markups.
-void warp_file(const fs::path& file, const fs::path& out, const registration::Registration& fields,
-               registration::Interpolation interpolation) {
-  const std::string ending = file.extension().string();
+/// Moves one more file with the fields that were just written to the folder.
+void warp_file(const fs::path& file, const fs::path& out, const registration::WarpAnyOptions& options) {
   const fs::path target = out / ("warped_" + file.filename().string());
-  if (ending == ".vtp" || ending == ".stl" || ending == ".ply" || ending == ".obj") {
-    Surface surface = read_surface(file);
-    surface.vertices = registration::move_points(fields.forward, surface.vertices);
-    write_surface(target, surface);
-  } else if (ending == ".json" || ending == ".fcsv") {
-    const Points before = solve::read_markup_positions(file);
-    const Points after = registration::move_points(fields.forward, before);
-    solve::write_craniotomy_csv(out / ("warped_" + file.stem().stem().string() + ".csv"), {before, after - before});
-  } else {
-    write_image(target, registration::warp(read_image(file), fields.resampling, interpolation));
+  if (fs::exists(target)) {
+    throw std::invalid_argument(file.string() + ": there is a " + target.filename().string() +
+                                " already; rename the file that is to be warped");
   }
+  registration::warp_any(file, out, target, options);
 }
 
 }  // namespace
@@ -108,7 +101,9 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
     model.cloud.prescribed_displacement = solve::prescribed_on_surface_nodes(model.cloud, load, job.load->opening);
     solve::write_craniotomy_csv(out / "load.csv", load);
   }
-  const solve::SolveResult result = solve::solve(model, job.options, progress);
+  solve::SolveOptions options = job.options;
+  options.points_per_cell = job.points_per_cell.value_or(model.cells.kind == CellKind::hexahedron ? 8 : 4);
+  const solve::SolveResult result = solve::solve(model, options, progress);
   write_solution(out / "solution.vtu", result.solution);
   solve::write_history(out / "history.csv", result.history);
   return report_of(result);
@@ -128,7 +123,10 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
   const registration::Registration result = registration::register_images(input, job.options, progress);
   registration::write_registration(out, result);
   for (const fs::path& file : job.warp) {
-    warp_file(file, out, result, job.options.interpolation);
+    warp_file(file, out, {.labels = false, .interpolation = job.options.interpolation});
+  }
+  for (const fs::path& file : job.warp_labels) {
+    warp_file(file, out, {.labels = true, .interpolation = job.options.interpolation});
   }
   return report_of(result);
 }

@@ -34,7 +34,8 @@ struct SolveJob {
   std::filesystem::path surface;  ///< the brain's, for a simulated load
   std::optional<Load> load;       ///< absent: what the nodes prescribe
   std::map<std::int32_t, solve::Material> materials;
-  solve::SolveOptions options;
+  solve::SolveOptions options;         ///< but for points_per_cell
+  std::optional<int> points_per_cell;  ///< absent: 8 a hexahedron, 4 a tetrahedron
 };
 
 struct RegisterJob {
@@ -43,7 +44,8 @@ struct RegisterJob {
   std::filesystem::path t1;
   std::filesystem::path labels;
   std::filesystem::path landmarks;
-  std::vector<std::filesystem::path> warp;  ///< images, surfaces and markups to move with the same map
+  std::vector<std::filesystem::path> warp;         ///< images, surfaces and points to move with the same map
+  std::vector<std::filesystem::path> warp_labels;  ///< label maps
   registration::RegisterOptions options;
 };
 

@@ -16,7 +16,9 @@ StageReport report_of(const segmentation::Segmentation& result) {
                              {"label_volume_mm3", m.label_volume},
                              {"boundary_distance_95_mm", m.boundary_distance_95},
                              {"edge_length_mean_mm", m.edge_length_mean},
+                             {"edge_length_target_mm", m.edge_length_target},
                              {"closed", m.closed},
+                             {"outward", m.outward},
                              {"self_intersecting", m.self_intersecting},
                              {"repaired", m.repaired}};
   }
@@ -25,9 +27,10 @@ StageReport report_of(const segmentation::Segmentation& result) {
 
 StageReport report_of(const discretise::DiscretiseMeasures& m) {
   StageReport report;
-  report.sizes = {
-      {"nodes", m.nodes}, {"surface_nodes", m.surface_nodes}, {"cells", m.cells}, {"cut_cells", m.cut_cells}};
+  report.sizes = {{"nodes", m.nodes},         {"surface_nodes", m.surface_nodes}, {"cells", m.cells},
+                  {"cut_cells", m.cut_cells}, {"removed_nodes", m.removed_nodes}, {"dropped_cells", m.dropped_cells}};
   report.measures = {{"spacing_mm", m.spacing},
+                     {"mean_spacing_mm", m.mean_spacing},
                      {"smallest_distance_ratio", m.smallest_distance_ratio},
                      {"surface_volume_mm3", m.surface_volume},
                      {"cells_inside_volume_mm3", m.cells_inside_volume}};

@@ -116,7 +116,8 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
                if_there(folder / "segment" / "brain.vtp"),
                scene.load,
                {},
-               scene.solve};
+               scene.solve,
+               scene.points_per_cell};
   if (scene.contact) {
     job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;
   }
@@ -143,6 +144,7 @@ StagePlan plan_register(const Scene& scene, const fs::path& folder) {
                         scene.image.t1,
                         if_there(folder / "segment" / "labels.nii.gz"),
                         scene.landmarks.value_or(fs::path()),
+                        {},
                         {},
                         scene.registration};
   StagePlan plan{StageId::registration, {}, options_of(scene, {"register"}), {"warped.nii.gz"}, {}};

@@ -77,10 +77,13 @@ void check_options(const Scene& scene) {
   if (scene.refinement.factor < 1 && !scene.load) {
     fail(scene, "discretise.craniotomy_factor", "discretise.craniotomy_factor needs a <load> to refine towards");
   }
-  const bool hexahedra = scene.discretise.cells == CellKind::hexahedron;
-  const int points = scene.solve.points_per_cell;
-  if (is_ours(scene, StageId::discretise) && hexahedra && points == 4) {
-    fail(scene, "solve.points_per_cell", "solve.points_per_cell is 4, but hexahedra take 1 or 8");
+  if (is_ours(scene, StageId::discretise) && scene.points_per_cell.value_or(1) != 1) {
+    const bool hexahedra = scene.discretise.cells == CellKind::hexahedron;
+    if (*scene.points_per_cell != (hexahedra ? 8 : 4)) {
+      fail(scene, "solve.points_per_cell",
+           "solve.points_per_cell is " + std::to_string(*scene.points_per_cell) + ", but " +
+               (hexahedra ? "hexahedra take 1 or 8" : "tetrahedra take 1 or 4"));
+    }
   }
 }
 

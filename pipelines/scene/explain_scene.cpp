@@ -50,10 +50,10 @@ Cost estimate(const Scene& scene) {
   const bool hexahedra = discretise.cells == CellKind::hexahedron;
   // Delaunay tetrahedra of a cloud: about six a node.
   const double cells = cost.nodes * (hexahedra ? discretise.cells_per_node : 6);
-  const int points_a_cell = hexahedra ? scene.solve.points_per_cell : std::min(scene.solve.points_per_cell, 4);
+  const int points_a_cell = scene.points_per_cell.value_or(hexahedra ? 8 : 4);
   cost.points = cells * points_a_cell;
   const ShapeOptions& shape = scene.solve.shape;
-  const double dilatation = shape.dilatation > 0 ? shape.dilatation : (shape.basis == Basis::linear ? 1.6 : 2.0);
+  const double dilatation = shape.dilatation > 0 ? shape.dilatation : (shape.basis == Basis::linear ? 1.6 : 2.2);
   cost.pairs = cost.points * 4 * std::numbers::pi / 3 * std::pow(dilatation, 3);
   return cost;
 }

@@ -100,7 +100,8 @@ struct Scene {
   segmentation::SegmentOptions segment;  ///< brain_labels and skull_label are filled in from tissues and image
   discretise::DiscretiseOptions discretise;
   CraniotomyRefinement refinement;
-  solve::SolveOptions solve;
+  solve::SolveOptions solve;           ///< but for points_per_cell
+  std::optional<int> points_per_cell;  ///< absent: 8 a hexahedron, 4 a tetrahedron
   registration::RegisterOptions registration;
   std::array<std::string, all_stages.size()> commands;  ///< external commands that replace stages; empty: our own stage
   SceneSource source;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/phantoms/program.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+namespace brainshift {
+namespace fs = std::filesystem;
+
+ProgramResult run_shell(const std::string& command) {
+  const ScratchFolder scratch("shell");
+  const std::string script = "brainshift() { '" BRAINSHIFT_PROGRAM "' \"$@\"; }\n" + command + "\n";
+  write_text(scratch / "script", script);
+  const std::string line = "/bin/sh " + (scratch / "script").string() + " >" + (scratch / "out").string() + " 2>" +
+                           (scratch / "err").string();
+  const int status = std::system(line.c_str());
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {code, read_text(scratch / "out"), read_text(scratch / "err")};
+}
+
+ScratchFolder::ScratchFolder(const std::string& name)
+    : path_(fs::temp_directory_path() / ("brainshift_" + name + "_" + std::to_string(getpid()))) {
+  fs::remove_all(path_);
+  fs::create_directories(path_);
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+std::vector<std::string> half_written(const fs::path& folder) {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending == ".partial" || ending == ".old") {
+      found.push_back(entry.path().string());
+    }
+  }
+  return found;
+}
+
+}  // namespace brainshift

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace brainshift {
+
+struct ProgramResult {
+  int code = 0;
+  std::string out;
+  std::string err;
+};
+
+/// Runs `command` with /bin/sh, where "brainshift" stands for the program that was built.
+ProgramResult run_shell(const std::string& command);
+
+/// A folder for a test program's files, empty at first, removed at the end.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const std::string& name);
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_text(const std::filesystem::path& file);
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+/// Names ending in .partial or .old anywhere under the folder, and beside it: what a stopped program must not leave.
+std::vector<std::string> half_written(const std::filesystem::path& folder);
+
+}  // namespace brainshift

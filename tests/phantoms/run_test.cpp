@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Whole runs of a small synthetic head, through the program: what a run leaves, what is kept, interruption, external
+// stages. One head and one finished run serve all; a test that changes something copies the run.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tests/phantoms/program.hpp"
+
+namespace brainshift {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class Run : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch = std::make_unique<ScratchFolder>("run");
+    const ProgramResult head = run_shell("brainshift phantom --size 40 --spacing 4.8 --out " + head_folder());
+    ASSERT_EQ(head.code, 0) << head.err;
+    const ProgramResult first = run(finished());
+    ASSERT_EQ(first.code, 0) << first.err;
+  }
+  static void TearDownTestSuite() { scratch.reset(); }
+
+  static std::string head_folder() { return (*scratch / "head").string(); }
+  static fs::path finished() { return *scratch / "finished"; }
+  static constexpr const char* small = " --set discretise.nodes=700 --set solve.tolerance=0.1 ";
+
+  static ProgramResult run(const fs::path& out, const std::string& more = "", const std::string& scene = "scene.xml") {
+    return run_shell("brainshift run " + head_folder() + "/" + scene + small + more + " --out " + out.string());
+  }
+  static fs::path copy_of_finished(const std::string& name) {
+    fs::copy(finished(), *scratch / name, fs::copy_options::recursive);
+    return *scratch / name;
+  }
+  static json record(const fs::path& out) { return json::parse(read_text(out / "run.json")); }
+  /// The status of each stage, in order: "done done kept ...".
+  static std::string statuses(const fs::path& out) {
+    const json stages = record(out)["stages"];
+    std::string text;
+    for (const char* stage : {"segment", "discretise", "solve", "register", "report"}) {
+      text += (text.empty() ? "" : " ") + (stages.contains(stage) ? stages[stage]["status"].get<std::string>() : "-");
+    }
+    return text;
+  }
+  /// The head's scene with a stage added, under another name.
+  static std::string scene_with(const std::string& name, const std::string& from, const std::string& to) {
+    std::string text = read_text(head_folder() + "/scene.xml");
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos);
+    text.replace(at, text.find("/>", at) + 2 - at, to);
+    write_text(head_folder() + "/" + name, text);
+    return name;
+  }
+
+  static std::unique_ptr<ScratchFolder> scratch;
+};
+std::unique_ptr<ScratchFolder> Run::scratch;
+
+TEST_F(Run, LeavesEveryArtefactOfTheDesign) {
+  for (const char* file :
+       {"segment/labels.nii.gz", "segment/brain.vtp", "segment/skull.vtp", "discretise/nodes.vtu",
+        "discretise/cells.vtu", "solve/solution.vtu", "solve/history.csv", "register/warped.nii.gz",
+        "register/warped_labels.nii.gz", "register/intraop_to_preop.nii.gz", "register/preop_to_intraop.nii.gz",
+        "register/intraop_to_preop.h5", "register/preop_to_intraop.h5", "register/landmarks.csv",
+        "register/jacobian.nii.gz", "report/index.html", "run.json"}) {
+    EXPECT_GT(fs::exists(finished() / file) ? fs::file_size(finished() / file) : 0, 0U) << file;
+  }
+  EXPECT_TRUE(half_written(finished()).empty());
+}
+
+TEST_F(Run, RecordsWhatItDid) {
+  const json run = record(finished());
+  EXPECT_EQ(statuses(finished()), "done done done done done");
+  EXPECT_GE(run["threads"], 1);
+  EXPECT_EQ(run["options"]["discretise"]["nodes"], "700");
+  for (const json& input : run["inputs"]) {
+    const std::string file = input["path"];
+    const ProgramResult sum = run_shell("sha256sum " + file);
+    EXPECT_EQ(sum.out.substr(0, 64), input["sha256"]) << file;
+  }
+  EXPECT_EQ(run["inputs"].size(), 4U) << "t1, labels, load, landmarks";
+  for (const auto& [name, stage] : run["stages"].items()) {
+    EXPECT_GT(stage["seconds"], 0.0) << name;
+    EXPECT_GT(stage["peak_memory_mb"], 1.0) << name;
+  }
+  EXPECT_NEAR(run["stages"]["discretise"]["sizes"]["nodes"].get<double>(), 700, 70);
+  EXPECT_TRUE(run["stages"]["solve"]["measures"]["converged"]);
+  EXPECT_GT(run["stages"]["solve"]["sizes"]["loaded_nodes"], 0);
+}
+
+TEST_F(Run, RunsNothingAgainThatHasNotChanged) {
+  const fs::path out = copy_of_finished("unchanged");
+  const std::string before = read_text(out / "solve/stage.json");
+  ASSERT_EQ(run(out).code, 0);
+  EXPECT_EQ(statuses(out), "kept kept kept kept kept");
+  EXPECT_EQ(read_text(out / "solve/stage.json"), before);
+  ASSERT_EQ(run(out, "--threads 1").code, 0);
+  EXPECT_EQ(statuses(out), "kept kept kept kept kept") << "results do not depend on the threads";
+}
+
+TEST_F(Run, RunsFromTheChangedStageOn) {
+  const fs::path out = copy_of_finished("changed");
+  ASSERT_EQ(run(out, "--set tissues.1.youngs_modulus=2000").code, 0);
+  EXPECT_EQ(statuses(out), "kept kept done done done");
+  ASSERT_EQ(run(out, "--set tissues.1.youngs_modulus=2000 --set register.interpolation=bspline").code, 0);
+  EXPECT_EQ(statuses(out), "kept kept kept done done");
+}
+
+TEST_F(Run, UntilStopsAndTellsWhatIsOutdated) {
+  const fs::path out = copy_of_finished("until");
+  ASSERT_EQ(run(out, "--until discretise").code, 0);
+  EXPECT_EQ(statuses(out), "kept kept done done done");
+  ASSERT_EQ(run(out, "--until discretise --set discretise.seed=2").code, 0);
+  EXPECT_EQ(statuses(out), "kept done outdated outdated outdated");
+  const fs::path fresh = *scratch / "fresh";
+  ASSERT_EQ(run(fresh, "--until segment").code, 0);
+  EXPECT_EQ(statuses(fresh), "done - - - -");
+  EXPECT_FALSE(fs::exists(fresh / "discretise"));
+}
+
+TEST_F(Run, ForceRunsEverythingAndGivesTheSameFiles) {
+  const fs::path out = copy_of_finished("force");
+  ASSERT_EQ(run(out, "--force --until solve").code, 0);
+  EXPECT_EQ(statuses(out).substr(0, 14), "done done done");
+  for (const char* file : {"segment/brain.vtp", "discretise/nodes.vtu", "discretise/cells.vtu", "solve/solution.vtu"}) {
+    EXPECT_EQ(read_text(out / file), read_text(finished() / file)) << file;
+  }
+}
+
+TEST_F(Run, AStageWhoseArtefactIsMissingRunsAgain) {
+  const fs::path out = copy_of_finished("missing");
+  fs::remove(out / "discretise/cells.vtu");
+  ASSERT_EQ(run(out).code, 0);
+  EXPECT_EQ(statuses(out).substr(0, 14), "kept done kept");
+}
+
+TEST_F(Run, AnInterruptedRunLeavesNothingHalfWrittenAndContinues) {
+  for (const auto& [signal, code] : {std::pair("INT", 130), std::pair("TERM", 143)}) {
+    const fs::path out = *scratch / (std::string("interrupted") + signal);
+    // The solve stage is made long; it is stopped when its folder appears.
+    const std::string command = "'" BRAINSHIFT_PROGRAM "' run " + head_folder() +
+                                "/scene.xml --set solve.tolerance=1e-9" + " --set discretise.nodes=3000 --out " +
+                                out.string() + " &\npid=$!\nn=0\n" + "while [ ! -e " + out.string() +
+                                "/solve.partial ] && [ $n -lt 600 ]; do sleep 0.1; " +
+                                "n=$((n+1)); done\nsleep 0.2\nkill -" + signal + " $pid\nwait $pid\nexit $?";
+    // An interactive shell's child: in a script's background SIGINT would be ignored.
+    const ProgramResult stopped = run_shell("set -m\n" + command);
+    EXPECT_EQ(stopped.code, code) << stopped.err;
+    EXPECT_NE(stopped.err.find("interrupted"), std::string::npos) << stopped.err;
+    EXPECT_TRUE(half_written(out).empty());
+    EXPECT_FALSE(fs::exists(out / "solve"));
+    const ProgramResult again = run_shell("brainshift run " + head_folder() + "/scene.xml --set discretise.nodes=3000" +
+                                          " --until discretise --out " + out.string());
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(statuses(out), "kept kept - - -");
+  }
+}
+
+TEST_F(Run, AKilledRunIsContinuedToo) {
+  const fs::path out = copy_of_finished("killed");
+  fs::remove_all(out / "solve");
+  fs::create_directories(out / "solve.partial");
+  write_text(out / "solve.partial/solution.vtu", "half");
+  ASSERT_EQ(run(out).code, 0);
+  EXPECT_EQ(statuses(out).substr(0, 14), "kept kept done");
+  EXPECT_TRUE(half_written(out).empty());
+}
+
+TEST_F(Run, AStageMayBeAnExternalCommand) {
+  write_text(head_folder() + "/mesher.sh",
+             "set -e\n\"$PROGRAM\" discretise --surface \"$1/segment/brain.vtp\" --labels \"$1/segment/labels.nii.gz\" "
+             "--nodes 700 --out \"$2/raw\" --quiet\nmv \"$2\"/raw/*.vtu \"$2\"\nrm -r \"$2/raw\"\n");
+  const std::string scene = scene_with("external.xml", "<stage name=\"discretise\"",
+                                       "<stage name=\"discretise\" command=\"sh mesher.sh {in} {out}\"/>");
+  const fs::path out = *scratch / "external";
+  const std::string more = " --until solve";
+  setenv("PROGRAM", BRAINSHIFT_PROGRAM, 1);
+  const ProgramResult external = run(out, more, scene);
+  ASSERT_EQ(external.code, 0) << external.err;
+  EXPECT_EQ(read_text(out / "discretise/nodes.vtu"), read_text(finished() / "discretise/nodes.vtu"));
+  EXPECT_EQ(read_text(out / "solve/solution.vtu"), read_text(finished() / "solve/solution.vtu"));
+  ASSERT_EQ(run(out, more, scene).code, 0);
+  EXPECT_EQ(statuses(out), "kept kept kept - -");
+}
+
+TEST_F(Run, AnExternalCommandThatFailsIsToldAndLeavesNothing) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"echo no licence &gt;&amp;2; exit 9", "code 9, saying: no licence"},
+      {"true", "wrote no nodes.vtu"},
+      {"echo x &gt; {out}/nodes.vtu; echo x &gt; {out}/cells.vtu", "nodes.vtu"}};
+  for (const auto& [command, said] : cases) {
+    const std::string scene = scene_with("failing.xml", "<stage name=\"discretise\"",
+                                         std::string("<stage name=\"discretise\" command=\"") + command + "\"/>");
+    const fs::path out = *scratch / "failing";
+    const ProgramResult result = run(out, "--quiet", scene);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_NE(result.err.find(said), std::string::npos) << result.err;
+    EXPECT_TRUE(half_written(out).empty());
+    EXPECT_FALSE(fs::exists(out / "discretise"));
+    EXPECT_TRUE(fs::exists(out / "segment/brain.vtp"));
+  }
+}
+
+TEST_F(Run, ASolveThatDoesNotConvergeKeepsWhatItHas) {
+  const fs::path out = *scratch / "diverged";
+  const ProgramResult result = run(out, "--quiet --set solve.max_steps=5");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_TRUE(fs::exists(out / "solve/solution.vtu"));
+  EXPECT_EQ(statuses(out), "done done failed - -");
+  ASSERT_EQ(run(out).code, 0);
+  EXPECT_EQ(statuses(out), "kept kept done done done");
+}
+
+TEST_F(Run, StagesAloneGiveWhatTheRunGave) {
+  const std::string out = (*scratch / "alone").string();
+  const std::string r = finished().string();
+  const ProgramResult result = run_shell(
+      "set -e\nbrainshift segment --labels " + head_folder() + "/labels.nii.gz --edge-length " +
+      record(finished())["options"]["segment"]["edge_length"].get<std::string>() + " --out " + out + "/segment\n" +
+      "brainshift discretise --surface " + out + "/segment/brain.vtp --labels " + out +
+      "/segment/labels.nii.gz --nodes 700 --out " + out + "/discretise\n" + "brainshift solve --nodes " + out +
+      "/discretise/nodes.vtu --cells " + out + "/discretise/cells.vtu --labels " + out +
+      "/segment/labels.nii.gz --skull " + r + "/segment/skull.vtp --load " + head_folder() +
+      "/craniotomy.csv --material 1:3000,0.49 --material 2:10,0.1 --material 3:9000,0.49,1000 --tolerance 0.1 --out " +
+      out + "/solve\n" + "brainshift register --solution " + out + "/solve/solution.vtu --brain " + out +
+      "/segment/brain.vtp --t1 " + head_folder() + "/t1.nii.gz --warp " + r + "/segment/brain.vtp --out " + out +
+      "/register");
+  ASSERT_EQ(result.code, 0) << result.err;
+  for (const char* file : {"/segment/brain.vtp", "/discretise/cells.vtu", "/solve/solution.vtu"}) {
+    EXPECT_EQ(read_text(out + file), read_text(r + file)) << file;
+  }
+  EXPECT_TRUE(fs::exists(out + "/register/warped_brain.vtp"));
+}
+
+TEST_F(Run, AFolderThatIsNotOursIsNotOverwritten) {
+  const fs::path out = *scratch / "foreign";
+  fs::create_directories(out / "segment");
+  write_text(out / "segment/precious", "mine");
+  const ProgramResult result = run(out, "--quiet");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("not made by brainshift"), std::string::npos) << result.err;
+  EXPECT_EQ(read_text(out / "segment/precious"), "mine");
+}
+
+TEST_F(Run, ReportCanBeMadeAgain) {
+  const fs::path out = copy_of_finished("report");
+  const ProgramResult result = run_shell("brainshift report " + out.string() + " --out " + out.string() + "/page");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(fs::exists(out / "page/index.html"));
+}
+
+}  // namespace
+}  // namespace brainshift

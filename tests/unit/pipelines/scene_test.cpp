@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "pipelines/scene/check_scene.hpp"
+#include "pipelines/scene/describe_scene.hpp"
+#include "pipelines/scene/explain_scene.hpp"
+#include "pipelines/scene/parse_scene.hpp"
+#include "pipelines/scene/scene_table.hpp"
+
+namespace brainshift::pipelines {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SceneFile : public testing::Test {
+ protected:
+  SceneFile() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / ("brainshift_scene_" + std::string(info->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~SceneFile() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& text) const {
+    std::ofstream(folder_ / "scene.xml") << text;
+    return folder_ / "scene.xml";
+  }
+  fs::path touch(const std::string& name) const {
+    std::ofstream(folder_ / name) << "x";
+    return folder_ / name;
+  }
+  Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    return parse_scene(write(text), overrides);
+  }
+  /// The message of the fault in a scene; empty when there is none.
+  std::string fault(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    try {
+      check_scene(parse(text, overrides));
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  fs::path folder_;
+};
+
+void expect_parts(const std::string& message, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) {
+    EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
+  }
+}
+
+TEST_F(SceneFile, DefaultsParseAndGiveExactlyTheDefaults) {
+  EXPECT_EQ(effective_options(parse(default_scene())), effective_options(Scene{}));
+}
+
+TEST_F(SceneFile, DefaultsNameEveryOption) {
+  const std::string text = default_scene();
+  for (const Element& element : scene_elements()) {
+    for (const auto& option : element.options) {
+      expect_parts(text, {" " + option.name + "=\"", option.name + ": " + option.help});
+    }
+  }
+}
+
+TEST_F(SceneFile, PartsInTheCommentsOfTheDefaultsParseToo) {
+  std::string text = default_scene();
+  for (const std::string part : {"<contact", "<tissues", "<load><simulated"}) {
+    const std::size_t begin = text.find(part);
+    const std::string example = text.substr(begin, text.find('\n', begin) - begin);
+    text.insert(text.find("</scene>"), example + "\n");
+  }
+  const Scene scene = parse(text);
+  EXPECT_TRUE(scene.contact);
+  EXPECT_TRUE(scene.load && scene.load->simulated);
+  ASSERT_EQ(scene.tissues.size(), 1U);
+  EXPECT_EQ(scene.tissues[0].material.youngs_modulus, solve::Material{}.youngs_modulus);
+}
+
+TEST_F(SceneFile, EveryOptionReadsBackWhatItWrites) {
+  Scene scene;
+  for (const Element& element : scene_elements()) {
+    element.add(scene);
+    for (const auto& option : element.options) {
+      const std::string value = option.get(scene);
+      EXPECT_TRUE(option.set(scene, value)) << element.path << "." << option.name << " = '" << value << "'";
+      EXPECT_EQ(option.get(scene), value);
+    }
+  }
+}
+
+TEST_F(SceneFile, ValuesArriveWhereTheyBelong) {
+  const Scene scene = parse(R"(<scene version="1">
+  <image t1="t1.nii" other_labels="4 7" skull_label="5"/>
+  <tissues><tissue label="2" name="ventricles" youngs_modulus="10" poisson_ratio="0.1" density="900"/></tissues>
+  <load margin="3"><simulated centre="1 -2 3.5" radius="20" depth="6"/></load>
+  <contact/>
+  <stage name="discretise" spacing="4" cells="tetrahedra" craniotomy_factor="0.5"/>
+  <stage name="solve" basis="linear" points_per_cell="4" command="my_solver {in} {out}"/>
+  <stage name="register" interpolation="bspline"/>
+</scene>)");
+  EXPECT_EQ(scene.image.t1, folder_ / "t1.nii") << "files are relative to the scene's";
+  EXPECT_EQ(scene.image.other_labels, (std::vector<std::int16_t>{4, 7}));
+  EXPECT_EQ(scene.image.skull_label, 5);
+  EXPECT_EQ(scene.tissues.at(0).material.density, 900);
+  EXPECT_EQ(scene.load->opening.margin, 3);
+  EXPECT_EQ(scene.load->simulated->centre, Eigen::Vector3d(1, -2, 3.5));
+  EXPECT_TRUE(scene.contact);
+  EXPECT_EQ(scene.discretise.spacing, 4);
+  EXPECT_EQ(scene.discretise.cells, CellKind::tetrahedron);
+  EXPECT_EQ(scene.refinement.factor, 0.5);
+  EXPECT_EQ(scene.solve.shape.basis, Basis::linear);
+  EXPECT_EQ(scene.points_per_cell, 4);
+  EXPECT_EQ(scene.commands[index_of(StageId::solve)], "my_solver {in} {out}");
+  EXPECT_EQ(scene.registration.interpolation, registration::Interpolation::bspline);
+}
+
+TEST_F(SceneFile, PartsThatAreNotNamedAreNotThere) {
+  const Scene scene = parse("<scene/>");
+  EXPECT_FALSE(scene.load);
+  EXPECT_FALSE(scene.contact);
+  EXPECT_FALSE(scene.landmarks);
+  EXPECT_TRUE(scene.tissues.empty());
+}
+
+TEST_F(SceneFile, SetOverridesTheFile) {
+  const Scene scene = parse(R"(<scene>
+  <tissues><tissue label="1" youngs_modulus="3000"/></tissues>
+  <stage name="segment" edge_length="5"/></scene>)",
+                            {"segment.edge_length=4", "tissues.1.youngs_modulus=2500", "load.craniotomy.file=c.csv"});
+  EXPECT_EQ(scene.segment.edge_length, 4);
+  EXPECT_EQ(scene.tissues.at(0).material.youngs_modulus, 2500);
+  EXPECT_EQ(*scene.load->craniotomy, folder_ / "c.csv");
+}
+
+TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
+  const std::string at = folder_.string() + "/scene.xml:";
+  struct Case {
+    std::string inside;  // from line 2 on
+    std::vector<std::string> parts;
+  };
+  const std::vector<Case> cases = {
+      {"\n<imgae/>", {at + "3", "imgae", "image, load, contact"}},
+      {"<image t2=\"x\"/>", {at + "2", "t2", "t1, labels"}},
+      {"<image\n t1=\"a\"\n t1=\"b\"/>", {"scene.xml"}},
+      {"<image/>\n<image/>", {at + "3", "twice"}},
+      {"<stage name=\"segmnet\"/>", {at + "2", "segmnet", "segment, discretise"}},
+      {"<stage/>", {at + "2", "name"}},
+      {"<stage name=\"segment\"\n edge_length=\"-1\"/>", {at + "3", "edge_length", "'-1'", "> 0", "mm"}},
+      {"<stage name=\"segment\" edge_length=\"nan\"/>", {at + "2", "'nan'", "> 0"}},
+      {"<stage name=\"segment\" edge_length=\"5mm\"/>", {at + "2", "'5mm'", "> 0"}},
+      {"<stage name=\"segment\" classes=\"2.5\"/>", {at + "2", "'2.5'", "whole number from 2 to 10"}},
+      {"<stage name=\"solve\" basis=\"cubic\"/>", {at + "2", "'cubic'", "linear | quadratic | modified_quadratic"}},
+      {"<tissues><tissue label=\"1\" poisson_ratio=\"0.5\"/></tissues>", {at + "2", "'0.5'", "< 0.5"}},
+      {"<tissues><tissue name=\"a\"/></tissues>", {at + "2", "needs the attribute 'label'"}},
+      {"<tissues>\n<tissue label=\"1\"/>\n<tissue label=\"1\"/></tissues>", {at + "4", "two tissues of label 1"}},
+      {"<tissues><organ/></tissues>", {at + "2", "organ", "tissue"}},
+      {"<load><simulated centre=\"1 2\"/></load>", {at + "2", "'1 2'", "three numbers"}},
+      {"<load><craniotomy/></load>", {at + "2", "needs the attribute 'file'"}},
+      {"<contact>now</contact>", {at + "2", "text 'now'"}},
+      {"<segment edge_length=\"3\"/>", {at + "2", "segment"}},
+      {"<image>", {at, "XML"}},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.inside);
+    expect_parts(fault("<scene version=\"1\">\n" + c.inside + "</scene>"), c.parts);
+  }
+  expect_parts(fault("<model/>"), {at + "1", "<scene version=\"1\">"});
+  expect_parts(fault("<scene version=\"2\"/>"), {at + "1", "version"});
+  expect_parts(fault(""), {"scene.xml:1", "XML"});
+}
+
+TEST_F(SceneFile, FaultsOfOverridesNameThePath) {
+  expect_parts(fault("<scene/>", {"segment.edge=4"}), {"--set", "edge", "edge_length"});
+  expect_parts(fault("<scene/>", {"segmentation.edge_length=4"}), {"--set", "segmentation", "segment"});
+  expect_parts(fault("<scene/>", {"segment.edge_length=0"}), {"--set", "'0'", "> 0"});
+  expect_parts(fault("<scene/>", {"segment.edge_length"}), {"--set", "PATH=VALUE"});
+  expect_parts(fault("<scene/>", {"tissues.3.density=1"}), {"--set", "no tissue of label '3'"});
+  expect_parts(fault("<scene/>", {"load.simulated.depth=4"}), {"--set", "load.simulated.centre"});
+}
+
+LabelMap block_labels() {
+  LabelMap map;
+  map.geometry.size = {4, 4, 4};
+  map.voxels.assign(64, 0);
+  map.at(1, 1, 1) = 1;
+  map.at(2, 1, 1) = 3;
+  map.at(1, 2, 1) = 6;
+  return map;
+}
+
+TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  touch("load.csv");
+  const std::string load = "<load><craniotomy file=\"load.csv\"/></load>";
+  const std::string image = "<image labels=\"labels.nii.gz\"/>";
+  const std::string two = "<tissues><tissue label=\"1\"/><tissue label=\"3\"/></tissues>";
+  const auto scene = [](const std::string& inside) { return "<scene>\n" + inside + "\n</scene>"; };
+  EXPECT_EQ(fault(scene(image + two + load)), "");
+  expect_parts(fault(scene("<image labels=\"none.nii\"/>" + two + load)),
+               {"scene.xml:2", "none.nii", "does not exist"});
+  expect_parts(fault(scene(two + load)), {"exactly one"});
+  expect_parts(fault(scene("<image labels=\"labels.nii.gz\" surface=\"load.csv\"/>" + two + load)), {"exactly one"});
+  expect_parts(fault(scene("<image brain_mask=\"labels.nii.gz\"/>" + two + load)), {"t1"});
+  expect_parts(fault(scene(image + two)), {"no <load>"});
+  expect_parts(fault(scene(image + two + "<load/>")), {"exactly one"});
+  expect_parts(fault(scene(image + load)), {"no <tissues>"});
+  expect_parts(fault(scene(image + load + "<tissues>\n<tissue label=\"1\"/>\n<tissue label=\"2\"/></tissues>")),
+               {"scene.xml:4", "tissue 2", "1 3 6"});
+  expect_parts(fault(scene(image + load + "<tissues><tissue label=\"1\"/></tissues>")),
+               {"label 3", "no material", "other_labels"});
+  expect_parts(fault(scene(image + two + load), {"discretise.nodes=100", "discretise.spacing=3"}), {"both"});
+  expect_parts(fault(scene(image + two + load), {"solve.points_per_cell=4"}), {"--set", "hexahedra take 1 or 8"});
+  expect_parts(fault(scene(image + two + load), {"image.skull_label=5"}), {"--set", "skull_label 5"});
+}
+
+TEST_F(SceneFile, ExplainTellsActivePartsFromThoseNotBuilt) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  touch("load.csv");
+  const Scene scene = parse(R"(<scene><image labels="labels.nii.gz"/>
+  <tissues><tissue label="1"/><tissue label="3"/></tissues>
+  <load><craniotomy file="load.csv"/></load>
+  <stage name="discretise" nodes="1000" command="mesher {in} {out}"/></scene>)");
+  const std::string text = explain_scene(scene);
+  expect_parts(text, {"load.craniotomy: active", "load.simulated: not built", "contact: not built", "mesher {in} {out}",
+                      "register: not built", "integration points", "MB"});
+}
+
+}  // namespace
+}  // namespace brainshift::pipelines
