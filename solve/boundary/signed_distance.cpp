@@ -49,8 +49,8 @@ struct Nearest {
   }
 };
 
-struct Direction {
-  int axis;
+struct Sweep {
+  int along, across;  ///< axes
   bool forward;
 };
 
@@ -132,41 +132,39 @@ Nearest nearest_in_band(const std::vector<TriangleFrame>& frames, const Grid& gr
   return nearest;
 }
 
-/// Hands the nearest triangles on from layer to layer along one axis. A layer reads only the layer before it, so its
-/// samples can be filled in any order.
-void sweep(const std::vector<TriangleFrame>& frames, const Grid& grid, double band, Direction direction,
+/// Hands the nearest triangles on along one axis, each sample taking them from the three before it in a slice of that
+/// axis and another. Slices are independent of one another, so that threads need not wait and their number changes
+/// nothing.
+void sweep(const std::vector<TriangleFrame>& frames, const Grid& grid, double band, const Sweep& way,
            Nearest& nearest) {
-  const int axis = direction.axis, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
-  const std::ptrdiff_t back = direction.forward ? -grid.stride(axis) : grid.stride(axis);
+  const int slice_axis = 3 - way.along - way.across;
+  const std::ptrdiff_t back = way.forward ? -grid.stride(way.along) : grid.stride(way.along);
+  const std::ptrdiff_t side = grid.stride(way.across);
   const auto fill = [&](const Eigen::Array3i& index) {
     const std::ptrdiff_t sample = grid.offset(index);
     if (nearest.squared[sample] <= band * band) {
       return;
     }
     const Eigen::Vector3d p = grid.position(index);
-    const std::ptrdiff_t before = sample + back;
-    const std::ptrdiff_t low_u = index[u] > 0 ? -grid.stride(u) : 0, low_v = index[v] > 0 ? -grid.stride(v) : 0;
-    const std::ptrdiff_t high_u = index[u] < grid.size[u] - 1 ? grid.stride(u) : 0;
-    const std::ptrdiff_t high_v = index[v] < grid.size[v] - 1 ? grid.stride(v) : 0;
+    const std::ptrdiff_t low = index[way.across] > 0 ? -side : 0;
+    const std::ptrdiff_t high = index[way.across] < grid.size[way.across] - 1 ? side : 0;
     std::int32_t tried = nearest.triangle[sample];
-    for (const std::ptrdiff_t side : {std::ptrdiff_t{0}, low_u, high_u, low_v, high_v}) {
-      const std::int32_t candidate = nearest.triangle[before + side];
+    for (const std::ptrdiff_t beside : {std::ptrdiff_t{0}, low, high}) {
+      const std::int32_t candidate = nearest.triangle[sample + back + beside];
       if (candidate != none && candidate != tried) {
         nearest.offer(sample, candidate, squared_distance(frames[candidate], p));
         tried = candidate;
       }
     }
   };
-  const int layers = grid.size[axis];
-#pragma omp parallel
-  for (int step = 1; step < layers; ++step) {
-#pragma omp for schedule(static)
-    for (int b = 0; b < grid.size[v]; ++b) {
-      for (int a = 0; a < grid.size[u]; ++a) {
-        Eigen::Array3i index;
-        index[axis] = direction.forward ? step : layers - 1 - step;
-        index[u] = a;
-        index[v] = b;
+  const int steps = grid.size[way.along];
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int slice = 0; slice < grid.size[slice_axis]; ++slice) {
+    Eigen::Array3i index;
+    index[slice_axis] = slice;
+    for (int step = 1; step < steps; ++step) {
+      index[way.along] = way.forward ? step : steps - 1 - step;
+      for (index[way.across] = 0; index[way.across] < grid.size[way.across]; ++index[way.across]) {
         fill(index);
       }
     }
@@ -206,9 +204,11 @@ SignedDistance::SignedDistance(const Surface& surface, const SignedDistanceOptio
   const std::vector<TriangleFrame> frames = triangle_frames(surface);
   const double band = band_in_spacings * grid.spacing;
   Nearest nearest = nearest_in_band(frames, grid, band);
-  for (const int axis : {2, 1, 0}) {
-    sweep(frames, grid, band, {axis, true}, nearest);
-    sweep(frames, grid, band, {axis, false}, nearest);
+  for (int along = 2; along >= 0; --along) {
+    for (const int across : {(along + 1) % 3, (along + 2) % 3}) {
+      sweep(frames, grid, band, {along, across, true}, nearest);
+      sweep(frames, grid, band, {along, across, false}, nearest);
+    }
   }
   spacing_ = grid.spacing;
   origin_ = grid.origin;

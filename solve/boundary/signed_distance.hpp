@@ -16,8 +16,8 @@ struct SignedDistanceOptions {
 /// Signed distance to a closed surface, mm, LPS; negative inside. Sampled once on a regular grid, then answered in
 /// O(1). The samples within three grid spacings of the surface are exact, their sign by the angle-weighted normal of
 /// the nearest corner, edge or face (Bærentzen & Aanæs 2005); further out the nearest triangle is handed on from sample
-/// to sample, which may miss it by a little. Between samples the value is trilinear: rounded at edges and corners by up
-/// to a fraction of the spacing. Const calls may run on many threads.
+/// to sample, which may miss it: by a few hundredths of a mm about a head, by up to half a mm deep inside a ball.
+/// Between samples the value is trilinear, which rounds edges and corners. Const calls may run on many threads.
 class SignedDistance {
  public:
   /// Uses all threads; the result does not depend on their number. Throws std::invalid_argument on a surface that is
