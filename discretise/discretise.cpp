@@ -66,7 +66,7 @@ void check_labels_overlap(const NodeCloud& cloud, const TissueLookup& tissue) {
 CellGrid make_cells(const Surface& surface, const Scanlines& body, const NodeDemand& demand, const TissueLookup& tissue,
                     const DiscretiseOptions& options, const NodeCloud& cloud) {
   if (options.cells == CellKind::tetrahedron) {
-    return {inside_tetrahedra(cloud.positions, body, tissue), 0, 0.0};
+    return inside_tetrahedra(cloud.positions, body, tissue);
   }
   const double cells = options.cells_per_node * static_cast<double>(cloud.size());
   const double edge = std::cbrt(volume_demand(surface, body, demand.sizing) / cells);
@@ -101,6 +101,7 @@ Discretisation discretise(const Surface& brain, const LabelMap* labels, const Di
   measures.cells = result.cells.size();
   measures.cut_cells = result.cells.cut_parts.size();
   measures.dropped_cells = grid.dropped_cells;
+  measures.dropped_volume = grid.dropped_volume;
   measures.spacing = demand.spacing;
   measures.mean_spacing =
       std::accumulate(cloud.spacing.begin(), cloud.spacing.end(), 0.0) / static_cast<double>(cloud.size());

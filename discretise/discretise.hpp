@@ -44,7 +44,8 @@ struct DiscretiseMeasures {
   std::size_t removed_nodes = 0;  ///< left out because they were too near to another
   std::size_t cells = 0;
   std::size_t cut_cells = 0;
-  std::size_t dropped_cells = 0;       ///< cut cells with a negligible inside part, left out
+  std::size_t dropped_cells = 0;       ///< left out: cut hexahedra with a negligible inside part, flat tetrahedra
+  double dropped_volume = 0;           ///< of those, mm³
   double spacing = 0;                  ///< the uniform spacing used, mm
   double mean_spacing = 0;             ///< the mean over the nodes of the one achieved, mm
   double smallest_distance_ratio = 0;  ///< least over nodes of distance to the nearest node / local spacing

@@ -11,7 +11,8 @@
 namespace brainshift::discretise {
 namespace {
 
-constexpr int smoothing_sweeps = 6;
+constexpr int smoothing_sweeps = 5;
+constexpr int shaking_sweeps = 4;
 /// Random places at this fraction of the spacing nearly fill space at the density that is wanted.
 constexpr double first_distance = 0.86;
 /// Misses in a row, in counts of nodes wanted, after which the distance is lowered.
@@ -50,6 +51,9 @@ Points fill_interior(const Points& surface_nodes, const Scanlines& body, const S
   }
   for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
     smooth(nodes, on_surface, body, sizing);
+  }
+  for (int sweep = 0; sweep < shaking_sweeps; ++sweep) {
+    shake_slivers(nodes, on_surface, body, random);
   }
   return nodes.bottomRows(static_cast<Eigen::Index>(count));
 }

@@ -13,7 +13,7 @@ namespace {
 
 /// Nodes in a cube of the spacing's edge, and on a square of it: with these the mean distance of a node to its six
 /// nearest is the spacing (measured on a ball and on brains).
-constexpr double nodes_per_cube = 1.0;
+constexpr double nodes_per_cube = 1.13;
 constexpr double nodes_per_square = 1.1;
 /// The part of a surface node's cell that would otherwise take an interior node.
 constexpr double surface_share = 0.5;
