@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <sstream>
 
 #include "solve/boundary/load_curve.hpp"
@@ -13,10 +14,13 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int window = 20;            // steps between looks at the state
-constexpr double mass_margin = 1.1;   // tangents may grow by this before the masses are made anew
-constexpr double energy_unit = 1e-6;  // g mm²/s² to mJ
-constexpr std::int64_t chunk = 2048;  // nodes summed at a time: sums do not depend on the number of threads
+constexpr int window = 20;  // steps between looks at the state
+constexpr int power_iterations = 40;
+constexpr double eigenvalue_margin = 1.25;  // power iteration comes from below, and tangents turn as the body deforms
+constexpr double rest_amplitude = 1e-7;     // mm: small enough to stay linear
+constexpr double mass_margin = 1.1;         // tangents may grow by this before the masses are made anew
+constexpr double energy_unit = 1e-6;        // g mm²/s² to mJ
+constexpr std::int64_t chunk = 2048;        // nodes summed at a time: sums do not depend on the number of threads
 
 /// Sums term(node) over the nodes, in an order that does not depend on the number of threads.
 template <class Term>
@@ -54,7 +58,8 @@ struct Pace {
 
 class Relaxation {
  public:
-  Relaxation(const System& system, const SolveOptions& options)
+  /// cautious: masses from the bound, which holds whatever the state; else from the largest eigenvalue as measured.
+  Relaxation(const System& system, const SolveOptions& options, bool cautious)
       : system_(system),
         options_(options),
         nodes_(system.points.nodes()),
@@ -69,6 +74,9 @@ class Relaxation {
     moduli_ = tangent_moduli(system_.points, system_.laws, scratch_);
     for (double& m : moduli_) {
       m *= mass_margin;
+    }
+    if (!cautious) {
+      mass_scale_ = eigenvalue_margin * largest_eigenvalue_at_rest();
     }
     set_masses();
   }
@@ -96,10 +104,40 @@ class Relaxation {
  private:
   void set_masses() {
     mass_ = relaxation_mass(system_.points, moduli_);
+    for (double& m : mass_) {
+      m *= mass_scale_;
+    }
     system_.essential.factorise(mass_);
     if (system_.contact) {
       system_.contact->weigh(mass_);
     }
+  }
+
+  /// Largest eigenvalue of M⁻¹K with the masses of the bound, by power iteration from a rough start: between 0 and 1.
+  double largest_eigenvalue_at_rest() {
+    const std::vector<double> mass = relaxation_mass(system_.points, moduli_);
+    NodalVectors shape(4 * nodes_, 0.0);
+    std::mt19937 random(1);
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+      shape[i] = i % 4 < 3 ? static_cast<double>(random() % 2001) - 1000.0 : 0.0;
+    }
+    double eigenvalue = 1;
+    for (int iteration = 0; iteration < power_iterations; ++iteration) {
+      const double norm =
+          std::sqrt(sum_over_nodes(nodes_, [&](std::size_t a) { return mass[a] * at(shape, a).squaredNorm(); }));
+      const double scale = rest_amplitude * std::sqrt(mass[0]) / norm;
+      for (double& x : shape) {
+        x *= scale;
+      }
+      internal_force(system_.points, system_.laws, shape, scratch_, force_);
+      const double inertia =
+          sum_over_nodes(nodes_, [&](std::size_t a) { return mass[a] * at(shape, a).squaredNorm(); });
+      eigenvalue = sum_over_nodes(nodes_, [&](std::size_t a) { return at(shape, a).dot(at(force_, a)); }) / inertia;
+      for (std::size_t i = 0; i < shape.size(); ++i) {
+        shape[i] = force_[i] / mass[i / 4];
+      }
+    }
+    return std::min(eigenvalue, 1.0 / eigenvalue_margin);
   }
 
   void step(double time) {
@@ -175,6 +213,7 @@ class Relaxation {
     }
     text << "; the load is too large for this cloud, or a material too soft beside its neighbour";
     result_.failure = text.str();
+    result_.unstable = true;
     return false;
   }
 
@@ -267,6 +306,7 @@ class Relaxation {
   ForceScratch scratch_;
   NodalVectors now_, before_, next_, force_, force_before_, good_;
   std::vector<double> moduli_, mass_, motions_;
+  double mass_scale_ = 1;
   double lowest_ = 1e-4;  // A_0: a guess until there are increments
   double alpha_ = 1;
   double fraction_ = 0;  // of the load
@@ -281,7 +321,11 @@ class Relaxation {
 }  // namespace
 
 RelaxationResult relax(const System& system, const SolveOptions& options, const Progress& progress) {
-  return Relaxation(system, options).run(progress);
+  RelaxationResult result = Relaxation(system, options, false).run(progress);
+  if (result.unstable) {
+    result = Relaxation(system, options, true).run(progress);
+  }
+  return result;
 }
 
 }  // namespace brainshift::solve

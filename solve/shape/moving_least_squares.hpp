@@ -39,11 +39,11 @@ class MovingLeastSquares {
   using Matrix = Eigen::Matrix<double, m, m>;
 
   /// Builds the moment matrix at x; false where the support does not determine the basis. penalty: µ of MMLS on the
-  /// quadratic coefficients, 0 for plain MLS.
+  /// quadratic coefficients, 0 for plain MLS; leave_to_penalty: accept quadratic terms that only the penalty holds.
   bool build(const Eigen::Vector3d& x, std::span<const Supporter> support, const Points& positions,
-             std::span<const double> radius, double scale, double penalty) {
+             std::span<const double> radius, double scale, double penalty, bool leave_to_penalty) {
     count_ = static_cast<int>(support.size());
-    if (count_ < (penalty > 0 ? 4 : m)) {
+    if (count_ < (leave_to_penalty ? 4 : m)) {
       return false;
     }
     basis_.resize(m, count_);
@@ -64,7 +64,7 @@ class MovingLeastSquares {
       weight_gradient_.col(a) = -w.slope_over_d / (r * r) * away;
       moment_.template selfadjointView<Eigen::Lower>().rankUpdate(basis_.col(a), w.value);
     }
-    return factorise(penalty);
+    return factorise(penalty, leave_to_penalty);
   }
 
   /// φ_a(x), into values[0..count).
@@ -96,21 +96,20 @@ class MovingLeastSquares {
   }
 
  private:
-  /// A support is admissible when the part of the basis that nothing else holds is determined: the linear part for
-  /// MMLS, all of it for MLS. Pivots are relative to the sum of the weights; on good clouds they are near 0.05 (linear)
-  /// and 1e-3 (quadratic).
-  bool factorise(double penalty) {
+  /// A support is admissible when it determines the basis. Pivots are relative to the sum of the weights; on good
+  /// clouds the least are near 0.05 (linear) and 1e-3 (quadratic). Below 3e-4 the derivatives of quadratic shape
+  /// functions grow wild: on a jittered grid up to thirty times the usual; from there on they stay within four times.
+  bool factorise(double penalty, bool leave_to_penalty) {
     const double total = weight_.sum();
     const Eigen::Matrix4d linear = moment_.template topLeftCorner<4, 4>() / total;
     if (!well_determined<4>(linear, 2e-3)) {
       return false;
     }
     if constexpr (m == 10) {
-      if (penalty > 0) {
-        moment_.diagonal().template tail<6>().array() += penalty;
-      } else if (!well_determined<10>(moment_ / total, 1e-6)) {
+      if (!leave_to_penalty && !well_determined<10>(moment_ / total, 3e-4)) {
         return false;
       }
+      moment_.diagonal().template tail<6>().array() += penalty;
     }
     factor_.compute(moment_);
     return factor_.info() == Eigen::Success;

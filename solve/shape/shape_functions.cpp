@@ -15,6 +15,7 @@ namespace {
 
 constexpr double growth = 1.1;        // of a support that is not admissible, each try
 constexpr double largest_growth = 8;  // beyond it the cloud is degenerate
+constexpr double patience = 1.5;      // up to this growth MMLS looks for a support that needs no penalty
 constexpr Eigen::Index batch = 256;   // points handled by one thread at a time
 
 std::vector<double> support_radius(std::span<const double> spacing, double dilatation) {
@@ -31,7 +32,7 @@ double dilatation(const ShapeOptions& options) {
   if (options.dilatation > 0) {
     return options.dilatation;
   }
-  return options.basis == Basis::linear ? 1.6 : 2.0;
+  return options.basis == Basis::linear ? 1.6 : 2.2;
 }
 
 struct ShapeFunctions::Impl {
@@ -56,7 +57,8 @@ class Evaluator {
   bool move_to(const Eigen::Vector3d& x) {
     for (scale_ = 1; scale_ < largest_growth; scale_ *= growth) {
       impl_.search.find(x, scale_, support_);
-      if (mls_.build(x, support_, impl_.positions, impl_.search.radius(), scale_, penalty_)) {
+      const bool leave_to_penalty = penalty_ > 0 && scale_ > patience;
+      if (mls_.build(x, support_, impl_.positions, impl_.search.radius(), scale_, penalty_, leave_to_penalty)) {
         phi_.resize(support_.size());
         mls_.values(phi_);
         return true;

@@ -19,7 +19,7 @@ enum class Derivatives : std::uint8_t {
 struct ShapeOptions {
   Basis basis = Basis::modified_quadratic;
   Derivatives derivatives = Derivatives::full;
-  double dilatation = 0;  ///< support radius / local spacing; 0: 1.6 for the linear basis, 2.0 for the quadratic ones
+  double dilatation = 0;  ///< support radius / local spacing; 0: 1.6 for the linear basis, 2.2 for the quadratic ones
   double penalty = 1e-7;  ///< µ of MMLS, in scaled coordinates
 };
 

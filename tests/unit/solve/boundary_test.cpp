@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "solve/boundary/contact.hpp"
+#include "solve/boundary/essential_conditions.hpp"
+#include "solve/boundary/load_curve.hpp"
+#include "tests/unit/solve/clouds.hpp"
+
+namespace brainshift::solve {
+namespace {
+
+using test::irregular_box;
+using test::random_points;
+
+constexpr double side = 40;
+
+struct Cloud {
+  NodeCloud nodes = irregular_box(7, side);
+  ShapeFunctions shape{nodes.positions, nodes.spacing, {}};
+  ShapeRows rows = shape.evaluate(nodes.positions, false);
+  std::vector<double> mass = masses();
+
+  std::vector<double> masses() const {
+    std::vector<double> m;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      m.push_back(1 + 0.5 * std::sin(static_cast<double>(a)));
+    }
+    return m;
+  }
+  NodalVectors random_parameters(double amplitude) const {
+    const Points random = random_points(static_cast<int>(nodes.size()), 2 * amplitude);
+    NodalVectors u(4 * nodes.size(), 0.0);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      Eigen::Vector3d::Map(&u[4 * a]) =
+          random.row(static_cast<Eigen::Index>(a)).transpose() - Eigen::Vector3d::Constant(amplitude);
+    }
+    return u;
+  }
+  Points displacement(const NodalVectors& u) const {
+    Points parameters(nodes.positions.rows(), 3);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      parameters.row(static_cast<Eigen::Index>(a)) = Eigen::Vector3d::Map(&u[4 * a]);
+    }
+    return shape.interpolate(nodes.positions, parameters);
+  }
+};
+
+TEST(LoadCurve, StartsAndEndsAtRest) {
+  EXPECT_EQ(smooth_load(0), 0);
+  EXPECT_EQ(smooth_load(1), 1);
+  EXPECT_EQ(smooth_load(2), 1);
+  EXPECT_DOUBLE_EQ(smooth_load(0.5), 0.5);
+  for (const double end : {0.0, 1.0}) {
+    const double inside = end == 0 ? 1e-3 : 1 - 1e-3;
+    EXPECT_LE(std::abs(smooth_load(inside) - end), 1.1e-8);  // velocity and acceleration vanish
+  }
+}
+
+TEST(EssentialConditions, HoldForTheDisplacementNotTheParameter) {
+  Cloud cloud;
+  Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
+  for (Eigen::Index a = 0; a < prescribed.rows(); a += 5) {
+    prescribed.row(a) << 1.0, std::nan(""), -2.0;
+  }
+  prescribed(3, 1) = 0.5;
+  EssentialConditions conditions(prescribed, cloud.rows);
+  conditions.factorise(cloud.mass);
+  NodalVectors u = cloud.random_parameters(3);
+  conditions.apply(0.7, u);
+  const Points displacement = cloud.displacement(u);
+  for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
+    if (!std::isnan(prescribed.data()[i])) {
+      EXPECT_NEAR(displacement.data()[i], 0.7 * prescribed.data()[i], 1e-10);
+    }
+  }
+}
+
+TEST(EssentialConditions, MoveTheParametersLeastInTheNormOfTheMasses) {
+  // A projection: doing it twice changes nothing, and the correction M⁻¹Vᵀμ is M-orthogonal to every motion that keeps
+  // the conditions.
+  Cloud cloud;
+  Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
+  for (Eigen::Index a = 0; a < prescribed.rows(); a += 7) {
+    prescribed.row(a).setConstant(1.0);
+  }
+  EssentialConditions conditions(prescribed, cloud.rows);
+  conditions.factorise(cloud.mass);
+  const NodalVectors start = cloud.random_parameters(3);
+  NodalVectors once = start, other = cloud.random_parameters(1);
+  conditions.apply(1, once);
+  conditions.apply(1, other);
+  NodalVectors twice = once;
+  conditions.apply(1, twice);
+  double product = 0, change = 0;
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    change = std::max(change, std::abs(twice[i] - once[i]));
+    product += cloud.mass[i / 4] * (once[i] - start[i]) * (other[i] - once[i]);
+  }
+  EXPECT_LE(change, 1e-10);
+  EXPECT_LE(std::abs(product), 1e-8);
+}
+
+TEST(EssentialConditions, RefuseTwoNodesThatSayTheSame) {
+  Cloud cloud;
+  ShapeRows same = cloud.rows;  // node 1 seen as node 0: both rows alike
+  Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
+  prescribed.topRows(2).setZero();
+  const auto length = static_cast<std::size_t>(same.begin[1]);
+  std::vector<std::int32_t> node(same.node.begin(), same.node.begin() + static_cast<std::ptrdiff_t>(length));
+  std::vector<double> value(same.value.begin(), same.value.begin() + static_cast<std::ptrdiff_t>(length));
+  const std::int64_t removed = same.begin[2] - same.begin[1];
+  same.node.erase(same.node.begin() + same.begin[1], same.node.begin() + same.begin[2]);
+  same.value.erase(same.value.begin() + same.begin[1], same.value.begin() + same.begin[2]);
+  same.node.insert(same.node.begin() + same.begin[1], node.begin(), node.end());
+  same.value.insert(same.value.begin() + same.begin[1], value.begin(), value.end());
+  for (std::size_t i = 2; i < same.begin.size(); ++i) {
+    same.begin[i] += static_cast<std::int64_t>(length) - removed;
+  }
+  EssentialConditions conditions(prescribed, same);
+  EXPECT_THROW(conditions.factorise(cloud.mass), std::invalid_argument);
+}
+
+/// A closed box, outward, as a skull.
+Surface box_surface(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  Surface box;
+  box.vertices.resize(8, 3);
+  for (int i = 0; i < 8; ++i) {
+    box.vertices.row(i) << (i & 1 ? high : low).x(), (i & 2 ? high : low).y(), (i & 4 ? high : low).z();
+  }
+  box.triangles.resize(12, 3);
+  box.triangles << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3,
+      7, 5;
+  return box;
+}
+
+class ContactWithABox : public testing::Test {
+ protected:
+  Cloud cloud;
+  SignedDistance skull{box_surface(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(side + 2))};
+  std::vector<std::int32_t> surface_nodes() const {
+    std::vector<std::int32_t> nodes;
+    for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
+      if (cloud.nodes.on_surface[a] != 0) {
+        nodes.push_back(static_cast<std::int32_t>(a));
+      }
+    }
+    return nodes;
+  }
+  NodalVectors shifted(const Eigen::Vector3d& by) const {
+    NodalVectors u(4 * cloud.nodes.size(), 0.0);
+    for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
+      Eigen::Vector3d::Map(&u[4 * a]) = by;
+    }
+    return u;
+  }
+};
+
+TEST_F(ContactWithABox, LeavesABodyAloneThatDoesNotTouch) {
+  Contact contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows);
+  contact.weigh(cloud.mass);
+  const NodalVectors inside = shifted({0.5, -0.5, 0.5});
+  NodalVectors u = inside;
+  contact.apply(u);
+  EXPECT_EQ(u, inside);
+  EXPECT_EQ(contact.measure(u).touching, 0u);
+}
+
+TEST_F(ContactWithABox, PutsPenetratingNodesBackAlongTheNormal) {
+  Contact contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows);
+  contact.weigh(cloud.mass);
+  NodalVectors u = shifted({3.0, 0, 0});  // one millimetre through the wall at x = side + 2
+  EXPECT_NEAR(contact.measure(u).largest_penetration, 1.0, 1e-3);
+  for (int step = 0; step < 200; ++step) {
+    contact.apply(u);
+  }
+  EXPECT_LE(contact.measure(u).largest_penetration, 0.01);
+  EXPECT_GE(contact.measure(u).touching, 40u);
+  const Points moved = cloud.displacement(u);
+  EXPECT_LE(moved.rightCols<2>().cwiseAbs().maxCoeff(), 0.2);  // frictionless: only the normals at the rim are oblique
+}
+
+TEST_F(ContactWithABox, AllowsNodesToStayWhereTheyStarted) {
+  const SignedDistance tight(box_surface(Eigen::Vector3d::Constant(0.3), Eigen::Vector3d::Constant(side - 0.3)));
+  Contact contact(tight, cloud.nodes.positions, surface_nodes(), cloud.rows);
+  contact.weigh(cloud.mass);
+  NodalVectors u = shifted(Eigen::Vector3d::Zero());
+  contact.apply(u);
+  EXPECT_EQ(u, shifted(Eigen::Vector3d::Zero()));
+}
+
+}  // namespace
+}  // namespace brainshift::solve

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include "discretise/background_cells.hpp"
+#include "discretise/node_cloud.hpp"
+
+namespace brainshift::test {
+
+/// A box of n × n × n nodes, the inner ones moved at random by up to `jitter` of the spacing.
+inline NodeCloud irregular_box(int n, double side, double jitter = 0.25, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> within(-jitter, jitter);
+  NodeCloud cloud;
+  const double h = side / (n - 1);
+  cloud.positions.resize(static_cast<Eigen::Index>(n) * n * n, 3);
+  Eigen::Index row = 0;
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i, ++row) {
+        Eigen::RowVector3d x(i, j, k);
+        bool surface = false;
+        for (int axis = 0; axis < 3; ++axis) {
+          const bool at_face = x[axis] < 0.5 || x[axis] > n - 1.5;
+          surface = surface || at_face;
+          x[axis] += at_face ? 0.0 : within(random);
+        }
+        cloud.positions.row(row) = h * x;
+        cloud.on_surface.push_back(surface ? 1 : 0);
+      }
+    }
+  }
+  cloud.spacing.assign(cloud.on_surface.size(), h);
+  cloud.label.assign(cloud.on_surface.size(), 1);
+  cloud.prescribed_displacement = Points::Constant(cloud.positions.rows(), 3, std::nan(""));
+  return cloud;
+}
+
+/// n × n × n hexahedra over a box.
+inline BackgroundCells box_cells(int n, double side) {
+  BackgroundCells cells;
+  const double h = side / n;
+  const auto vertex = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
+  cells.vertices.resize(static_cast<Eigen::Index>(n + 1) * (n + 1) * (n + 1), 3);
+  for (int k = 0; k <= n; ++k) {
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) {
+        cells.vertices.row(vertex(i, j, k)) << h * i, h * j, h * k;
+        if (i < n && j < n && k < n) {
+          cells.connectivity.insert(
+              cells.connectivity.end(),
+              {vertex(i, j, k), vertex(i + 1, j, k), vertex(i + 1, j + 1, k), vertex(i, j + 1, k), vertex(i, j, k + 1),
+               vertex(i + 1, j, k + 1), vertex(i + 1, j + 1, k + 1), vertex(i, j + 1, k + 1)});
+        }
+      }
+    }
+  }
+  cells.inside_fraction.assign(static_cast<std::size_t>(n) * n * n, 1.0);
+  cells.label.assign(cells.inside_fraction.size(), 1);
+  return cells;
+}
+
+/// Tetrahedra whose vertices are the nodes of irregular_box(n): six a cube (Kuhn's division), conforming.
+inline BackgroundCells box_tetrahedra(const NodeCloud& cloud, int n) {
+  BackgroundCells cells;
+  cells.kind = CellKind::tetrahedron;
+  cells.vertices = cloud.positions;
+  const int step[3] = {1, n, n * n};
+  const int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+  for (int k = 0; k + 1 < n; ++k) {
+    for (int j = 0; j + 1 < n; ++j) {
+      for (int i = 0; i + 1 < n; ++i) {
+        for (int o = 0; o < 6; ++o) {
+          const int a = (k * n + j) * n + i;
+          const int b = a + step[orders[o][0]];
+          const int c = b + step[orders[o][1]];
+          const int d = c + step[orders[o][2]];
+          const bool even = o < 3;
+          cells.connectivity.insert(cells.connectivity.end(), {a, b, even ? c : d, even ? d : c});
+        }
+      }
+    }
+  }
+  cells.inside_fraction.assign(cells.connectivity.size() / 4, 1.0);
+  cells.label.assign(cells.inside_fraction.size(), 1);
+  return cells;
+}
+
+/// Points inside the box, at random.
+inline Points random_points(int count, double side, unsigned seed = 7) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> within(0, side);
+  Points points(count, 3);
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    points.data()[i] = within(random);
+  }
+  return points;
+}
+
+}  // namespace brainshift::test
