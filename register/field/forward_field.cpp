@@ -26,20 +26,24 @@ struct Voxel {
   Eigen::Vector3d index() const { return {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}; }
 };
 
-std::vector<Voxel> voxels_of(const BrainZones& zones, const ImageGeometry& geometry, bool fading) {
+template <class Wanted>
+std::vector<Voxel> voxels_where(const ImageGeometry& geometry, const Wanted& wanted) {
   std::vector<Voxel> voxels;
   for (int k = 0; k < geometry.size.z(); ++k) {
     for (int j = 0; j < geometry.size.y(); ++j) {
       for (int i = 0; i < geometry.size.x(); ++i) {
-        const std::size_t offset = geometry.offset(i, j, k);
-        const Zone zone = zones.zone[offset];
-        if (zone != Zone::beyond && (zone == Zone::fading) == fading) {
-          voxels.push_back({i, j, k, offset});
+        const Voxel voxel{i, j, k, geometry.offset(i, j, k)};
+        if (wanted(voxel)) {
+          voxels.push_back(voxel);
         }
       }
     }
   }
   return voxels;
+}
+
+double distance_at(const BrainZones& zones, const ImageGeometry& geometry, const Voxel& voxel) {
+  return zones.outside.value(geometry.to_world(voxel.index()));
 }
 
 double mean(const std::vector<double>& values) {
@@ -104,7 +108,7 @@ void extend(const BrainZones& zones, const std::vector<Voxel>& fading, double re
   }
 }
 
-/// Mean of a fading voxel's six neighbours, those nearer to it counting more; neighbours beyond the fade do not count.
+/// Mean of a voxel's six neighbours, those nearer to it counting more; neighbours beyond the fade do not count.
 Displacement mean_of_neighbours(const VectorImage& field, const BrainZones& zones, const Voxel& voxel) {
   const ImageGeometry& g = field.geometry;
   const std::size_t stride[3] = {1, g.offset(0, 1, 0), g.offset(0, 0, 1)};
@@ -132,38 +136,30 @@ Displacement mean_of_neighbours(const VectorImage& field, const BrainZones& zone
   return total > 0 ? Displacement{sum[0] / total, sum[1] / total, sum[2] / total} : field.voxels[voxel.offset];
 }
 
-/// Smooths the extended displacement where two parts of the surface are equally near and it would jump; brain and shell
+/// Smooths the displacement outside where two parts of the surface are equally near and it would jump; all other voxels
 /// are held. Each sweep of averaging spreads by the spacing / √3.
-void smooth(const BrainZones& zones, const std::vector<Voxel>& fading, VectorImage& field) {
+void smooth(const BrainZones& zones, const std::vector<Voxel>& outside, VectorImage& field) {
   const double sweeps = 3 * std::pow(smoothing_width / field.geometry.spacing.maxCoeff(), 2);
-  std::vector<Displacement> next(fading.size());
+  std::vector<Displacement> next(outside.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
 #pragma omp parallel for schedule(static)
-    for (std::size_t v = 0; v < fading.size(); ++v) {
-      next[v] = mean_of_neighbours(field, zones, fading[v]);
+    for (std::size_t v = 0; v < outside.size(); ++v) {
+      next[v] = mean_of_neighbours(field, zones, outside[v]);
     }
 #pragma omp parallel for schedule(static)
-    for (std::size_t v = 0; v < fading.size(); ++v) {
-      field.voxels[fading[v].offset] = next[v];
+    for (std::size_t v = 0; v < outside.size(); ++v) {
+      field.voxels[outside[v].offset] = next[v];
     }
   }
 }
 
-void fade_out(const BrainZones& zones, double reach, double fade, VectorImage& field) {
-  const ImageGeometry& g = field.geometry;
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int k = 0; k < g.size.z(); ++k) {
-    for (int j = 0; j < g.size.y(); ++j) {
-      for (int i = 0; i < g.size.x(); ++i) {
-        const Zone zone = zones.zone[g.offset(i, j, k)];
-        if (zone == Zone::shell || zone == Zone::fading) {
-          const double distance = zones.outside.value(g.to_world(Eigen::Vector3d(i, j, k)));
-          const double factor = ramp((distance - reach) / (fade - reach));
-          Displacement& u = field.at(i, j, k);
-          u = stored(factor * Eigen::Vector3d(u[0], u[1], u[2]));
-        }
-      }
-    }
+void fade_out(const BrainZones& zones, const std::vector<Voxel>& outside, double reach, double fade,
+              VectorImage& field) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t v = 0; v < outside.size(); ++v) {
+    const double distance = distance_at(zones, field.geometry, outside[v]);
+    Displacement& u = field.voxels[outside[v].offset];
+    u = stored(ramp((distance - reach) / (fade - reach)) * Eigen::Vector3d(u[0], u[1], u[2]));
   }
 }
 
@@ -185,12 +181,16 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
                           const Progress& progress) {
   VectorImage field{geometry, std::vector<Displacement>(geometry.voxel_count(), Displacement{0, 0, 0})};
   const double reach = std::min(zones.shell / 2, reach_in_spacings * mean(solution.spacing));
-  evaluate(solution, zones, voxels_of(zones, geometry, false), reach, field, progress);
+  const auto in = [&](Zone wanted) { return [&, wanted](const Voxel& v) { return zones.zone[v.offset] == wanted; }; };
+  const auto near = [&](const Voxel& v) { return in(Zone::brain)(v) || in(Zone::shell)(v); };
+  evaluate(solution, zones, voxels_where(geometry, near), reach, field, progress);
   report(progress, 0.8, "fading outside the brain");
-  const std::vector<Voxel> fading = voxels_of(zones, geometry, true);
-  extend(zones, fading, reach, field);
-  smooth(zones, fading, field);
-  fade_out(zones, reach, fade, field);
+  extend(zones, voxels_where(geometry, in(Zone::fading)), reach, field);
+  const std::vector<Voxel> outside = voxels_where(geometry, [&](const Voxel& v) {
+    return in(Zone::fading)(v) || (in(Zone::shell)(v) && distance_at(zones, geometry, v) > reach);
+  });
+  smooth(zones, outside, field);
+  fade_out(zones, outside, reach, fade, field);
   return field;
 }
 

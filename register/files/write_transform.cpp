@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <H5Epublic.h>
 #include <itkDisplacementFieldTransform.h>
 #include <itkHDF5TransformIO.h>
 #include <itkTransformFileWriter.h>
@@ -64,6 +65,7 @@ void write_transform(const std::filesystem::path& file, const VectorImage& field
   writer->SetFileName(file.string());
   writer->SetInput(transform);
   writer->SetUseCompression(true);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is thrown, not printed
   try {
     writer->Update();
   } catch (const std::exception& fault) {

@@ -140,23 +140,24 @@ Eigen::Vector3d centroid(const ScalarImage& picture) {
 TEST(Warp, TakesABlobItsLabelItsPointAndItsSurfaceToTheSamePlace) {
   const Eigen::Vector3d blob = centre + Eigen::Vector3d(4, 2, 12);
   RegisterInput input = head(sinking, grid({72, 72, 72}, {1.1, 1.1, 1.1}, oblique()));
-  input.t1 = image(input.t1.geometry,
-                   [&](const Eigen::Vector3d& x) { return 200 * std::exp(-(x - blob).squaredNorm() / 18); });
-  input.labels = label_map(input.t1.geometry, [&](const Eigen::Vector3d& x) { return (x - blob).norm() < 5 ? 1 : 0; });
+  input.t1 =
+      image(input.t1.geometry, [&](const Eigen::Vector3d& x) { return 200 * std::exp(-(x - blob).squaredNorm() / 8); });
+  input.labels = label_map(input.t1.geometry, [&](const Eigen::Vector3d& x) { return (x - blob).norm() < 4 ? 1 : 0; });
   input.landmarks.resize(1, 3);
   input.landmarks.row(0) = blob.transpose();
   const Registration result = register_images(input, {});
   const Eigen::Vector3d point = result.landmarks.row(0);
   ScalarImage label{result.warped.geometry, {}};
   label.voxels.assign(result.warped_labels->voxels.begin(), result.warped_labels->voxels.end());
-  Surface surface = ball(blob, 5);
+  Surface surface = ball(blob, 4);
   surface.vertices = move_points(result.forward, surface.vertices);
   const Eigen::Vector3d middle = surface.vertices.colwise().mean();
   EXPECT_GT((point - blob).norm(), 5);  // it did move
-  // Their own size, over which the displacement is not quite linear, keeps the four centres apart by 0.1 to 0.2 mm.
-  EXPECT_LT((centroid(result.warped) - point).norm(), 0.3);
-  EXPECT_LT((centroid(label) - point).norm(), 0.3);
-  EXPECT_LT((middle - point).norm(), 0.3);
+  // The displacement is not quite linear over their own size: 0.1 to 0.2 mm.
+  EXPECT_LT((centroid(result.warped) - point).norm(), 0.25);
+  EXPECT_LT((middle - point).norm(), 0.25);
+  // Nearest voxels: where all of them are displaced by about half a voxel, all are rounded the same way.
+  EXPECT_LT((centroid(label) - point).norm(), 0.25 + 1.1 / 2);
 }
 
 }  // namespace
