@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/itk_bridge.hpp"
+
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 
 #include <algorithm>
 
-#include "segmentation/image/itk_bridge.hpp"
 #include "segmentation/image/mask.hpp"
 
 namespace brainshift {

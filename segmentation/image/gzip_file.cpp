@@ -87,28 +87,24 @@ void write_gzip(const std::filesystem::path& file, std::span<const std::uint8_t>
   }
 }
 
-std::uintmax_t uncompressed_size(const std::filesystem::path& file) {
+std::vector<std::uint8_t> uncompressed(const std::filesystem::path& file) {
   const GzipFile stream = open_gzip(file);
-  gzbuffer(stream.get(), 1U << 20);
-  std::vector<std::uint8_t> buffer(block_size);
-  std::uintmax_t size = 0;
+  gzbuffer(stream.get(), static_cast<unsigned>(block_size));
+  std::vector<std::uint8_t> bytes(std::filesystem::file_size(file) + block_size);
+  std::size_t size = 0;
   int count = 0;
-  while ((count = gzread(stream.get(), buffer.data(), static_cast<unsigned>(buffer.size()))) > 0) {
-    size += static_cast<std::uintmax_t>(count);
+  while ((count = gzread(stream.get(), bytes.data() + size, static_cast<unsigned>(block_size))) > 0) {
+    size += static_cast<std::size_t>(count);
+    if (bytes.size() < size + block_size) {
+      bytes.resize(2 * bytes.size());
+    }
   }
   int status = Z_OK;
   gzerror(stream.get(), &status);
   if (count < 0 || status != Z_OK) {
     throw std::invalid_argument(file.string() + ": the compressed data are cut short or damaged; copy the file again");
   }
-  return size;
-}
-
-std::vector<std::uint8_t> first_bytes(const std::filesystem::path& file, std::size_t count) {
-  const GzipFile stream = open_gzip(file);
-  std::vector<std::uint8_t> bytes(count);
-  const int read = gzread(stream.get(), bytes.data(), static_cast<unsigned>(count));
-  bytes.resize(static_cast<std::size_t>(std::max(read, 0)));
+  bytes.resize(size);
   return bytes;
 }
 

@@ -12,11 +12,8 @@ namespace brainshift {
 /// number of threads. Throws std::runtime_error when the file cannot be written whole, and leaves none behind.
 void write_gzip(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 
-/// Number of bytes in a file after decompression, the file being compressed or not. Throws std::invalid_argument when
-/// the compressed stream is cut short or its checksum is wrong.
-std::uintmax_t uncompressed_size(const std::filesystem::path& file);
-
-/// The first bytes of a file, after decompression; fewer if it is shorter.
-std::vector<std::uint8_t> first_bytes(const std::filesystem::path& file, std::size_t count);
+/// The bytes of a file after decompression, the file being compressed or not. Throws std::invalid_argument when the
+/// compressed stream is cut short or its checksum is wrong.
+std::vector<std::uint8_t> uncompressed(const std::filesystem::path& file);
 
 }  // namespace brainshift

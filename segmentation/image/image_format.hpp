@@ -3,6 +3,8 @@
 
 // Private: which of ITK's readers and writers takes a file. Chosen explicitly, so no factory has to be registered.
 
+#include <Eigen/Dense>  // before ITK, which brings an Eigen of its own under the same include guards
+
 #include <itkImageIOBase.h>
 
 #include <filesystem>

@@ -2,6 +2,9 @@
 #pragma once
 
 // Private to .cpp files of segmentation and register: our images as ITK's and back. Copies the voxels.
+// Include it before any of ITK's headers.
+
+#include <Eigen/Dense>  // before ITK, which brings an Eigen of its own under the same include guards
 
 #include <itkImage.h>
 #include <itkVector.h>

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/itk_bridge.hpp"
+
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
 #include <itkImageFileReader.h>
 #include <itkImageSeriesReader.h>
 #include <itkMetaDataObject.h>
 
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
-#include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
-#include "segmentation/image/itk_bridge.hpp"
+#include "segmentation/image/whole_file.hpp"
 
 namespace brainshift {
 namespace {
@@ -27,51 +26,6 @@ void check_present(const fs::path& file) {
   }
   if (fs::is_regular_file(file) && fs::file_size(file) == 0) {
     throw std::invalid_argument(file.string() + ": the file is empty; copy it again");
-  }
-}
-
-// Where the voxels start in a NIfTI-1 file of either byte order.
-std::uintmax_t nifti_voxel_offset(const fs::path& file) {
-  const auto header = first_bytes(file, 352);
-  if (header.size() < 352) {
-    throw std::invalid_argument(file.string() + ": too short for a NIfTI image; copy the file again");
-  }
-  std::uint32_t header_size = 0;
-  std::uint32_t offset_bits = 0;
-  std::memcpy(&header_size, header.data(), 4);
-  std::memcpy(&offset_bits, header.data() + 108, 4);
-  if (header_size != 348) {
-    offset_bits = __builtin_bswap32(offset_bits);
-  }
-  const float offset = std::bit_cast<float>(offset_bits);
-  return offset > 352.0F ? static_cast<std::uintmax_t>(offset) : 352;
-}
-
-// ITK fills what a short NIfTI file lacks without a word.
-void check_nifti_whole(const fs::path& file, const itk::ImageIOBase& io) {
-  const auto expected = nifti_voxel_offset(file) + static_cast<std::uintmax_t>(io.GetImageSizeInBytes());
-  const auto found = uncompressed_size(file);
-  if (found < expected) {
-    throw std::invalid_argument(file.string() + ": truncated: the header promises " + std::to_string(expected) +
-                                " bytes, the file holds " + std::to_string(found) + "; copy the file again");
-  }
-}
-
-// Nor does a short MetaImage stop it: its data begin after the line that says LOCAL.
-void check_meta_whole(const fs::path& file, const itk::ImageIOBase& io) {
-  std::ifstream in(file, std::ios::binary);
-  std::uintmax_t expected = static_cast<std::uintmax_t>(io.GetImageSizeInBytes());
-  std::string line;
-  while (std::getline(in, line) && !line.starts_with("ElementDataFile")) {
-    if (line.starts_with("CompressedDataSize")) {
-      expected = std::stoull(line.substr(line.find('=') + 1));
-    }
-  }
-  const auto begin = in.tellg();
-  const auto found = begin < 0 ? 0 : fs::file_size(file) - static_cast<std::uintmax_t>(begin);
-  if (found < expected) {
-    throw std::invalid_argument(file.string() + ": truncated: the header promises " + std::to_string(expected) +
-                                " bytes of voxels, the file holds " + std::to_string(found) + "; copy the file again");
   }
 }
 
@@ -118,12 +72,7 @@ Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
   io->SetFileName(file.string());
   io->ReadImageInformation();
   check_shape(file, *io, components);
-  if (format == ImageFormat::nifti || format == ImageFormat::nifti_gz) {
-    check_nifti_whole(file, *io);
-  }
-  if (format == ImageFormat::meta) {
-    check_meta_whole(file, *io);
-  }
+  check_whole(file, format, *io);
   auto reader = itk::ImageFileReader<itk::Image<Pixel, 3>>::New();
   reader->SetImageIO(io);
   reader->SetFileName(file.string());
@@ -181,25 +130,14 @@ Pointer<Pixel> read_any(const fs::path& file, unsigned components) {
   }
 }
 
-std::string voxel_name(const ImageGeometry& geometry, std::size_t offset) {
-  const auto nx = static_cast<std::size_t>(geometry.size.x());
-  const auto ny = static_cast<std::size_t>(geometry.size.y());
-  return "voxel (" + std::to_string(offset % nx) + ", " + std::to_string(offset / nx % ny) + ", " +
-         std::to_string(offset / nx / ny) + ")";
-}
-
 void check_finite(const fs::path& file, const ImageGeometry& geometry, std::span<const float> values,
                   std::size_t components) {
   const auto bad = [](float value) { return !std::isfinite(value); };
   const auto first = std::find_if(values.begin(), values.end(), bad);
-  if (first == values.end()) {
-    return;
+  if (first != values.end()) {
+    const auto voxel = static_cast<std::size_t>(first - values.begin()) / components;
+    refuse_not_finite(file, std::count_if(first, values.end(), bad), geometry.size, voxel);
   }
-  const auto count = std::count_if(first, values.end(), bad);
-  const auto voxel = static_cast<std::size_t>(first - values.begin()) / components;
-  throw std::invalid_argument(file.string() + ": " + std::to_string(count) +
-                              " value(s) are not finite numbers, the first at " + voxel_name(geometry, voxel) +
-                              "; replace them, by 0 for instance");
 }
 
 }  // namespace
@@ -220,7 +158,7 @@ LabelMap read_label_map(const fs::path& file) {
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
     const double value = values->GetBufferPointer()[i];
     if (!(value >= lowest && value <= highest && value == std::floor(value))) {
-      throw std::invalid_argument(file.string() + ": " + voxel_name(labels.geometry, i) + " holds " +
+      throw std::invalid_argument(file.string() + ": " + voxel_name(labels.geometry.size, i) + " holds " +
                                   std::to_string(value) + "; labels are whole numbers from -32768 to 32767");
     }
     labels.voxels[i] = static_cast<std::int16_t>(value);

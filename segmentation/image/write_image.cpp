@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/itk_bridge.hpp"
+
 #include <itkImageFileReader.h>
 #include <itkImageFileWriter.h>
 
@@ -7,7 +9,7 @@
 
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
-#include "segmentation/image/itk_bridge.hpp"
+#include "segmentation/image/whole_file.hpp"
 
 namespace brainshift {
 namespace {
@@ -34,8 +36,12 @@ void check_written(const fs::path& file, const ItkImageType& image) {
     }
     return;
   }
+  const auto io = make_image_io(image_format(file));
+  io->SetFileName(file.string());
+  io->ReadImageInformation();
+  check_whole(file, image_format(file), *io);
   auto reader = itk::ImageFileReader<ItkImageType>::New();
-  reader->SetImageIO(make_image_io(image_format(file)));
+  reader->SetImageIO(io);
   reader->SetFileName(file.string());
   reader->Update();
 }

@@ -17,20 +17,22 @@ Surface turned(Surface surface) {
   return surface;
 }
 
+// A wrap that slips in through a hole, or lies around an open sheet, is a shell as thin as the wrap's offset.
+bool is_body(const Surface& surface, double opening) {
+  return 2.0 * volume(surface) > 0.5 * opening * area(surface);
+}
+
 // The wider the opening, the larger the holes that are bridged, and the more of the folds that are lost.
-CheckedSurface wrapped_sound(const Surface& surface, double edge_length) {
+CheckedSurface wrapped_body(const Surface& surface, double edge_length) {
   CheckedSurface result;
   for (const double opening : {edge_length, 2 * edge_length, 4 * edge_length, 8 * edge_length}) {
     const Surface wrap = wrapped(surface, opening);
+    if (!is_body(wrap, opening)) {
+      continue;
+    }
     result.surface = remeshed(wrap, edge_length);
     result.measures = measure(result.surface);
-    if (!sound(result.measures)) {
-      result.surface = wrap;
-      result.measures = measure(wrap);
-    }
-    // A wrap that slips in through a hole follows both sides of the wall: it encloses a shell and not a body.
-    const double box = (surface.vertices.colwise().maxCoeff() - surface.vertices.colwise().minCoeff()).prod();
-    if (sound(result.measures) && result.measures.volume > 0.2 * box) {
+    if (sound(result.measures)) {
       break;
     }
   }
@@ -53,7 +55,7 @@ CheckedSurface checked_surface(const Surface& surface, double edge_length) {
     result.measures = measure(result.surface);
   }
   if (!sound(result.measures)) {
-    result = wrapped_sound(outward, edge_length);
+    result = wrapped_body(outward, edge_length);
   }
   result.measures.edge_length_target = edge_length;
   if (!sound(result.measures)) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/itk_bridge.hpp"
+
 #include <itkCastImageFilter.h>
 #include <itkDiscreteGaussianImageFilter.h>
 #include <vtkFloatArray.h>
@@ -8,7 +10,6 @@
 
 #include <cmath>
 
-#include "segmentation/image/itk_bridge.hpp"
 #include "segmentation/surface/extract.hpp"
 #include "segmentation/surface/vtk_bridge.hpp"
 

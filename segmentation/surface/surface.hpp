@@ -23,6 +23,9 @@ struct Surface {
 /// Volume enclosed by a closed surface, mm³, by the divergence theorem; positive when the triangles face outward.
 double volume(const Surface& surface);
 
+/// Area of the triangles, mm².
+double area(const Surface& surface);
+
 /// Reads .vtp, .stl, .ply or .obj. Faces with more than three corners are triangulated, repeated points (STL) merged.
 /// Coordinates are taken as LPS, unless the file carries 3D Slicer's note SPACE=RAS: then x and y change sign.
 /// Throws std::invalid_argument, naming the file, when it cannot be read, holds no triangle or a non-finite coordinate.

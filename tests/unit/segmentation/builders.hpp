@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "segmentation/image/mask.hpp"
+#include "segmentation/surface/surface.hpp"
+
+namespace brainshift::test {
+
+/// A folder that is gone when the test ends.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::temp_directory_path() /
+            ("brainshift_" + std::string(test->name()) + "_" + std::to_string(getpid()));
+    std::filesystem::create_directories(path_);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline Eigen::Matrix3d oblique() {
+  return (Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(-0.3, Eigen::Vector3d::UnitZ()))
+      .toRotationMatrix();
+}
+
+inline Eigen::Matrix3d oblique_left_handed() {
+  Eigen::Matrix3d direction = oblique();
+  direction.col(2) *= -1.0;
+  return direction;
+}
+
+/// A grid with the world's point `centre` in its middle.
+inline ImageGeometry grid_around(const Eigen::Vector3d& centre, int size, const Eigen::Vector3d& spacing,
+                                 const Eigen::Matrix3d& direction) {
+  ImageGeometry geometry;
+  geometry.size = Eigen::Array3i::Constant(size);
+  geometry.spacing = spacing;
+  geometry.direction = direction;
+  geometry.origin = centre - direction * spacing * (0.5 * (size - 1));
+  return geometry;
+}
+
+/// Calls set(voxel, world) for every voxel; what it returns becomes the voxel's value.
+template <class T, class Set>
+Image<T> image_by(const ImageGeometry& geometry, const Set& set) {
+  Image<T> image{geometry, std::vector<T>(geometry.voxel_count())};
+  for (int k = 0; k < geometry.size.z(); ++k) {
+    for (int j = 0; j < geometry.size.y(); ++j) {
+      for (int i = 0; i < geometry.size.x(); ++i) {
+        image.at(i, j, k) = set(geometry.to_world(Eigen::Vector3d(i, j, k)));
+      }
+    }
+  }
+  return image;
+}
+
+inline LabelMap ball(const ImageGeometry& geometry, const Eigen::Vector3d& centre, double radius) {
+  return image_by<std::int16_t>(geometry, [&](const Eigen::Vector3d& world) {
+    return static_cast<std::int16_t>((world - centre).norm() <= radius ? 1 : 0);
+  });
+}
+
+inline Surface tetrahedron() {
+  Surface surface;
+  surface.vertices.resize(4, 3);
+  surface.vertices << 0, 0, 0, 30, 0, 0, 0, 30, 0, 0, 0, 30;
+  surface.triangles.resize(4, 3);
+  surface.triangles << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
+  return surface;
+}
+
+/// Whether the call throws E with all of these words in its sentence.
+template <class E, class Call>
+::testing::AssertionResult throws_saying(const Call& call, const std::vector<std::string>& words) {
+  try {
+    call();
+  } catch (const E& fault) {
+    const std::string sentence = fault.what();
+    for (const std::string& word : words) {
+      if (sentence.find(word) == std::string::npos) {
+        return ::testing::AssertionFailure() << "\"" << sentence << "\" lacks \"" << word << "\"";
+      }
+    }
+    return ::testing::AssertionSuccess();
+  }
+  return ::testing::AssertionFailure() << "nothing was thrown";
+}
+
+}  // namespace brainshift::test

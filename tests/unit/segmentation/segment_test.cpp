@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <limits>
+#include <random>
+
+#include "builders.hpp"
+#include "segmentation/segment.hpp"
+
+namespace brainshift::test {
+namespace {
+
+using namespace segmentation;
+
+const Eigen::Vector3d centre(10.0, -40.0, 60.0);
+constexpr double brain_radius = 30.0;
+constexpr double ventricle_radius = 8.0;
+
+// A ball of a brain: grey rim, white inside, a round ventricle in the middle, dark sulci that run in from outside.
+struct Head {
+  ScalarImage t1;
+  LabelMap mask;
+  LabelMap labels;
+};
+
+bool in_sulcus(const Eigen::Vector3d& x) {
+  return x.norm() > 22.0 && std::abs(x.x()) < 1.0;
+}
+
+Head head(const Eigen::Matrix3d& direction) {
+  const auto geometry = grid_around(centre, 72, Eigen::Vector3d::Ones(), direction);
+  std::mt19937 generator(7);
+  std::normal_distribution<float> noise(0.0F, 3.0F);
+  Head result;
+  result.t1 = image_by<float>(geometry, [&](const Eigen::Vector3d& world) {
+    const Eigen::Vector3d x = world - centre;
+    const double r = x.norm();
+    const double value = r > brain_radius                       ? 20.0
+                         : r < ventricle_radius || in_sulcus(x) ? 40.0
+                         : r > 25.0                             ? 80.0
+                                                                : 110.0;
+    return static_cast<float>(value) + noise(generator);
+  });
+  result.mask = ball(geometry, centre, brain_radius);
+  result.labels = result.mask;
+  const LabelMap ventricle = ball(geometry, centre, ventricle_radius);
+  for (std::size_t i = 0; i < ventricle.voxels.size(); ++i) {
+    result.labels.voxels[i] = static_cast<std::int16_t>(result.labels.voxels[i] + ventricle.voxels[i]);
+  }
+  return result;
+}
+
+double dice(const LabelMap& a, const LabelMap& b, std::int16_t label) {
+  double both = 0;
+  double sum = 0;
+  for (std::size_t i = 0; i < a.voxels.size(); ++i) {
+    both += a.voxels[i] == label && b.voxels[i] == label ? 1 : 0;
+    sum += (a.voxels[i] == label ? 1 : 0) + (b.voxels[i] == label ? 1 : 0);
+  }
+  return 2.0 * both / sum;
+}
+
+SegmentOptions two_labels() {
+  SegmentOptions options;
+  options.edge_length = 4.0;
+  options.brain_labels = {1, 2};
+  return options;
+}
+
+TEST(Segment, AT1WithAMaskGivesTheTissuesThatWereDrawn) {
+  const Head drawn = head(oblique_left_handed());
+  SegmentInput input;
+  input.t1 = drawn.t1;
+  input.brain_mask = drawn.mask;
+  const Segmentation result = segment(input, two_labels());
+  EXPECT_GT(dice(*result.labels, drawn.labels, default_label::parenchyma), 0.99);
+  EXPECT_GT(dice(*result.labels, drawn.labels, default_label::ventricles), 0.95);
+  ASSERT_EQ(result.memberships.size(), 3U);
+  for (std::size_t i = 0; i < drawn.mask.voxels.size(); ++i) {
+    const float sum =
+        result.memberships[0].voxels[i] + result.memberships[1].voxels[i] + result.memberships[2].voxels[i];
+    ASSERT_NEAR(sum, drawn.mask.voxels[i], 1e-5);
+  }
+}
+
+TEST(Segment, EverySurfaceIsSoundAndKeepsItsLabelsVolume) {
+  const Head drawn = head(oblique());
+  SegmentInput input;
+  input.labels = drawn.labels;
+  const Segmentation result = segment(input, two_labels());
+  EXPECT_EQ(result.tissues.size(), 2U);
+  for (const char* name : {"brain", "skull", "tissue_1", "tissue_2"}) {
+    const SurfaceMeasures& measures = result.measures.at(name);
+    EXPECT_TRUE(measures.closed && measures.outward && !measures.self_intersecting) << name;
+    EXPECT_NEAR(measures.volume, measures.label_volume, 0.01 * measures.label_volume) << name;
+    EXPECT_LE(measures.boundary_distance_95, 1.0) << name;
+  }
+  EXPECT_NEAR(result.measures.at("brain").volume, 4.0 / 3.0 * std::numbers::pi * std::pow(brain_radius, 3), 1200.0);
+}
+
+TEST(Segment, ATumourMaskJoinsTheBrain) {
+  const Head drawn = head(oblique());
+  const Eigen::Vector3d place = centre + Eigen::Vector3d(0.0, 28.0, 0.0);
+  SegmentInput input;
+  input.t1 = drawn.t1;
+  input.brain_mask = drawn.mask;
+  input.tumour_mask = ball(drawn.mask.geometry, place, 5.0);
+  const Segmentation result = segment(input, two_labels());
+  EXPECT_EQ(label_at(*result.labels, place), default_label::tumour);
+  EXPECT_EQ(label_at(*result.labels, place + Eigen::Vector3d(0.0, 4.0, 0.0)), default_label::tumour);
+  EXPECT_TRUE(result.tissues.contains(default_label::tumour));
+  EXPECT_GT(result.brain.vertices.col(1).maxCoeff(), place.y() + 4.0);
+}
+
+TEST(Segment, HolesAreFilledAndLooseBitsLeftOut) {
+  Head drawn = head(oblique());
+  LabelMap labels = drawn.mask;
+  const double whole = static_cast<double>(count(mask_of(labels)));
+  const LabelMap hole = ball(labels.geometry, centre, 4.0);
+  for (std::size_t i = 0; i < hole.voxels.size(); ++i) {
+    labels.voxels[i] = static_cast<std::int16_t>(hole.voxels[i] != 0 ? 0 : labels.voxels[i]);
+  }
+  labels.at(3, 3, 3) = 1;
+  SegmentInput input;
+  input.labels = labels;
+  SegmentOptions options = two_labels();
+  options.brain_labels = {1};
+  const Segmentation result = segment(input, options);
+  EXPECT_NEAR(result.measures.at("brain").label_volume, whole, 0.5);
+}
+
+TEST(Segment, TheSkullsInnerSurfaceComesFromItsLabel) {
+  Head drawn = head(oblique());
+  const LabelMap inner = ball(drawn.mask.geometry, centre, 32.0);
+  const LabelMap outer = ball(drawn.mask.geometry, centre, 34.0);
+  for (std::size_t i = 0; i < inner.voxels.size(); ++i) {
+    if (outer.voxels[i] != 0 && inner.voxels[i] == 0) {
+      drawn.labels.voxels[i] = default_label::skull;
+    }
+  }
+  SegmentInput input;
+  input.labels = drawn.labels;
+  SegmentOptions options = two_labels();
+  options.skull_label = default_label::skull;
+  const Segmentation result = segment(input, options);
+  const auto radii = (result.skull.vertices.rowwise() - centre.transpose()).rowwise().norm();
+  EXPECT_NEAR(radii.mean(), 32.0, 0.5);
+  EXPECT_NEAR((result.brain.vertices.rowwise() - centre.transpose()).rowwise().norm().mean(), brain_radius, 0.5);
+}
+
+TEST(Segment, TheFilesThatItWritesAreReadBackTheSame) {
+  const TemporaryFolder folder;
+  const Head drawn = head(oblique_left_handed());
+  SegmentInput input;
+  input.t1 = drawn.t1;
+  input.brain_mask = drawn.mask;
+  const Segmentation result = segment(input, two_labels());
+  write_segmentation(folder / "segment", result);
+  EXPECT_EQ(read_label_map(folder / "segment/labels.nii.gz").voxels, result.labels->voxels);
+  EXPECT_EQ(read_surface(folder / "segment/brain.vtp").vertices, result.brain.vertices);
+  for (const char* name : {"skull.vtp", "tissue_1.vtp", "tissue_2.vtp", "membership_0.nii.gz", "membership_2.nii.gz"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string("segment/") + name))) << name;
+  }
+}
+
+TEST(Segment, TheSameInputGivesTheSameSurfaceBitForBit) {
+  SegmentInput input;
+  input.labels = head(oblique()).labels;
+  const Segmentation first = segment(input, two_labels());
+  const Segmentation second = segment(input, two_labels());
+  EXPECT_EQ(first.brain.vertices, second.brain.vertices);
+  EXPECT_EQ(first.tissues.at(2).vertices, second.tissues.at(2).vertices);
+}
+
+TEST(Segment, InputThatDoesNotFitIsRefusedInASentence) {
+  const Head drawn = head(oblique());
+  SegmentInput shifted;
+  shifted.t1 = drawn.t1;
+  shifted.labels = drawn.labels;
+  shifted.labels->geometry.origin.z() += 1.0;
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(shifted, two_labels()); }, {"different grids", "T1"}));
+
+  SegmentInput lacking;
+  lacking.labels = drawn.mask;
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(lacking, two_labels()); }, {"label 2"}));
+
+  SegmentInput empty;
+  empty.t1 = drawn.t1;
+  empty.brain_mask = drawn.mask;
+  std::fill(empty.brain_mask->voxels.begin(), empty.brain_mask->voxels.end(), std::int16_t{0});
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(empty, two_labels()); }, {"empty"}));
+
+  SegmentInput cut = empty;
+  cut.brain_mask = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, 0.0, 20.0), brain_radius);
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(cut, two_labels()); }, {"border", "pad"}));
+
+  SegmentInput broken;
+  broken.t1 = drawn.t1;
+  broken.brain_mask = drawn.mask;
+  broken.t1->at(36, 36, 36) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(broken, two_labels()); }, {"finite"}));
+
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment({}, two_labels()); }, {"give labels"}));
+  SegmentOptions bad = two_labels();
+  bad.edge_length = std::nan("");
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(lacking, bad); }, {"edge length"}));
+}
+
+}  // namespace
+}  // namespace brainshift::test
