@@ -14,7 +14,8 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int window = 20;  // steps between looks at the state
+constexpr int window = 20;         // steps between looks at the state
+constexpr int recent_windows = 4;  // that the error bound looks back on
 constexpr int power_iterations = 40;
 constexpr double eigenvalue_margin = 1.25;  // power iteration comes from below, and tangents turn as the body deforms
 constexpr double rest_amplitude = 1e-7;     // mm: small enough to stay linear
@@ -87,7 +88,7 @@ class Relaxation {
       if (result_.steps % window == 0) {
         look();
         report_progress(progress);
-        if (fraction_ >= 1 && bound_ <= options_.tolerance && calm_windows_ >= 3) {
+        if (fraction_ >= 1 && bound_ <= options_.tolerance) {
           return finish();
         }
       }
@@ -229,18 +230,20 @@ class Relaxation {
     }
   }
 
+  /// ρ/(1 − ρ) |û⁺ − û|∞, ρ the slower of the measured rate and of the rate √β that the damping stands for. A passing
+  /// low, as when the body swings through a turning point, is no rest: the largest of the last windows counts, for the
+  /// rate and for the bound.
   void estimate_error(double motion) {
     motions_.push_back(motion);
-    bound_ = std::numeric_limits<double>::infinity();
-    constexpr std::size_t span = 3;
-    if (motions_.size() <= span || fraction_ < 1) {
-      return;
+    rates_.push_back(std::sqrt(Pace(lowest_).beta));
+    bounds_.push_back(std::numeric_limits<double>::infinity());
+    if (fraction_ >= 1 && motions_.size() > recent_windows) {
+      const double earlier = *(motions_.end() - 1 - recent_windows);
+      const double measured = motion > 0 ? std::pow(motion / earlier, 1.0 / (recent_windows * window)) : 0.0;
+      const double rate = std::max(measured, *std::max_element(rates_.end() - recent_windows, rates_.end()));
+      bounds_.back() = rate < 1 ? rate / (1 - rate) * motion : bounds_.back();
+      bound_ = *std::max_element(bounds_.end() - recent_windows, bounds_.end());
     }
-    const double earlier = motions_[motions_.size() - 1 - span];
-    const double measured = motion > 0 ? std::pow(motion / earlier, 1.0 / (span * window)) : 0.0;
-    const double rate = std::max(measured, std::sqrt(Pace(lowest_).beta));
-    bound_ = rate < 1 ? rate / (1 - rate) * motion : bound_;
-    calm_windows_ = bound_ <= options_.tolerance ? calm_windows_ + 1 : 0;
   }
 
   void record() {
@@ -305,7 +308,7 @@ class Relaxation {
   std::size_t nodes_;
   ForceScratch scratch_;
   NodalVectors now_, before_, next_, force_, force_before_, good_;
-  std::vector<double> moduli_, mass_, motions_;
+  std::vector<double> moduli_, mass_, motions_, rates_, bounds_;
   double mass_scale_ = 1;
   double lowest_ = 1e-4;  // A_0: a guess until there are increments
   double alpha_ = 1;
@@ -313,7 +316,6 @@ class Relaxation {
   double work_rate_ = 0;
   double external_work_ = 0;
   double bound_ = std::numeric_limits<double>::infinity();
-  int calm_windows_ = 0;
   int load_steps_;
   RelaxationResult result_;
 };

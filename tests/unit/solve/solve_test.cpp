@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "solve/material/neo_hookean.hpp"
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift::solve {
