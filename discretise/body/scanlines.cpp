@@ -8,20 +8,24 @@
 namespace brainshift::discretise {
 namespace {
 
-/// Twice the signed area of (a, b, p) in the y-z plane, always computed from the lower to the higher vertex, so that
-/// both triangles at an edge see the same number with opposite sign; zero counts as positive for the lower-to-higher
-/// direction (`positive` tells).
+/// On which side of the edge from a to b a line through (y, z) passes.
 struct Side {
-  double area;
-  bool positive;
+  double area;    ///< twice the signed area of (a, b, line) in the y-z plane
+  bool positive;  ///< its sign; never undecided
 };
 
+/// Computed from the lower to the higher vertex always, so that both triangles at an edge see opposite numbers. A line
+/// that meets the edge is taken to pass a hair farther in y, and yet less in z: the same way for all edges, so that the
+/// parity holds for a line through a vertex too (simulation of simplicity, Edelsbrunner & Mücke 1990).
 Side side_of_edge(const Points& vertices, std::int32_t a, std::int32_t b, double y, double z) {
   const bool swapped = a > b;
   const auto from = vertices.row(swapped ? b : a);
   const auto to = vertices.row(swapped ? a : b);
-  const double area = (to[1] - from[1]) * (z - from[2]) - (to[2] - from[2]) * (y - from[1]);
-  return {swapped ? -area : area, (area >= 0) != swapped};
+  const double dy = to[1] - from[1];
+  const double dz = to[2] - from[2];
+  const double area = dy * (z - from[2]) - dz * (y - from[1]);
+  const bool positive = area > 0 || (area == 0 && (dz < 0 || (dz == 0 && dy > 0)));
+  return {swapped ? -area : area, positive != swapped};
 }
 
 /// Calls visit(bucket) for the buckets that the triangle's box overlaps.
