@@ -9,7 +9,7 @@
 # a synthetic head takes its place.
 set -euo pipefail
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 out=$root/demo
 install=yes
 
@@ -40,47 +40,8 @@ while [ $# -gt 0 ]; do
   esac
 done
 
-missing() {
-  local package
-  for package in "$@"; do
-    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || echo "$package"
-  done
-}
-
-as_root() {
-  if [ "$(id -u)" = 0 ]; then
-    "$@"
-  elif command -v sudo >/dev/null; then
-    sudo "$@"
-  else
-    echo "demo.sh: run this as root, to install packages: $*" >&2
-    return 1
-  fi
-}
-
-install_packages() {
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@"
-}
-
-if [ $install = yes ]; then
-  mapfile -t packages < <(grep -v '^#' "$root/pipelines/packages.txt")
-  mapfile -t needed < <(missing "${packages[@]}")
-  mapfile -t image < <(missing mricron-data)
-  if [ $((${#needed[@]} + ${#image[@]})) -gt 0 ]; then
-    echo "Installing: ${needed[*]} ${image[*]}"
-    as_root apt-get update || true # packages may still come from the cache; installing says whether they do
-  fi
-  [ ${#needed[@]} = 0 ] || install_packages "${needed[@]}"
-  [ ${#image[@]} = 0 ] || install_packages "${image[@]}" || echo "mricron-data cannot be had."
-fi
-
-# A compiler that reads CGAL and ITK takes up to 2 GB.
-jobs=$(nproc)
-room=$(awk '/MemAvailable/ { print int($2 / 2000000) }' /proc/meminfo)
-[ "$room" -ge "$jobs" ] || jobs=$((room > 0 ? room : 1))
-
-cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release
-cmake --build "$root/build" --target brainshift --parallel "$jobs"
+[ $install = no ] || install_packages
+build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release
 brainshift=$root/build/pipelines/brainshift
 
 head=$(dpkg -L mricron-data 2>/dev/null | grep '/ch2\.nii\.gz$' || true)

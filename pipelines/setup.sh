@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Sourced by demo.sh and tests/run.sh: installs what a fresh Debian 12 lacks, and builds.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+missing_packages() {
+  local package
+  for package in "$@"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || echo "$package"
+  done
+}
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    echo "run this as root, to install packages: $*" >&2
+    return 1
+  fi
+}
+
+# The packages of packages.txt, those named, and the head MRI, which may fail to come: a synthetic head takes its place.
+install_packages() {
+  local needed image
+  mapfile -t needed < <(missing_packages $(grep -v '^#' "$root/pipelines/packages.txt") "$@")
+  mapfile -t image < <(missing_packages mricron-data)
+  [ $((${#needed[@]} + ${#image[@]})) -gt 0 ] || return 0
+  echo "Installing: ${needed[*]} ${image[*]}"
+  as_root apt-get update || true # packages may still come from the cache; installing says whether they do
+  local apt=(env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends)
+  [ ${#needed[@]} = 0 ] || as_root "${apt[@]}" "${needed[@]}"
+  [ ${#image[@]} = 0 ] || as_root "${apt[@]}" "${image[@]}" || echo "mricron-data cannot be had."
+}
+
+# build FOLDER TARGET [cmake options]: a compiler that reads CGAL and ITK takes up to 2 GB.
+build() {
+  local folder=$1 target=$2 jobs room
+  shift 2
+  jobs=$(nproc)
+  room=$(awk '/MemAvailable/ { print int($2 / 2000000) }' /proc/meminfo)
+  [ "$room" -ge "$jobs" ] || jobs=$((room > 0 ? room : 1))
+  cmake -S "$root" -B "$folder" -G Ninja "$@"
+  cmake --build "$folder" --target "$target" --parallel "$jobs"
+}

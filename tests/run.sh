@@ -1,0 +1,27 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Every test, from a fresh Debian 12: installs what is missing, builds, checks the format, runs the unit tests under the
+# address and undefined-behaviour sanitizers and then all tests of the release build.
+#
+#   bash tests/run.sh [--no-install]
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../pipelines/setup.sh"
+
+case ${1:-} in
+  '') install_packages clang-format ;;
+  --no-install) ;;
+  *)
+    echo "usage: bash tests/run.sh [--no-install]" >&2
+    exit 2
+    ;;
+esac
+
+cd "$root"
+git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+
+build build-sanitize unit_tests -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBRAINSHIFT_SANITIZE=ON
+ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(nproc)"
+
+build build all -DCMAKE_BUILD_TYPE=Release
+ctest --test-dir build --output-on-failure
