@@ -17,7 +17,8 @@ struct SignedDistanceOptions {
 /// O(1). The samples within three grid spacings of the surface are exact, their sign by the angle-weighted normal of
 /// the nearest corner, edge or face (Bærentzen & Aanæs 2005); further out the nearest triangle is handed on from sample
 /// to sample, which may miss it: by a few hundredths of a mm about a head, by up to half a mm deep inside a ball.
-/// Between samples the value is trilinear, which rounds edges and corners. Const calls may run on many threads.
+/// Between samples the value is trilinear, which rounds edges and corners: at the vertices of a brain's surface it is
+/// 0.11 mm on average and up to 0.8 mm (0.07 and 0.6 at a spacing of 1 mm). Const calls may run on many threads.
 class SignedDistance {
  public:
   /// Uses all threads; the result does not depend on their number. Throws std::invalid_argument on a surface that is
