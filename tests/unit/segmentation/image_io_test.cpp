@@ -8,7 +8,6 @@
 #include <itkImageSeriesWriter.h>
 #include <itkNiftiImageIO.h>
 #include <itkNumericSeriesFileNames.h>
-#include <itkRGBPixel.h>
 #include <sys/resource.h>
 
 #include <csignal>
