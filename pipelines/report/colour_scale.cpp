@@ -10,9 +10,9 @@ namespace brainshift::pipelines {
 
 namespace {
 
-// Nodes of the colour map "viridis" (Smith & van der Walt 2015, public domain), every eighth of its range.
-constexpr Colour sequential_nodes[] = {{68, 1, 84},    {71, 45, 123}, {59, 82, 139},  {44, 114, 142}, {33, 145, 140},
-                                       {40, 174, 128}, {94, 201, 98}, {173, 220, 48}, {253, 231, 37}};
+// Pale grey, then the yellow, orange and red of ColorBrewer's YlOrRd (Brewer 2003): lightness falls evenly.
+constexpr Colour sequential_nodes[] = {{222, 224, 228}, {254, 228, 150}, {254, 178, 76},
+                                       {252, 100, 42},  {214, 20, 28},   {118, 0, 38}};
 constexpr Colour diverging_nodes[] = {{150, 215, 255}, {40, 120, 220}, {8, 8, 10}, {230, 110, 20}, {255, 225, 150}};
 
 }  // namespace
@@ -31,7 +31,7 @@ double round_up(double value) {
     return 1;
   }
   const double power = std::pow(10, std::floor(std::log10(value)));
-  for (const double step : {1.0, 2.0, 2.5, 5.0}) {
+  for (const double step : {1.0, 1.6, 2.0, 3.0, 4.0, 6.0, 8.0}) {
     if (step * power >= value * (1 - 1e-9)) {
       return step * power;
     }

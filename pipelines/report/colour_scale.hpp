@@ -9,7 +9,7 @@
 namespace brainshift::pipelines {
 
 enum class ColourMap : std::uint8_t {
-  sequential,  ///< dark violet to yellow, lightness grows evenly: readable in grey and by the colour-blind
+  sequential,  ///< pale grey to yellow, orange and dark red: zero is pale; readable in grey and by the colour-blind
   diverging,   ///< blue, black, orange: differences, zero is black
 };
 
@@ -23,7 +23,8 @@ struct ColourScale {
   Colour colour_of(double value) const;
 };
 
-/// The least of 1, 2, 2.5, 5 · 10^k that is not below the value; 1 when the value is not positive.
+/// The least of 1, 1.6, 2, 3, 4, 6, 8 times 10^k (a quarter of each is short) that is not below the value; 1 when the
+/// value is not positive.
 double round_up(double value);
 
 /// An upright colour bar with numbers to its right and its title above; takes 90 pixels of width.

@@ -131,7 +131,7 @@ std::string energy_plot(const std::vector<Row>& history) {
   };
   constexpr Curve curves[] = {{"external work", "#1f5fa8", &Row::external_work},
                               {"strain energy", "#c2571a", &Row::strain_energy},
-                              {"kinetic energy (fictitious)", "#7a7f87", &Row::kinetic_energy}};
+                              {"kinetic energy", "#7a7f87", &Row::kinetic_energy}};
   double high = 0;
   for (const Row& row : history) {
     for (const Curve& curve : curves) {
@@ -145,12 +145,12 @@ std::string energy_plot(const std::vector<Row>& history) {
       .x_high = static_cast<double>(history.back().step), .y_low = 0, .y_high = round_up(high), .logarithmic = false};
   std::ostringstream svg = begin_svg("energies over the steps");
   draw_frame(svg, axes, "energy, mJ");
-  double key = left + 120;
+  double key = left + 60;
   for (const Curve& curve : curves) {
     draw_curve(svg, axes, history, curve.value, curve.stroke);
     svg << "<rect x=\"" << key << "\" y=\"9\" width=\"12\" height=\"10\" fill=\"" << curve.stroke << "\"/>\n";
     text(svg, key + 16, 18, "start", curve.name);
-    key += 110;
+    key += 132;
   }
   svg << "</svg>\n";
   return svg.str();

@@ -28,6 +28,9 @@ std::string value_text(const json& value) {
 std::string pairs(const json& values) {
   std::string text;
   for (const auto& [name, value] : values.items()) {
+    if (value.is_string() && value.get_ref<const std::string&>().empty()) {
+      continue;
+    }
     const bool nested = value.is_object();
     text += text.empty() ? "" : nested ? "<br/>" : ", ";
     text += "<span class=\"name\">" + escape(name) + "</span> ";
@@ -70,8 +73,8 @@ std::string escape(const std::string& text) {
 }
 
 std::string image_element(const PageFigure& figure) {
-  return "<img id=\"" + escape(figure.name) + "\" alt=\"" + escape(figure.alt) + "\" src=\"data:image/png;base64," +
-         encode_base64(figure.png) + "\"/>";
+  return "<img id=\"" + escape(figure.name) + "\" style=\"flex-grow:" + std::to_string(figure.width) + "\" alt=\"" +
+         escape(figure.alt) + "\" src=\"data:image/png;base64," + encode_base64(figure.png) + "\"/>";
 }
 
 std::string measures_html(std::span<const MeasureRow> rows) {
@@ -136,7 +139,7 @@ p { margin: 6px 0 12px; max-width: 62em; }
 .tile b { display: block; font-size: 25px; font-weight: 600; white-space: nowrap; }
 .row { display: flex; gap: 8px; align-items: stretch; background: #000; padding: 8px; border-radius: 6px;
   margin: 10px 0; }
-.row img { flex: 1 1 0; min-width: 0; width: 100%; height: 100%; object-fit: contain; align-self: center; }
+.row img { flex-basis: 0; min-width: 0; width: 0; height: auto; align-self: center; }
 figure { margin: 12px 0; }
 figure img { max-width: 100%; height: auto; }
 table { border-collapse: collapse; width: 100%; font-size: 15px; margin: 10px 0; }
@@ -148,7 +151,8 @@ th { font-weight: 600; color: var(--soft); }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(420px, 1fr)); gap: 18px; }
 .key { display: inline-block; width: 22px; height: 4px; margin: 0 6px 3px 14px; vertical-align: middle; }
 .blink { position: relative; background: #000; border-radius: 6px; display: inline-block; }
-.blink img { display: block; max-width: 100%; }
+.blink { width: min(100%, 760px); }
+.blink img { display: block; width: 100%; }
 .blink img + img { position: absolute; left: 0; top: 0; }
 input[type=range] { width: 320px; vertical-align: middle; }
 summary { cursor: pointer; color: var(--accent); }

@@ -17,10 +17,11 @@ std::string escape(const std::string& text);
 struct PageFigure {
   std::string name;
   std::string alt;
+  int width;        ///< pixels
   std::string png;  ///< the file's bytes
 };
 
-/// An <img> that holds its picture.
+/// An <img> that holds its picture; beside others in a row it takes space in proportion to its width.
 std::string image_element(const PageFigure& figure);
 
 std::string measures_html(std::span<const MeasureRow> rows);

@@ -113,7 +113,8 @@ void add_flag(std::vector<MeasureRow>& rows, const json& record, const std::stri
 std::vector<MeasureRow> quality_measures(const json& record) {
   std::vector<MeasureRow> rows;
   add_flag(rows, record, "segment", "/segment/measures/brain/closed", true, "the brain's surface is closed");
-  add_flag(rows, record, "segment", "/segment/measures/brain/self_intersecting", false, "the surface cuts itself");
+  add_flag(rows, record, "segment", "/segment/measures/brain/self_intersecting", false,
+           "the brain's surface cuts itself");
   add_volume(rows, record, "segment", "/segment/measures/brain/volume_mm3", "/segment/measures/brain/label_volume_mm3",
              1, "volume of the surface against that of the brain's voxels");
   add_volume(rows, record, "discretise", "/discretise/measures/cells_inside_volume_mm3",
@@ -129,8 +130,9 @@ std::string readable(double value) {
   if (!std::isfinite(value)) {
     return "not known";
   }
-  char text[64];
-  if (std::abs(value) < 10000) {
+  char text[400];
+  const bool whole = value == std::round(value);
+  if (!whole && std::abs(value) < 1000) {
     std::snprintf(text, sizeof text, "%.3g", value);
     return text;
   }

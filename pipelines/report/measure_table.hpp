@@ -22,7 +22,7 @@ struct MeasureRow {
 /// The measures that tell whether a run may be trusted, as far as run.json has them.
 std::vector<MeasureRow> quality_measures(const nlohmann::json& record);
 
-/// A number with three or four figures, thousands apart.
+/// A number with three figures; whole and large ones with all of theirs, thousands apart.
 std::string readable(double value);
 
 }  // namespace brainshift::pipelines

@@ -71,7 +71,7 @@ std::string comparison_section(const PageContent& content) {
   std::string html =
       "<h2>Before, after, difference</h2>\n<p>Axial, coronal and sagittal planes of the patient (not of the "
       "scanner's grid), 12 mm under the centre of the craniotomy. The patient's left is on the right. Lines:" +
-      key("#5ac8fa", "brain's surface before") + key("#ff963c", "after") + key("#ffe13c", "craniotomy") + ".</p>\n";
+      key("#5ac8fa", "brain's surface before") + key("#ff963c", "after") + key("#46eb6e", "craniotomy") + ".</p>\n";
   for (std::size_t i = 0; i + 2 < content.comparisons.size(); i += 3) {
     html += "<div class=\"row\">";
     for (std::size_t column = 0; column < 3; ++column) {
@@ -88,7 +88,7 @@ std::string comparison_section(const PageContent& content) {
       "oninput=\"document.getElementById('" +
       after.name + "').style.opacity = this.value / 100\"/></p>\n<div class=\"blink\">" + image_element(before);
   std::string over = image_element(after);
-  over.insert(over.find(' '), " style=\"opacity:0\"");
+  over.insert(over.find("flex-grow"), "opacity:0;");
   return html + over + "</div>\n";
 }
 
@@ -100,14 +100,14 @@ std::string displacement_section(const PageContent& content) {
                                                        : "drawn " + readable(content.arrow_factor) + " times too long";
   std::string html = "<h2>Displacement</h2>\n<p>Colours: length of the displacement. Arrows: its part in the plane, " +
                      factor + ", from where the tissue was. Lines:" + key("#5ac8fa", "brain's surface before") +
-                     key("#ffe13c", "craniotomy") + ".</p>\n<div class=\"row\">";
+                     key("#46eb6e", "craniotomy") + ".</p>\n<div class=\"row\">";
   for (const auto& figure : content.displacements) {
     html += image_element(figure) + "\n";
   }
   html += "</div>\n";
   for (const auto& figure : content.surfaces) {
     html += "<figure>" + image_element(figure) +
-            "<figcaption>The brain's surface as it lies during the operation, coloured by displacement; red: the rim "
+            "<figcaption>The brain's surface as it lies during the operation, coloured by displacement; blue: the rim "
             "of the craniotomy. L, P, S: the patient's left, posterior, superior.</figcaption></figure>\n";
   }
   return html;

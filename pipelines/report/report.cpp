@@ -27,7 +27,7 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
 
 // Written as a file, and kept for the page.
 PageFigure keep(const Figure& figure, const fs::path& out) {
-  PageFigure kept{figure.name, figure.alt, encode_png(figure.picture)};
+  PageFigure kept{figure.name, figure.alt, figure.picture.width, encode_png(figure.picture)};
   write_bytes(out / (figure.name + ".png"), kept.png);
   return kept;
 }

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr Colour preop_colour = {90, 200, 250};
 constexpr Colour intraop_colour = {255, 150, 60};
-constexpr Colour opening_colour = {255, 225, 60};
+constexpr Colour opening_colour = {70, 235, 110};
 constexpr int bar_width = 96;  // pixels to the right of a picture with a colour bar
 
 // Grey as radiologists see it; where the image has no value, or there is none, nearly black.
@@ -128,6 +128,11 @@ Points displacement_of_pixels(const RunData& run, const SlicePlane& plane, const
   return places;
 }
 
+// Where nothing moves the image is seen as it is.
+double opacity(const View& view, double shift, bool over_image) {
+  return over_image ? 0.7 * std::min(1.0, 5 * shift / view.shift.high) : 0.9;
+}
+
 void draw_shift_arrow(Canvas& canvas, const SlicePlane& plane, const Vector2d& from, const Vector2d& in_plane) {
   const Vector2d to = from + plane.scale * in_plane;
   if ((to - from).norm() < 2) {
@@ -151,7 +156,7 @@ std::vector<Figure> comparison_figures(const RunData& run, const View& view, con
 }
 
 double arrow_factor(const View& view) {
-  const double wanted = 14 / std::max(view.shift.high, 1e-6);
+  const double wanted = 18 / std::max(view.shift.high, 1e-6);
   for (const double factor : {10.0, 5.0, 4.0, 3.0, 2.0}) {
     if (factor <= wanted) {
       return factor;
@@ -177,7 +182,8 @@ Figure displacement_figure(const RunData& run, const View& view, const SlicePlan
         continue;
       }
       const Vector3d u = shift.row(row++);
-      canvas.at(x, y) = blend(canvas.at(x, y), view.shift.colour_of(u.norm()), run.t1 ? 0.6 : 0.9);
+      canvas.at(x, y) =
+          blend(canvas.at(x, y), view.shift.colour_of(u.norm()), opacity(view, u.norm(), run.t1.has_value()));
       if (x % arrow_distance == arrow_distance / 2 && y % arrow_distance == arrow_distance / 2) {
         arrows.push_back({{x + 0.5, y + 0.5}, arrow_factor(view) * Vector2d(u.dot(plane.right), u.dot(plane.down))});
       }

@@ -69,7 +69,7 @@ Canvas draw_view(const RunData& run, const View& view, const Vector3d& towards, 
   if (view.opening.rows() > 0) {
     const Points rim = opening_rim(*run.brain, view.deformed, view);
     for (Eigen::Index i = 0; i + 1 < rim.rows(); i += 2) {
-      draw_line_on(picture, camera, rim.middleRows(i, 2), sampling * 2.0, {215, 40, 40});
+      draw_line_on(picture, camera, rim.middleRows(i, 2), sampling * 2.0, {20, 60, 160});
     }
   }
   Canvas half = halve(picture.canvas);
@@ -92,7 +92,7 @@ Figure surface_figure(const RunData& run, const View& view) {
   const Vector3d side = sideways.norm() > 0.1 ? sideways.normalized() : view.inward.unitOrthogonal();
   const bool opened = view.opening.rows() > 0;
   paste(canvas, draw_view(run, view, view.inward, opened ? "seen through the opening" : "from above"), 0, 0);
-  paste(canvas, draw_view(run, view, side, "from the side"), half_width, 0);
+  paste(canvas, draw_view(run, view, (0.5 * view.inward + 0.9 * side).normalized(), "from the side"), half_width, 0);
   draw_colour_bar(canvas, view.shift, 2 * half_width + 16, 80, height - 160, colour::ink);
   return {"surface", "The brain's surface, coloured by displacement", std::move(canvas)};
 }

@@ -15,6 +15,7 @@ using Eigen::Vector3d;
 constexpr double margin = 14;           // mm, shown around the brain
 constexpr double depth_of_planes = 12;  // mm; at the surface itself a plane would only graze the brain
 constexpr double pixels_per_mm = 2.5;
+constexpr double headroom = 1.15;  // white matter is not to be shown as white as paper
 
 Vector3d nearest_vertex(const Surface& surface, const Vector3d& point) {
   Eigen::Index nearest = 0;
@@ -49,7 +50,7 @@ std::pair<double, double> grey_window(const ScalarImage& image) {
   };
   const double low = quantile(0.02);
   const double high = quantile(0.995);
-  return {low, high > low ? high : low + 1};
+  return {low, high > low ? low + headroom * (high - low) : low + 1};
 }
 
 void find_opening(const RunData& run, View& view) {
@@ -87,7 +88,7 @@ View make_view(const RunData& run) {
     view.surface_shift.push_back(u.norm());
   }
   const double largest = run.solution->displacement.rowwise().norm().maxCoeff();
-  view.shift = {.map = ColourMap::sequential, .low = 0, .high = round_up(largest), .title = "|u| mm"};
+  view.shift = {.map = ColourMap::sequential, .low = 0, .high = round_up(largest), .title = "shift, mm"};
   return view;
 }
 
