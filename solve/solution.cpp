@@ -41,6 +41,10 @@ ShapeOptions shape_options(const std::filesystem::path& file, vtkFieldData& data
   if (!dilatation.empty()) {
     options.dilatation = dilatation[0];
   }
+  const std::vector<double> penalty = vtu::array(file, data, "shape_penalty", 1);
+  if (!penalty.empty()) {
+    options.penalty = penalty[0];
+  }
   return options;
 }
 
@@ -87,6 +91,8 @@ void write_solution(const std::filesystem::path& file, const Solution& solution)
   vtu::add_array(data, "spacing", solution.spacing);
   const std::array basis = {static_cast<std::int32_t>(solution.shape.basis)};
   const std::array dilatation = {solution.shape.dilatation};
+  const std::array penalty = {solution.shape.penalty};
+  vtu::add_array(*grid->GetFieldData(), "shape_penalty", std::span<const double>(penalty));
   vtu::add_array(*grid->GetFieldData(), "shape_basis", std::span<const std::int32_t>(basis));
   vtu::add_array(*grid->GetFieldData(), "shape_dilatation", std::span<const double>(dilatation));
   vtu::write(file, *grid);

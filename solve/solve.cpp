@@ -128,6 +128,18 @@ void check_held(const OrderedCloud& cloud, bool contact) {
   }
 }
 
+/// A node that no integration point sees has no mass, and nothing would hold it.
+void check_supported(const PointBlocks& blocks, const OrderedCloud& cloud) {
+  for (std::size_t a = 0; a < blocks.nodes(); ++a) {
+    if (blocks.node_begin[a] == blocks.node_begin[a + 1]) {
+      throw std::invalid_argument(
+          "node " + std::to_string(cloud.original[a]) +
+          " lies in the support of no integration point: the cells do not cover the cloud there, "
+          "or are too coarse for its spacing");
+    }
+  }
+}
+
 std::vector<std::int32_t> contact_nodes(const OrderedCloud& cloud) {
   std::vector<std::int32_t> nodes;
   for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
@@ -195,7 +207,8 @@ SolveResult solve(const Model& model, const SolveOptions& options, const Progres
   const PointBlocks blocks = point_blocks(points, point_rows, materials.row_of_point, model.cloud.size(),
                                           options.volumetric == Volumetric::mean_dilatation);
 
-  EssentialConditions essential(cloud.prescribed, nodal_rows);
+  check_supported(blocks, cloud);
+  EssentialConditions essential(cloud.prescribed, nodal_rows, cloud.original);
   std::optional<SignedDistance> skull;
   std::optional<Contact> contact;
   if (model.skull) {

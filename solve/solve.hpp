@@ -28,7 +28,7 @@ struct SolveOptions {
   Volumetric volumetric = Volumetric::mean_dilatation;
   int points_per_cell = 8;  ///< hexahedra: 1 or 8; tetrahedra: 1 or 4
   double tolerance = 0.01;  ///< stop when the bound of the remaining error is below this, mm
-  int load_steps = 0;       ///< steps of 3-4-5 loading; 0: chosen from the estimate of the lowest eigenvalue
+  int load_steps = 400;     ///< steps of 3-4-5 loading
   int max_steps = 50000;
 };
 

@@ -178,8 +178,7 @@ Element solve_element() {
                          "integration points a cell: hexahedra 1 or 8 (auto), tetrahedra 1 or 4 (auto)"),
            number<Scene>("tolerance", MEMBER(solve.tolerance), above_zero, "mm",
                          "stop when the bound of the remaining error is below this"),
-           number<Scene>("load_steps", MEMBER(solve.load_steps), not_negative, "",
-                         "steps of the 3-4-5 loading; 0: chosen from the lowest eigenvalue"),
+           number<Scene>("load_steps", MEMBER(solve.load_steps), {.low = 1}, "", "steps of the 3-4-5 loading"),
            number<Scene>("max_steps", MEMBER(solve.max_steps), {.low = 1}, "", "give up after so many steps"),
            command(StageId::solve)}};
 }

@@ -77,9 +77,9 @@ void Contact::apply(NodalVectors& parameters) {
 Contact::Measures Contact::measure(const NodalVectors& parameters) const {
   Measures measures;
   for (std::size_t i = 0; i < allowed_.size(); ++i) {
-    const double distance = skull_->value(place(i, parameters));
-    measures.touching += distance > -0.01 ? 1 : 0;
-    measures.largest_penetration = std::max(measures.largest_penetration, distance);
+    const double outside = skull_->value(place(i, parameters)) - allowed_[i];
+    measures.touching += outside > -0.01 ? 1 : 0;
+    measures.largest_penetration = std::max(measures.largest_penetration, outside);
   }
   return measures;
 }

@@ -29,7 +29,7 @@ class Contact {
 
   struct Measures {
     std::size_t touching = 0;        ///< nodes within a hundredth of a millimetre of the skull or outside it
-    double largest_penetration = 0;  ///< mm outside the skull, whether or not it started so
+    double largest_penetration = 0;  ///< mm further outside the skull than at the start
   };
   Measures measure(const NodalVectors& parameters) const;
 

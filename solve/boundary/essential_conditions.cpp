@@ -35,14 +35,17 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of_nodes(const ShapeRows& rows
 
 }  // namespace
 
-EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows) {
+EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows,
+                                         std::vector<std::int32_t> names)
+    : names_(std::move(names)) {
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
     std::vector<double> values;
     for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
       const double value = prescribed(a, axis);
       if (std::isinf(value)) {
-        throw std::invalid_argument("the prescribed displacement of node " + std::to_string(a) +
+        throw std::invalid_argument("the prescribed displacement of node " +
+                                    std::to_string(names_[static_cast<std::size_t>(a)]) +
                                     " is infinite; give millimetres, or NaN where it is free");
       }
       if (!std::isnan(value)) {
@@ -78,7 +81,7 @@ void EssentialConditions::factorise(std::span<const double> mass) {
     if (!(c.factor->info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot * pivots.maxCoeff())) {
       const auto at = static_cast<std::size_t>(c.factor->permutationPinv().indices()[worst]);
       throw std::invalid_argument("the prescribed displacements contradict or repeat each other at node " +
-                                  std::to_string(c.node[at]) +
+                                  std::to_string(names_[static_cast<std::size_t>(c.node[at])]) +
                                   ": too many constrained nodes lie too near it; constrain fewer or add free nodes");
     }
   }

@@ -22,9 +22,9 @@ namespace brainshift::solve {
 /// Each component (x, y, z) has its own constrained nodes.
 class EssentialConditions {
  public:
-  /// prescribed (n × 3) mm, NaN: free. nodal_rows: shape functions at all nodes' positions. Throws
-  /// std::invalid_argument, naming the node, where a prescribed value is infinite.
-  EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows);
+  /// prescribed (n × 3) mm, NaN: free. nodal_rows: shape functions at all nodes' positions. names: what the user calls
+  /// the nodes. Throws std::invalid_argument, naming the node, where a prescribed value is infinite.
+  EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names);
 
   /// Factorises V M⁻¹ Vᵀ for nodal masses (one a node). Throws std::invalid_argument, naming a node, when it is
   /// singular: two constrained nodes say the same.
@@ -59,6 +59,7 @@ class EssentialConditions {
   };
   std::array<Component, 3> component_;
   std::vector<double> inverse_mass_;
+  std::vector<std::int32_t> names_;
 };
 
 }  // namespace brainshift::solve

@@ -53,6 +53,15 @@ std::vector<Patch> group_patches(const IntegrationPoints& points, std::span<cons
   return patches;
 }
 
+std::int64_t pairs_of(const Patch& patch, const ShapeRows& rows, const std::vector<std::int32_t>& order) {
+  std::int64_t pairs = 0;
+  for (std::int32_t k = patch.first_point; k < patch.last_point; ++k) {
+    const auto p = static_cast<std::size_t>(order[static_cast<std::size_t>(k)]);
+    pairs += rows.begin[p + 1] - rows.begin[p];
+  }
+  return pairs;
+}
+
 /// Copies the shape functions of a block's points, with its nodes numbered 0, 1, ... in the order of the nodes.
 void append_block(PointBlocks& out, const ShapeRows& rows, const std::vector<std::int32_t>& order, Block block,
                   std::vector<std::int32_t>& slot_of_node) {
@@ -114,14 +123,21 @@ PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows,
   std::vector<std::int32_t> slot_of_node(nodes, 0);
   Block block{0, 0, 0, 0};
   const auto patches = static_cast<std::int32_t>(out.patches.size());
+  std::int64_t pairs = 0;
   for (std::int32_t i = 0; i < patches; ++i) {
-    block.last_patch = i + 1;
+    const Patch& patch = out.patches[static_cast<std::size_t>(i)];
+    const std::int64_t more = pairs_of(patch, rows, order);
     const std::int32_t first_point = out.patches[static_cast<std::size_t>(block.first_patch)].first_point;
-    if (i + 1 == patches || out.patches[static_cast<std::size_t>(i)].last_point - first_point >= points_per_block) {
+    const bool full = patch.last_point - first_point > points_per_block || pairs + more > pairs_per_block;
+    if (full && block.last_patch > block.first_patch) {
       append_block(out, rows, order, block, slot_of_node);
-      block.first_patch = i + 1;
+      block.first_patch = i;
+      pairs = 0;
     }
+    block.last_patch = i + 1;
+    pairs += more;
   }
+  append_block(out, rows, order, block, slot_of_node);
   list_slots_of_nodes(out, nodes);
   return out;
 }

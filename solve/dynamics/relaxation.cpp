@@ -70,7 +70,9 @@ class Relaxation {
         next_(now_),
         force_(now_),
         force_before_(now_),
-        load_steps_(options.load_steps > 0 ? options.load_steps : 400) {
+        good_(now_),
+        good_reactions_(Points::Zero(static_cast<Eigen::Index>(nodes_), 3)),
+        load_steps_(std::max(options.load_steps, 1)) {
     internal_force(system_.points, system_.laws, now_, scratch_, force_);
     moduli_ = tangent_moduli(system_.points, system_.laws, scratch_);
     for (double& m : moduli_) {
@@ -183,6 +185,7 @@ class Relaxation {
     }
     result_.state = state;
     good_ = now_;
+    good_reactions_ = system_.essential.reactions(alpha_, nodes_);
     estimate_lowest_eigenvalue();
     estimate_error(motion);
     record();
@@ -295,8 +298,8 @@ class Relaxation {
 
   RelaxationResult finish() {
     result_.error_bound = bound_;
-    result_.parameters = result_.failure.empty() || good_.empty() ? now_ : good_;
-    result_.reactions = system_.essential.reactions(alpha_, nodes_);
+    result_.parameters = std::move(good_);
+    result_.reactions = std::move(good_reactions_);
     return std::move(result_);
   }
 
@@ -308,6 +311,7 @@ class Relaxation {
   std::size_t nodes_;
   ForceScratch scratch_;
   NodalVectors now_, before_, next_, force_, force_before_, good_;
+  Points good_reactions_;
   std::vector<double> moduli_, mass_, motions_, rates_, bounds_;
   double mass_scale_ = 1;
   double lowest_ = 1e-4;  // A_0: a guess until there are increments

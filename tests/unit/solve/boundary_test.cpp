@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "solve/boundary/contact.hpp"
 #include "solve/boundary/essential_conditions.hpp"
 #include "solve/boundary/load_curve.hpp"
@@ -45,6 +47,12 @@ struct Cloud {
   }
 };
 
+std::vector<std::int32_t> names(const Points& prescribed) {
+  std::vector<std::int32_t> names(static_cast<std::size_t>(prescribed.rows()));
+  std::iota(names.begin(), names.end(), 0);
+  return names;
+}
+
 TEST(LoadCurve, StartsAndEndsAtRest) {
   EXPECT_EQ(smooth_load(0), 0);
   EXPECT_EQ(smooth_load(1), 1);
@@ -63,7 +71,7 @@ TEST(EssentialConditions, HoldForTheDisplacementNotTheParameter) {
     prescribed.row(a) << 1.0, std::nan(""), -2.0;
   }
   prescribed(3, 1) = 0.5;
-  EssentialConditions conditions(prescribed, cloud.rows);
+  EssentialConditions conditions(prescribed, cloud.rows, names(prescribed));
   conditions.factorise(cloud.mass);
   NodalVectors u = cloud.random_parameters(3);
   conditions.apply(0.7, u);
@@ -83,7 +91,7 @@ TEST(EssentialConditions, MoveTheParametersLeastInTheNormOfTheMasses) {
   for (Eigen::Index a = 0; a < prescribed.rows(); a += 7) {
     prescribed.row(a).setConstant(1.0);
   }
-  EssentialConditions conditions(prescribed, cloud.rows);
+  EssentialConditions conditions(prescribed, cloud.rows, names(prescribed));
   conditions.factorise(cloud.mass);
   const NodalVectors start = cloud.random_parameters(3);
   NodalVectors once = start, other = cloud.random_parameters(1);
@@ -116,7 +124,7 @@ TEST(EssentialConditions, RefuseTwoNodesThatSayTheSame) {
   for (std::size_t i = 2; i < same.begin.size(); ++i) {
     same.begin[i] += static_cast<std::int64_t>(length) - removed;
   }
-  EssentialConditions conditions(prescribed, same);
+  EssentialConditions conditions(prescribed, same, names(prescribed));
   EXPECT_THROW(conditions.factorise(cloud.mass), std::invalid_argument);
 }
 
