@@ -101,6 +101,7 @@ StageRecord make_stage(const StagePlan& plan, const std::string& plan_stamp, con
 /// Later stages of an earlier run that were not reached: told apart from those that still hold.
 void note_unreached(nlohmann::ordered_json& stages, const Scene& scene, const fs::path& out, StageId last,
                     Interruption& interruption) {
+  bool outdated = false;  // and then so is all that was made from it
   for (const StageId stage : all_stages) {
     const fs::path folder = out / stage_name(stage);
     if (stage <= last) {
@@ -109,7 +110,8 @@ void note_unreached(nlohmann::ordered_json& stages, const Scene& scene, const fs
     if (const auto record = read_stage_record(folder)) {
       const StagePlan plan = plan_stage(stage, scene, out, interruption);
       auto& entry = stages[std::string(stage_name(stage))] = record->entry;
-      if (!is_current(plan, stamp(plan), folder)) {
+      outdated = outdated || !is_current(plan, stamp(plan), folder);
+      if (outdated) {
         entry["status"] = "outdated";
       }
     }
