@@ -33,7 +33,7 @@ struct DiscretiseOptions {
   CellKind cells = CellKind::hexahedron;
   /// Hexahedra: integration cells a node (inside volume / cell volume / nodes); the rule of thumb is 2. Where the nodes
   /// are finer the cells are split.
-  double cells_per_node = 2.0;
+  double cells_per_node = 0.75;
   std::vector<std::int32_t> brain_labels = {1, 2, 3};  ///< labels of the label map that are tissue of the brain
   std::uint64_t seed = 1;
 };

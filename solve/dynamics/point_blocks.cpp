@@ -10,6 +10,9 @@ namespace brainshift::solve {
 
 namespace {
 
+constexpr std::int64_t pairs_per_block =
+    65535;  // so that a block's nodes are numbered in 16 bits, whatever the supports
+
 constexpr std::int32_t points_per_block =
     512;  // a block's nodes, forces and derivatives stay in the second-level cache
 
