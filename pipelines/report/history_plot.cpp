@@ -78,6 +78,11 @@ void draw_curve(std::ostream& svg, const Axes& axes, const std::vector<Row>& his
   svg << "\"/>\n";
 }
 
+void draw_key(std::ostream& svg, double x, const std::string& fill, const std::string& name) {
+  svg << "<rect x=\"" << x << "\" y=\"9\" width=\"12\" height=\"10\" fill=\"" << fill << "\"/>\n";
+  text(svg, x + 16, 18, "start", name);
+}
+
 std::ostringstream begin_svg(const std::string& label) {
   std::ostringstream svg;
   svg.precision(5);
@@ -93,9 +98,11 @@ std::string convergence_plot(const std::vector<Row>& history, double tolerance) 
   double low = tolerance > 0 ? tolerance : std::numeric_limits<double>::infinity();
   double high = 0;
   for (const Row& row : history) {
-    if (std::isfinite(row.error_bound) && row.error_bound > 0) {
-      low = std::min(low, row.error_bound);
-      high = std::max(high, row.error_bound);
+    for (const double value : {row.error_bound, row.residual}) {
+      if (std::isfinite(value) && value > 0) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
     }
   }
   if (history.size() < 2 || high == 0) {
@@ -112,12 +119,15 @@ std::string convergence_plot(const std::vector<Row>& history, double tolerance) 
         << height - top - bottom << "\" fill=\"#eef2f7\"/>\n";
     text(svg, left + 8, height - bottom - 10, "start", "loading");
   }
-  draw_frame(svg, axes, "bound of the remaining error, mm");
+  draw_frame(svg, axes, "");
+  draw_key(svg, left, "#1f5fa8", "bound of the remaining error, mm");
+  draw_key(svg, left + 250, "#c2571a", "residual / force");
   if (tolerance > 0) {
     svg << "<line x1=\"" << left << "\" x2=\"" << width - right << "\" y1=\"" << axes.y(tolerance) << "\" y2=\""
         << axes.y(tolerance) << "\" stroke=\"#b3261e\" stroke-dasharray=\"6 4\"/>\n";
-    text(svg, width - right - 4, axes.y(tolerance) - 6, "end", "tolerance");
+    text(svg, left + 8, axes.y(tolerance) - 6, "start", "tolerance, mm");
   }
+  draw_curve(svg, axes, history, &Row::residual, "#c2571a");
   draw_curve(svg, axes, history, &Row::error_bound, "#1f5fa8");
   svg << "</svg>\n";
   return svg.str();
@@ -148,8 +158,7 @@ std::string energy_plot(const std::vector<Row>& history) {
   double key = left + 60;
   for (const Curve& curve : curves) {
     draw_curve(svg, axes, history, curve.value, curve.stroke);
-    svg << "<rect x=\"" << key << "\" y=\"9\" width=\"12\" height=\"10\" fill=\"" << curve.stroke << "\"/>\n";
-    text(svg, key + 16, 18, "start", curve.name);
+    draw_key(svg, key, curve.stroke, curve.name);
     key += 132;
   }
   svg << "</svg>\n";

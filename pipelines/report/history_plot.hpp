@@ -8,8 +8,9 @@
 
 namespace brainshift::pipelines {
 
-/// How the solver converged, as an SVG element: the bound of the remaining error (mm, logarithmic) over the steps, the
-/// loading phase shaded, the tolerance as a line (none where it is not positive). Empty for fewer than two rows.
+/// How the solver converged, as an SVG element: the bound of the remaining error (mm) and the residual over the steps,
+/// logarithmic, the loading phase shaded, the tolerance as a line (none where it is not positive). Empty for fewer than
+/// two rows.
 std::string convergence_plot(const std::vector<solve::HistoryRow>& history, double tolerance);
 
 /// External work, strain energy and kinetic energy (mJ) over the steps.

@@ -71,7 +71,9 @@ std::string comparison_section(const PageContent& content) {
   std::string html =
       "<h2>Before, after, difference</h2>\n<p>Axial, coronal and sagittal planes of the patient (not of the "
       "scanner's grid), 12 mm under the centre of the craniotomy. The patient's left is on the right. Lines:" +
-      key("#5ac8fa", "brain's surface before") + key("#ff963c", "after") + key("#46eb6e", "craniotomy") + ".</p>\n";
+      key("#5ac8fa", "brain's surface before") + key("#ff963c", "after") + key("#46eb6e", "craniotomy") +
+      ". Outside the brain the field fades to nothing: between the bone and the sunken cortex the image is "
+      "only stretched, not predicted.</p>\n";
   for (std::size_t i = 0; i + 2 < content.comparisons.size(); i += 3) {
     html += "<div class=\"row\">";
     for (std::size_t column = 0; column < 3; ++column) {

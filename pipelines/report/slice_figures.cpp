@@ -138,7 +138,7 @@ void draw_shift_arrow(Canvas& canvas, const SlicePlane& plane, const Vector2d& f
   if ((to - from).norm() < 2) {
     return;
   }
-  draw_arrow(canvas, from, to, 3.2, {20, 20, 24});
+  draw_arrow(canvas, from, to, 2.6, {20, 20, 24});
   draw_arrow(canvas, from, to, 1.4, colour::white);
 }
 
@@ -166,7 +166,7 @@ double arrow_factor(const View& view) {
 }
 
 Figure displacement_figure(const RunData& run, const View& view, const SlicePlane& plane) {
-  constexpr int arrow_distance = 20;  // pixels
+  constexpr int arrow_distance = 22;  // pixels
   Canvas canvas(plane.width + bar_width, plane.height, colour::black);
   if (run.t1) {
     draw_grey(canvas, view, plane, sample_slice(plane, *run.t1), 0.85);

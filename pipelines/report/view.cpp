@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "pipelines/report/slice_figures.hpp"
 
@@ -37,20 +39,25 @@ Vector3d inward_at(const Surface& surface, const Vector3d& centre, double radius
   return -normal.normalized();
 }
 
-// Brightness between which nearly all voxels lie; the few brightest (fat, vessels) would darken the rest.
-std::pair<double, double> grey_window(const ScalarImage& image) {
+// The brain's brightness sets the scale: fat, vessels and bone would otherwise darken it.
+std::pair<double, double> grey_window(const RunData& run, const std::array<SlicePlane, 3>& planes) {
   std::vector<float> sample;
-  for (std::size_t i = 0; i < image.voxels.size(); i += 61) {
-    sample.push_back(image.voxels[i]);
+  for (const SlicePlane& plane : planes) {
+    const auto mask = inside_mask(plane, cut_surface(plane, *run.brain));
+    const auto values = sample_slice(plane, *run.t1);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (mask[i] == 1 && std::isfinite(values[i])) {
+        sample.push_back(values[i]);
+      }
+    }
   }
-  const auto quantile = [&](double share) {
-    const auto place = sample.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size() - 1));
-    std::nth_element(sample.begin(), place, sample.end());
-    return static_cast<double>(*place);
-  };
-  const double low = quantile(0.02);
-  const double high = quantile(0.995);
-  return {low, high > low ? low + headroom * (high - low) : low + 1};
+  if (sample.empty()) {
+    return {0, 1};
+  }
+  const auto high = sample.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(sample.size() - 1));
+  std::nth_element(sample.begin(), high, sample.end());
+  const double low = std::min(0.0, static_cast<double>(*std::min_element(sample.begin(), sample.end())));
+  return {low, *high > low ? low + headroom * (*high - low) : low + 1};
 }
 
 void find_opening(const RunData& run, View& view) {
@@ -80,7 +87,7 @@ View make_view(const RunData& run) {
   const double depth = view.opening.rows() == 0 ? 0 : depth_of_planes;
   view.planes = anatomical_planes(view.opening_centre + depth * view.inward, low, high, pixels_per_mm);
   if (run.t1) {
-    std::tie(view.darkest, view.brightest) = grey_window(*run.t1);
+    std::tie(view.darkest, view.brightest) = grey_window(run, view.planes);
   }
   const Points shift = displacement_at(*run.solution, vertices);
   view.deformed = {vertices + shift, run.brain->triangles};

@@ -3,6 +3,8 @@
 // The synthetic head itself: what it says of its volumes, its surface and its frames is true.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
