@@ -33,11 +33,11 @@ struct RelaxationResult {
 
 /// Adaptive dynamic relaxation (Joldes, Wittek & Miller 2011) to the steady state under the full load. Steps by
 ///   û⁺ = û + β(û − û⁻) − α M⁻¹ f_int,  then contact, then the essential conditions,
-/// with masses that give every point the same critical step (scaled to the largest eigenvalue that power iteration
-/// finds; should that prove unstable, once more with the bound itself), α = 4/(√A_m + √A_0)², β = ((√A_m − √A_0)/(√A_m
-/// + √A_0))², A_m = 1 by the choice of masses and A_0 the lowest active eigenvalue, estimated from the increments: A_0
-/// ≈ ΔûᵀΔf/(ΔûᵀMΔû). Masses follow the tangents of the state reached. Stops when the bound of the remaining error, ρ/(1
-/// − ρ) |û⁺ − û|∞ with the measured rate ρ, is below the tolerance.
+/// with masses that give every point the same critical step, scaled to the largest eigenvalue A_m = 1 that power
+/// iteration finds (should that prove unstable, once more with the bound itself). α is fixed, β = (1 − √(α A_0))² damps
+/// the lowest active eigenvalue A_0 critically; it is estimated from the increments, A_0 ≈ ΔûᵀΔf/(ΔûᵀMΔû). Masses
+/// follow the tangents of the state reached. Stops when the bound of the remaining error, ρ/(1 − ρ) |û⁺ − û|∞ with ρ
+/// the slower of the measured rate and √β, is below the tolerance.
 RelaxationResult relax(const System& system, const SolveOptions& options, const Progress& progress);
 
 }  // namespace brainshift::solve

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <numbers>
 #include <span>
 
 #include "segmentation/surface/surface.hpp"
@@ -11,14 +12,17 @@
 
 namespace brainshift::solve {
 
-/// The m monomials (4 or 10) at ξ, in the order 1 x y z xy xz yz x² y² z² (eq 2).
+/// The m monomials (4 or 10) at ξ: 1 x y z √2xy √2xz √2yz x² y² z² (eq 2). With the factor √2 a rotation of the frame
+/// turns the quadratic ones among themselves, so neither the penalty nor what counts as admissible depends on the
+/// frame.
 template <int m>
 Eigen::Matrix<double, m, 1> monomials(const Eigen::Vector3d& xi) {
   Eigen::Matrix<double, m, 1> p;
   p.template head<4>() << 1, xi.x(), xi.y(), xi.z();
   if constexpr (m == 10) {
-    p.template tail<6>() << xi.x() * xi.y(), xi.x() * xi.z(), xi.y() * xi.z(), xi.x() * xi.x(), xi.y() * xi.y(),
-        xi.z() * xi.z();
+    constexpr double cross = std::numbers::sqrt2;
+    p.template tail<6>() << cross * xi.x() * xi.y(), cross * xi.x() * xi.z(), cross * xi.y() * xi.z(), xi.x() * xi.x(),
+        xi.y() * xi.y(), xi.z() * xi.z();
   }
   return p;
 }
@@ -96,17 +100,16 @@ class MovingLeastSquares {
   }
 
  private:
-  /// A support is admissible when it determines the basis. Pivots are relative to the sum of the weights; on good
-  /// clouds the least are near 0.05 (linear) and 1e-3 (quadratic). Below 3e-4 the derivatives of quadratic shape
+  /// A support is admissible when it determines the basis. Below the quadratic limit the derivatives of quadratic shape
   /// functions grow wild: on a jittered grid up to thirty times the usual; from there on they stay within four times.
   bool factorise(double penalty, bool leave_to_penalty) {
+    constexpr double linear_limit = 1e-3, quadratic_limit = 2e-4;
     const double total = weight_.sum();
-    const Eigen::Matrix4d linear = moment_.template topLeftCorner<4, 4>() / total;
-    if (!well_determined<4>(linear, 2e-3)) {
+    if (!(determination<4, 1>(moment_.template topLeftCorner<4, 4>() / total) > linear_limit)) {
       return false;
     }
     if constexpr (m == 10) {
-      if (!leave_to_penalty && !well_determined<10>(moment_ / total, 3e-4)) {
+      if (!leave_to_penalty && !(determination<10, 4>(moment_ / total) > quadratic_limit)) {
         return false;
       }
       moment_.diagonal().template tail<6>().array() += penalty;
@@ -115,11 +118,20 @@ class MovingLeastSquares {
     return factor_.info() == Eigen::Success;
   }
 
-  template <int k>
-  static bool well_determined(const Eigen::Matrix<double, k, k>& lower, double smallest_pivot) {
+  /// How well a moment matrix of size k determines its terms from `first` on, once those before are known: 1 / tr S⁻¹,
+  /// S their Schur complement; at most its least eigenvalue, at least a sixth of it, and the same in every frame. 0
+  /// where it does not.
+  template <int k, int first>
+  static double determination(const Eigen::Matrix<double, k, k>& lower) {
     const Eigen::LLT<Eigen::Matrix<double, k, k>> cholesky(lower);
-    return cholesky.info() == Eigen::Success &&
-           cholesky.matrixLLT().diagonal().array().square().minCoeff() > smallest_pivot;
+    if (cholesky.info() != Eigen::Success) {
+      return 0;
+    }
+    constexpr int terms = k - first;
+    const Eigen::Matrix<double, terms, terms> root = cholesky.matrixLLT().template bottomRightCorner<terms, terms>();
+    const Eigen::Matrix<double, terms, terms> inverse =
+        root.template triangularView<Eigen::Lower>().solve(Eigen::Matrix<double, terms, terms>::Identity());
+    return 1 / inverse.squaredNorm();
   }
 
   int count_ = 0;
