@@ -12,7 +12,7 @@ namespace brainshift::discretise {
 namespace {
 
 /// A cut cell with less of its volume inside is left out.
-constexpr double negligible_cell = 0.005;
+constexpr double negligible_cell = 0.001;
 /// More of it inside counts as whole.
 constexpr double whole_cell = 1 - 1e-9;
 /// A cell is split at most so often.
