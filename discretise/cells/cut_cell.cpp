@@ -11,8 +11,8 @@ namespace {
 
 /// Lines a side of a cell.
 constexpr int lines = 16;
-/// Where in its strip a line lies, in sixteenths: another place in each row, so that a face along the grid is met at 256
-/// heights, not at sixteen.
+/// Where in its strip a line lies, in sixteenths: another place in each row, so that a face along the grid is met at
+/// 256 heights, not at sixteen.
 constexpr std::array<int, lines> place = {0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15};
 /// An octant with less of its volume inside joins the cell's largest.
 constexpr double negligible_octant = 0.01;
