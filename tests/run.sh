@@ -20,7 +20,7 @@ esac
 cd "$root"
 git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
 
-build build-sanitize unit_tests -DCMAKE_BUILD_TYPE=RelWithDebInfo -DBRAINSHIFT_SANITIZE=ON
+build build-sanitize unit_tests -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' -DBRAINSHIFT_SANITIZE=ON
 ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(nproc)"
 
 build build all -DCMAKE_BUILD_TYPE=Release
