@@ -127,6 +127,15 @@ TEST(Solve, StretchesACubeAsTheAnalyticSolutionSays) {
   }
 }
 
+TEST(Solve, WorkOfASlowLoadIsTheStrainEnergy) {
+  SolveOptions slow;
+  slow.load_steps = 4000;
+  const SolveResult result = solve(uniaxial(1.2), slow);
+  ASSERT_TRUE(result.measures.converged) << result.failure;
+  const HistoryRow& last = result.history.back();
+  EXPECT_NEAR(last.external_work, last.strain_energy, 0.02 * last.strain_energy);
+}
+
 TEST(Solve, ErrorBoundBoundsTheError) {
   const Model model = uniaxial(1.2);
   SolveOptions tight, loose;
