@@ -227,6 +227,9 @@ SolveResult solve(const Model& model, const SolveOptions& options, const Progres
   constexpr double newton = 1e-6;  // µN to N
   result.solution = {model.cloud.positions, nodal_displacement(nodal_rows, relaxed.parameters, cloud.original),
                      newton * in_original_order(relaxed.reactions, cloud.original), model.cloud.spacing, options.shape};
+  for (const RelaxationSnapshot& s : relaxed.snapshots) {
+    result.snapshots.push_back({s.step, s.time, nodal_displacement(nodal_rows, s.parameters, cloud.original)});
+  }
   SolveMeasures& m = result.measures;
   m.nodes = model.cloud.size();
   m.integration_points = points.size();

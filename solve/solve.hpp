@@ -30,6 +30,8 @@ struct SolveOptions {
   double tolerance = 0.01;  ///< stop when the bound of the remaining error is below this, mm
   int load_steps = 400;     ///< steps of 3-4-5 loading
   int max_steps = 50000;
+  int snapshot_every =
+      0;  ///< steps between displacements kept for steps.pvd, taken every 20th step at the most; 0: none
 };
 
 /// What is solved.
@@ -50,6 +52,13 @@ struct HistoryRow {
   double kinetic_energy = 0;  ///< mJ, fictitious in dynamic relaxation
   double residual = 0;        ///< |f_int - reactions| / |reactions|
   double error_bound = 0;     ///< mm; NaN until it is estimated
+};
+
+/// The displacement on the way to the end state.
+struct Snapshot {
+  int step = 0;
+  double time = 0;                     ///< fraction of the load, 0 to 1
+  Points displacement = Points(0, 3);  ///< mm, in the cloud's order
 };
 
 struct SolveMeasures {
@@ -77,6 +86,7 @@ struct SolveMeasures {
 struct SolveResult {
   Solution solution;  ///< the last good state, also when not converged
   std::vector<HistoryRow> history;
+  std::vector<Snapshot> snapshots;
   SolveMeasures measures;
   std::string failure;  ///< empty when converged; else one sentence: what went wrong, where and when (exit 3)
 };
@@ -85,6 +95,9 @@ struct SolveResult {
 /// model cannot be solved: a label without a material, too few nodes for a support, constraints that contradict each
 /// other, nothing that holds the body.
 SolveResult solve(const Model& model, const SolveOptions& options, const Progress& progress = {});
+
+/// Writes steps/NNNNNN.vtu, one a snapshot, and steps.pvd that ParaView plays, into the folder.
+void write_steps(const std::filesystem::path& folder, const Points& positions, const std::vector<Snapshot>& snapshots);
 
 void write_history(const std::filesystem::path& file, const std::vector<HistoryRow>& history);
 

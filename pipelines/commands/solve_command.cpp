@@ -100,7 +100,7 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
   command->add_option("--markups", arguments->markups, "markups before and after")->expected(2)->type_name("FILE");
   command->add_option("--surfaces", arguments->surfaces, "cortex before and after")->expected(2)->type_name("FILE");
   for (const char* name : {"basis", "derivatives", "dilatation", "penalty", "volumetric", "points_per_cell",
-                           "tolerance", "load_steps", "max_steps"}) {
+                           "tolerance", "load_steps", "max_steps", "snapshot_every"}) {
     add_scene_option(*command, arguments->scene, "solve", name);
   }
   for (const char* name : {"margin", "depth", "farthest"}) {

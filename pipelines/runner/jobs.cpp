@@ -106,6 +106,9 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
   const solve::SolveResult result = solve::solve(model, options, progress);
   write_solution(out / "solution.vtu", result.solution);
   solve::write_history(out / "history.csv", result.history);
+  if (options.snapshot_every > 0) {
+    solve::write_steps(out, result.solution.positions, result.snapshots);
+  }
   return report_of(result);
 }
 

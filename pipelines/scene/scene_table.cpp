@@ -180,6 +180,8 @@ Element solve_element() {
                          "stop when the bound of the remaining error is below this"),
            number<Scene>("load_steps", MEMBER(solve.load_steps), {.low = 1}, "", "steps of the 3-4-5 loading"),
            number<Scene>("max_steps", MEMBER(solve.max_steps), {.low = 1}, "", "give up after so many steps"),
+           number<Scene>("snapshot_every", MEMBER(solve.snapshot_every), not_negative, "",
+                         "steps between displacements kept for steps.pvd, each 20th at the most; 0: none"),
            command(StageId::solve)}};
 }
 

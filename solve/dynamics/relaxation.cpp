@@ -71,7 +71,8 @@ class Relaxation {
         force_before_(now_),
         good_(now_),
         good_reactions_(Points::Zero(static_cast<Eigen::Index>(nodes_), 3)),
-        load_steps_(std::max(options.load_steps, 1)) {
+        load_steps_(std::max(options.load_steps, 1)),
+        next_snapshot_(options.snapshot_every) {
     internal_force(system_.points, system_.laws, now_, scratch_, force_);
     moduli_ = tangent_moduli(system_.points, system_.laws, scratch_);
     for (double& m : moduli_) {
@@ -265,6 +266,10 @@ class Relaxation {
     row.residual = squared_force > 0 ? std::sqrt(squared_residual / squared_force) : 0;
     row.error_bound = bound_;
     result_.history.push_back(row);
+    if (options_.snapshot_every > 0 && row.step >= next_snapshot_) {
+      result_.snapshots.push_back({row.step, row.time, now_});
+      next_snapshot_ += options_.snapshot_every;
+    }
   }
 
   /// Makes the masses anew when a point has become stiffer than they allow for.
@@ -318,6 +323,7 @@ class Relaxation {
   double external_work_ = 0;
   double bound_ = std::numeric_limits<double>::infinity();
   int load_steps_;
+  int next_snapshot_;
   RelaxationResult result_;
 };
 

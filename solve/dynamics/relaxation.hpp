@@ -20,10 +20,18 @@ struct System {
   Contact* contact;
 };
 
+/// Parameters on the way.
+struct RelaxationSnapshot {
+  int step;
+  double time;  ///< fraction of the load
+  NodalVectors parameters;
+};
+
 struct RelaxationResult {
   NodalVectors parameters;          ///< û of the last good state, mm
   Points reactions = Points(0, 3);  ///< µN
   std::vector<HistoryRow> history;
+  std::vector<RelaxationSnapshot> snapshots;
   PointState state;
   int steps = 0;
   double error_bound = 0;  ///< mm

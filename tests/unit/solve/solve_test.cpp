@@ -57,7 +57,7 @@ TEST(PatchTest, OnConformingTetrahedraIsPassedToThePrecisionOfTheIntegration) {
     // The imposed displacement is up to 0.6 mm over this box. Meshless shape functions are no polynomials, so Gauss
     // points do not integrate them exactly: what is left is the integration error.
     RecordProperty("error", std::to_string(difference_from(result.solution, strain)));
-    EXPECT_LE(difference_from(result.solution, strain), 0.03);
+    EXPECT_LE(difference_from(result.solution, strain), 0.015);  // 0.007 as measured
   }
 }
 
@@ -127,13 +127,16 @@ TEST(Solve, StretchesACubeAsTheAnalyticSolutionSays) {
   }
 }
 
-TEST(Solve, WorkOfASlowLoadIsTheStrainEnergy) {
-  SolveOptions slow;
-  slow.load_steps = 4000;
-  const SolveResult result = solve(uniaxial(1.2), slow);
-  ASSERT_TRUE(result.measures.converged) << result.failure;
-  const HistoryRow& last = result.history.back();
-  EXPECT_NEAR(last.external_work, last.strain_energy, 0.02 * last.strain_energy);
+TEST(Solve, WorkExceedsTheStrainEnergyByWhatDampingTakesWhichHalvesWithTheRateOfLoading) {
+  const auto excess = [](int load_steps) {
+    SolveOptions options;
+    options.load_steps = load_steps;
+    const HistoryRow last = solve(uniaxial(1.2), options).history.back();
+    return last.external_work - last.strain_energy;
+  };
+  const double fast = excess(800);
+  EXPECT_GT(fast, 0);
+  EXPECT_NEAR(excess(1600) / fast, 0.5, 0.05);
 }
 
 TEST(Solve, ErrorBoundBoundsTheError) {
@@ -158,6 +161,23 @@ TEST(Solve, GivesTheSameBitsForAnyNumberOfThreads) {
   omp_set_num_threads(threads);
   EXPECT_EQ(one.solution.displacement, three.solution.displacement);
   EXPECT_EQ(one.solution.reaction_force, three.solution.reaction_force);
+}
+
+TEST(Solve, KeepsSnapshotsOnRequest) {
+  SolveOptions options;
+  options.snapshot_every = 100;
+  const SolveResult result = solve(uniaxial(1.1), options);
+  ASSERT_GE(result.snapshots.size(), 4u);
+  EXPECT_LT(result.snapshots[0].displacement.norm(), result.snapshots[2].displacement.norm());
+  EXPECT_TRUE(solve(uniaxial(1.1), {}).snapshots.empty());
+
+  const auto folder = std::filesystem::temp_directory_path() / "brainshift_steps_test";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  write_steps(folder, result.solution.positions, result.snapshots);
+  EXPECT_TRUE(std::filesystem::exists(folder / "steps.pvd"));
+  EXPECT_EQ(read_solution(folder / "steps/000100.vtu").displacement, result.snapshots[0].displacement);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Solve, KeepsTheOrderOfTheNodes) {
