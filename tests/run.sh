@@ -21,7 +21,7 @@ cd "$root"
 git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
 
 build build-sanitize unit_tests -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' -DBRAINSHIFT_SANITIZE=ON
-LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0:fast_unwind_on_malloc=0 \
+LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
   ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(nproc)"
 
 build build all -DCMAKE_BUILD_TYPE=Release
