@@ -30,8 +30,7 @@ struct SolveOptions {
   double tolerance = 0.01;  ///< stop when the bound of the remaining error is below this, mm
   int load_steps = 400;     ///< steps of 3-4-5 loading
   int max_steps = 50000;
-  int snapshot_every =
-      0;  ///< steps between displacements kept for steps.pvd, taken every 20th step at the most; 0: none
+  int snapshot_every = 0;  ///< steps between displacements kept for steps.pvd, each 20th at the most; 0: none
 };
 
 /// What is solved.
@@ -43,7 +42,7 @@ struct Model {
   std::optional<Surface> skull;                ///< rigid, frictionless contact from inside; absent: none
 };
 
-/// A row of history.csv. Energies in µJ-like units g mm²/s² = 1e-9 J; written in mJ.
+/// A row of history.csv.
 struct HistoryRow {
   int step = 0;
   double time = 0;            ///< fraction of the load, 0 to 1
@@ -51,7 +50,7 @@ struct HistoryRow {
   double strain_energy = 0;   ///< mJ
   double kinetic_energy = 0;  ///< mJ, fictitious in dynamic relaxation
   double residual = 0;        ///< |f_int - reactions| / |reactions|
-  double error_bound = 0;     ///< mm; NaN until it is estimated
+  double error_bound = 0;     ///< mm; infinite until it is estimated
 };
 
 /// The displacement on the way to the end state.
