@@ -133,8 +133,4 @@ double EssentialConditions::multiplier_work() const {
   return work;
 }
 
-std::size_t EssentialConditions::conditions() const {
-  return component_[0].node.size() + component_[1].node.size() + component_[2].node.size();
-}
-
 }  // namespace brainshift::solve

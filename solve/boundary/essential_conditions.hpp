@@ -43,11 +43,6 @@ class EssentialConditions {
   /// Σ μ·ū over all conditions: the rate of work of the reactions by the load's fraction, times α.
   double multiplier_work() const;
 
-  std::size_t conditions() const;
-  const std::vector<std::int32_t>& nodes(int component) const {
-    return component_[static_cast<std::size_t>(component)].node;
-  }
-
  private:
   using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   struct Component {
