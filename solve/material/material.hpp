@@ -1,13 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 namespace brainshift::solve {
 
-/// Neo-Hookean, W = µ/2 (Ī1 − 3) + K/2 (J − 1)², in user's units. More laws join here.
-struct Material {
-  double youngs_modulus = 3000;  ///< Pa, > 0
-  double poisson_ratio = 0.49;   ///< -1 < ν < 0.5
-  double density = 1000;         ///< kg/m³, > 0
+enum class Law : std::uint8_t { neo_hookean, ogden, saint_venant_kirchhoff, linear_elastic };
+
+struct OgdenTerm {
+  double shear_modulus;  ///< µ_k, Pa, of either sign
+  double exponent;       ///< α_k, not 0
 };
+
+struct PronyTerm {
+  double share;  ///< g_i >= 0, of the isochoric stress
+  double time;   ///< τ_i > 0, s
+};
+
+/// A tissue as the user describes it. check_material says what is allowed, named_materials has some from the
+/// literature.
+struct Material {
+  double youngs_modulus = 3000;  ///< E at rest, Pa; the law ogden takes its terms instead
+  double poisson_ratio = 0.49;   ///< ν at rest
+  double density = 1000;         ///< kg/m³
+  Law law = Law::neo_hookean;
+  std::vector<OgdenTerm> ogden = {};  ///< of the law ogden only
+  std::vector<PronyTerm> prony = {};  ///< how the isochoric part relaxes; none: it does not
+};
+
+/// µ at rest, Pa, before anything relaxes: E / 2(1 + ν), of Ogden's law Σ µ_k.
+double shear_modulus(const Material& material);
+
+/// K at rest, Pa: 2µ(1 + ν) / 3(1 − 2ν) = E / 3(1 − 2ν).
+double bulk_modulus(const Material& material);
+
+/// The elastic material that is left at t = ∞: µ times 1 − Σ g_i, the same K, no Prony terms.
+Material long_term(Material material);
 
 }  // namespace brainshift::solve

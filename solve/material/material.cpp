@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/material/material.hpp"
+
+namespace brainshift::solve {
+
+double shear_modulus(const Material& material) {
+  if (material.law != Law::ogden) {
+    return material.youngs_modulus / (2 * (1 + material.poisson_ratio));
+  }
+  double sum = 0;
+  for (const OgdenTerm& term : material.ogden) {
+    sum += term.shear_modulus;
+  }
+  return sum;
+}
+
+double bulk_modulus(const Material& material) {
+  const double nu = material.poisson_ratio;
+  return 2 * shear_modulus(material) * (1 + nu) / (3 * (1 - 2 * nu));
+}
+
+Material long_term(Material material) {
+  double left = 1;
+  for (const PronyTerm& term : material.prony) {
+    left -= term.share;
+  }
+  const double bulk = bulk_modulus(material);
+  const double shear = left * shear_modulus(material);
+  material.youngs_modulus = 9 * bulk * shear / (3 * bulk + shear);
+  material.poisson_ratio = (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear);
+  for (OgdenTerm& term : material.ogden) {
+    term.shear_modulus *= left;
+  }
+  material.prony.clear();
+  return material;
+}
+
+}  // namespace brainshift::solve

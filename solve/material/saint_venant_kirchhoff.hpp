@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solve/material/deformation.hpp"
+#include "solve/material/material.hpp"
+
+namespace brainshift::solve {
+
+/// St Venant-Kirchhoff, W = µ dev E : dev E + K/2 (tr E)², E the Green-Lagrange strain. For large rotations but strains
+/// of some percent: under compression it softens, and at a stretch of 0.58 it gives way.
+struct SaintVenantKirchhoff {
+  double shear_modulus;  ///< µ, Pa
+  double bulk_modulus;   ///< K, Pa
+
+  explicit SaintVenantKirchhoff(const Material& m)
+      : shear_modulus(solve::shear_modulus(m)), bulk_modulus(solve::bulk_modulus(m)) {}
+
+  /// ∂W/∂F without the volumetric part, Pa: F (2µ dev E).
+  Eigen::Matrix3d isochoric_stress(const Deformation& d) const {
+    return 2 * shear_modulus * d.gradient * deviatoric(green_lagrange(d.gradient));
+  }
+  /// µ dev E : dev E, Pa.
+  double isochoric_energy(const Deformation& d) const {
+    return shear_modulus * deviatoric(green_lagrange(d.gradient)).squaredNorm();
+  }
+  /// θ = tr E and ∂θ/∂F.
+  double dilatation(const Deformation& d) const { return green_lagrange(d.gradient).trace(); }
+  Eigen::Matrix3d dilatation_slope(const Deformation& d) const { return d.gradient; }
+};
+
+/// Largest eigenvalue of the tangent ∂²W/∂F∂F at F, Pa, with the pressure p given, as a patch shares it, and U'' = K.
+double largest_tangent(const SaintVenantKirchhoff& law, const Eigen::Matrix3d& gradient, double pressure);
+
+}  // namespace brainshift::solve

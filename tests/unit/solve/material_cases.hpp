@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <ostream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "solve/material/elastic_law.hpp"
+#include "solve/material/volumetric.hpp"
+
+namespace brainshift::solve {
+
+/// Laws for large deformations, soft and hard to compress, of one and of several terms.
+inline const std::vector<Material> finite_strain_laws = {
+    {.poisson_ratio = 0.49},
+    {.youngs_modulus = 10, .poisson_ratio = 0.1},
+    {.law = Law::ogden, .ogden = {{842, -4.7}}},
+    {.poisson_ratio = 0.3, .law = Law::ogden, .ogden = {{900, 1.3}, {-50, 5}, {100, -2}}},
+    {.poisson_ratio = 0.49, .law = Law::saint_venant_kirchhoff},
+    {.poisson_ratio = -0.2, .law = Law::saint_venant_kirchhoff},
+};
+
+inline const std::vector<Material> every_law = [] {
+  std::vector<Material> laws = finite_strain_laws;
+  laws.push_back({.poisson_ratio = 0.49, .law = Law::linear_elastic});
+  laws.push_back({.poisson_ratio = -0.4, .law = Law::linear_elastic});
+  return laws;
+}();
+
+inline std::string name_of(const Material& material) {
+  const std::string names[] = {"neo_hookean", "ogden", "saint_venant_kirchhoff", "linear_elastic"};
+  const std::string name = names[static_cast<int>(material.law)];
+  return name + (material.poisson_ratio == 0.49 ? "_nearly_incompressible" : "_compressible");
+}
+
+/// What GoogleTest calls it.
+inline void PrintTo(const Material& material, std::ostream* out) {
+  *out << name_of(material);
+}
+
+inline Eigen::Matrix3d isochoric_stress(const ElasticLaw& law, const Eigen::Matrix3d& f) {
+  return std::visit([&](const auto& l) { return l.isochoric_stress(Deformation(f)); }, law);
+}
+
+inline double dilatation(const ElasticLaw& law, const Eigen::Matrix3d& f) {
+  return std::visit([&](const auto& l) { return l.dilatation(Deformation(f)); }, law);
+}
+
+inline Eigen::Matrix3d dilatation_slope(const ElasticLaw& law, const Eigen::Matrix3d& f) {
+  return std::visit([&](const auto& l) { return l.dilatation_slope(Deformation(f)); }, law);
+}
+
+inline double pressure(const ElasticLaw& law, const Eigen::Matrix3d& f) {
+  return std::visit([&](const auto& l) { return volumetric_pressure(l, l.dilatation(Deformation(f))); }, law);
+}
+
+inline double energy(const ElasticLaw& law, const Eigen::Matrix3d& f) {
+  const Deformation d(f);
+  return std::visit([&](const auto& l) { return l.isochoric_energy(d) + volumetric_energy(l, l.dilatation(d)); }, law);
+}
+
+inline Eigen::Matrix3d stress(const ElasticLaw& law, const Eigen::Matrix3d& f) {
+  return isochoric_stress(law, f) + pressure(law, f) * dilatation_slope(law, f);
+}
+
+inline Eigen::Matrix3d random_deformation(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> within(-0.3, 0.3);
+  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+  for (double& entry : f.reshaped()) {
+    entry += within(random);
+  }
+  return f;
+}
+
+}  // namespace brainshift::solve
