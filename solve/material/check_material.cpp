@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/material/check_material.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "solve/material/ogden.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+template <class... Parts>
+void require(bool holds, const Parts&... parts) {
+  if (!holds) {
+    std::ostringstream sentence;
+    (sentence << ... << parts);
+    throw std::invalid_argument(sentence.str());
+  }
+}
+
+bool is_positive(double value) {
+  return value > 0 && std::isfinite(value);
+}
+
+void check_ogden(const std::string& name, const Material& material) {
+  require(!material.ogden.empty(), name,
+          " follows Ogden's law but has no terms; give at least one pair of mu and alpha");
+  require(material.ogden.size() <= Ogden::capacity, name, " has ", material.ogden.size(), " Ogden terms; at most ",
+          Ogden::capacity, " are supported");
+  for (const OgdenTerm& term : material.ogden) {
+    require(std::isfinite(term.shear_modulus), name, " has an Ogden term with mu = ", term.shear_modulus,
+            " Pa; it must be finite");
+    require(term.exponent != 0 && std::isfinite(term.exponent), name, " has an Ogden term with alpha = ", term.exponent,
+            "; it must be finite and not 0");
+  }
+  require(is_positive(shear_modulus(material)), name, " is unstable at rest: the mu of its Ogden terms add up to ",
+          shear_modulus(material), " Pa; the sum must be positive");
+}
+
+void check_prony(const std::string& name, const Material& material) {
+  double relaxing = 0;
+  for (const PronyTerm& term : material.prony) {
+    require(term.share >= 0, name, " has a Prony term with the share ", term.share, "; it must not be negative");
+    require(is_positive(term.time), name, " has a Prony term with the time ", term.time, " s; it must be positive");
+    relaxing += term.share;
+  }
+  require(relaxing < 1, name, " has Prony shares that add up to ", relaxing,
+          "; the sum must be below 1, or nothing would hold the tissue in the end");
+}
+
+}  // namespace
+
+void check_material(const std::string& name, const Material& material) {
+  if (material.law == Law::ogden) {
+    check_ogden(name, material);
+  } else {
+    require(is_positive(material.youngs_modulus), name, " has E = ", material.youngs_modulus,
+            " Pa; it must be positive");
+  }
+  require(material.poisson_ratio != 0.5, name,
+          " has nu = 0.5, which is incompressible; take a value slightly below, for brain 0.49");
+  require(material.poisson_ratio > -1 && material.poisson_ratio < 0.5, name, " has nu = ", material.poisson_ratio,
+          "; it must lie between -1 and 0.5, both excluded");
+  require(is_positive(material.density), name, " has the density ", material.density, " kg/m3; it must be positive");
+  check_prony(name, material);
+}
+
+}  // namespace brainshift::solve
