@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <span>
 
@@ -74,6 +75,7 @@ class MovingLeastSquares {
       length_ = std::max(length_, scale * radius[static_cast<std::size_t>(s.node)]);
     }
     moment_.setZero();
+    double weighted_radii = 0;
     for (int a = 0; a < count_; ++a) {
       const Supporter& s = support[static_cast<std::size_t>(a)];
       const double r = scale * radius[static_cast<std::size_t>(s.node)];
@@ -81,10 +83,11 @@ class MovingLeastSquares {
       const QuarticSpline w(s.distance / r);
       basis_.col(a) = monomials<dimensions, order>(away / length_);
       weight_[a] = w.value;
+      weighted_radii += w.value * r;
       weight_gradient_.col(a) = -w.slope_over_d / (r * r) * away;
       moment_.template selfadjointView<Eigen::Lower>().rankUpdate(basis_.col(a), w.value);
     }
-    return factorise(penalty, leave_to_penalty);
+    return factorise(penalty, leave_to_penalty, weighted_radii / (weight_.sum() * length_));
   }
 
   /// φ_a(x), into values[0..count).
@@ -119,9 +122,11 @@ class MovingLeastSquares {
  private:
   /// A support is admissible when it determines the basis. Below the quadratic limit the derivatives of quadratic shape
   /// functions grow wild: on a jittered grid up to thirty times the usual; from there on they stay within four times.
-  /// The same limits do in the plane, where a moment matrix determines its terms about twice as well.
-  bool factorise(double penalty, bool leave_to_penalty) {
-    constexpr double linear_limit = 1e-3, quadratic_limit = 2e-4;
+  /// The same limits do in the plane, where a moment matrix determines its terms about twice as well. They hold where
+  /// all radii are alike; where the mean of the radii is only `reach` of the largest, which scales the coordinates,
+  /// second and fourth moments are smaller by its second and fourth power, however far the support is grown.
+  bool factorise(double penalty, bool leave_to_penalty, double reach) {
+    const double linear_limit = 1e-3 * std::pow(reach, 2), quadratic_limit = 2e-4 * std::pow(reach, 4);
     const double total = weight_.sum();
     if (!(determination<linear_terms, 1>(moment_.template topLeftCorner<linear_terms, linear_terms>() / total) >
           linear_limit)) {

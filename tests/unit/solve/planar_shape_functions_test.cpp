@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "discretise/neighbours/neighbour_distance.hpp"
 #include "solve/shape/shape_functions.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/unit/solve/completeness.hpp"
@@ -45,6 +46,15 @@ TEST_P(EveryPlanarBasis, IsCompleteTenMetresFromTheOriginAndInMetres) {
   EXPECT_LE(completeness_error(cloud, at, options()), 1e-9);
   const NodeCloud small = irregular_rectangle(16, 11, width * 1e-3, height * 1e-3);
   EXPECT_LE(completeness_error(small, random_places(200) * 1e-3, options()), 1e-10);
+}
+
+/// The nodes at a corner are farther from their six nearest than the others.
+TEST_P(EveryPlanarBasis, IsCompleteAtTheCornersOfACloudWithoutAStatedSpacing) {
+  NodeCloud cloud = irregular_rectangle(16, 11, width, height, 0.4);
+  cloud.spacing = mean_neighbour_distance(nearest_neighbours(cloud.positions, 6));
+  for (const double scale : {1.0, 0.03}) {
+    EXPECT_LE(completeness_error(cloud, random_places(500) * scale, options()), 1e-10);
+  }
 }
 
 TEST_P(EveryPlanarBasis, SeesNoChangeAlongZ) {

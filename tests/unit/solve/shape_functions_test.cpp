@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "discretise/neighbours/neighbour_distance.hpp"
 #include "solve/shape/support_search.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/unit/solve/completeness.hpp"
@@ -101,6 +102,14 @@ TEST(ShapeFunctions, GrowASupportThatIsTooSmallAndCountIt) {
   const Points at = random_points(50, side);
   EXPECT_GT(ShapeFunctions(cloud.positions, cloud.spacing, small).evaluate(at, false).grown, 25u);
   EXPECT_LE(completeness_error(cloud, at, small), 1e-10);
+}
+
+/// The nodes at a corner are farther from their six nearest than the others.
+TEST_P(EveryBasis, IsCompleteAtTheCornerOfACloudWithoutAStatedSpacing) {
+  NodeCloud cloud = irregular_box(9, side, 0.4);
+  cloud.spacing = mean_neighbour_distance(nearest_neighbours(cloud.positions, 6));
+  const Points at = random_points(500, side / 16);
+  EXPECT_LE(completeness_error(cloud, at, options()), 1e-10);
 }
 
 TEST(ShapeFunctions, RefuseACloudInOnePlane) {
