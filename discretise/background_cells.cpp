@@ -7,9 +7,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "discretise/plane.hpp"
 #include "discretise/vtu/vtu_file.hpp"
 
 namespace brainshift {
@@ -19,52 +21,92 @@ namespace {
   throw std::invalid_argument(file.string() + ": " + why);
 }
 
-/// The three corners that edges lead to from each corner of a hexahedron (VTK order), right-handed.
+int vtk_type(CellKind kind) {
+  switch (kind) {
+    case CellKind::hexahedron:
+      return VTK_HEXAHEDRON;
+    case CellKind::tetrahedron:
+      return VTK_TETRA;
+    case CellKind::quadrilateral:
+      return VTK_QUAD;
+    case CellKind::triangle:
+      return VTK_TRIANGLE;
+  }
+  return VTK_EMPTY_CELL;
+}
+
+/// None for a VTK type that no kind of cell is written as.
+std::optional<CellKind> kind_of_type(int type) {
+  for (const CellKind kind :
+       {CellKind::hexahedron, CellKind::tetrahedron, CellKind::quadrilateral, CellKind::triangle}) {
+    if (vtk_type(kind) == type) {
+      return kind;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The corners that edges lead to from each corner of a cell (VTK order), right-handed; from one corner where the
+/// others say the same.
 constexpr int hexahedron_edges[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                                         {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
 constexpr int tetrahedron_edges[1][3] = {{1, 2, 3}};
+constexpr int quadrilateral_edges[4][2] = {{1, 3}, {2, 0}, {3, 1}, {0, 2}};
+constexpr int triangle_edges[1][2] = {{1, 2}};
 
-/// The least, over the corners, of the volume spanned by the edges there relative to the cubed longest of them: not
-/// positive for an inverted or flat cell.
-double worst_corner(const Points& vertices, const std::int32_t* cell, CellKind kind) {
-  const bool hexahedron = kind == CellKind::hexahedron;
-  const std::span<const int[3]> corners =
-      hexahedron ? std::span<const int[3]>(hexahedron_edges) : std::span<const int[3]>(tetrahedron_edges);
+/// The least, over the corners, of the volume (area) spanned by the edges there relative to the cube (square) of the
+/// longest of them: not positive for an inverted or flat cell.
+template <int dimensions, std::size_t corners>
+double worst_corner(const Points& vertices, const std::int32_t* cell, const int (&ends)[corners][dimensions]) {
   double worst = 1;
-  for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-    Eigen::Matrix3d edges;
-    for (int k = 0; k < 3; ++k) {
-      edges.row(k) = vertices.row(cell[corners[corner][k]]) - vertices.row(cell[corner]);
+  for (std::size_t corner = 0; corner < corners; ++corner) {
+    Eigen::Matrix<double, dimensions, dimensions> edges;
+    for (int k = 0; k < dimensions; ++k) {
+      const Eigen::RowVector3d edge = vertices.row(cell[ends[corner][k]]) - vertices.row(cell[corner]);
+      edges.row(k) = edge.head<dimensions>();
     }
     const double longest = std::sqrt(edges.rowwise().squaredNorm().maxCoeff());
-    worst = std::min(worst, edges.determinant() / (longest * longest * longest));
+    worst = std::min(worst, longest > 0 ? edges.determinant() / std::pow(longest, dimensions) : 0);
   }
   return worst;
 }
 
+double worst_corner(const Points& vertices, const std::int32_t* cell, CellKind kind) {
+  switch (kind) {
+    case CellKind::hexahedron:
+      return worst_corner(vertices, cell, hexahedron_edges);
+    case CellKind::tetrahedron:
+      return worst_corner(vertices, cell, tetrahedron_edges);
+    case CellKind::quadrilateral:
+      return worst_corner(vertices, cell, quadrilateral_edges);
+    case CellKind::triangle:
+      return worst_corner(vertices, cell, triangle_edges);
+  }
+  return 0;
+}
+
 CellKind kind_of(const std::filesystem::path& file, vtkUnstructuredGrid& grid) {
   if (grid.GetNumberOfCells() == 0) {
-    refuse(file, "there is no cell; hexahedra or tetrahedra are expected.");
+    refuse(file, "there is no cell; hexahedra, tetrahedra, quadrilaterals or triangles are expected.");
   }
   const int first = grid.GetCellType(0);
   for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
     const int type = grid.GetCellType(cell);
-    if (type != VTK_HEXAHEDRON && type != VTK_TETRA) {
+    if (!kind_of_type(type)) {
       refuse(file, "cell " + std::to_string(cell) + " is of VTK type " + std::to_string(type) +
-                       "; only hexahedra (12) or only tetrahedra (10) are expected.");
+                       "; only hexahedra (12), only tetrahedra (10), only quadrilaterals (9) or only triangles (5) "
+                       "are expected.");
     }
     if (type != first) {
-      refuse(file, "cell " + std::to_string(cell) +
-                       " is of another kind than cell 0; hexahedra and tetrahedra cannot "
-                       "be mixed.");
+      refuse(file, "cell " + std::to_string(cell) + " is of another kind than cell 0; kinds cannot be mixed.");
     }
   }
-  return first == VTK_HEXAHEDRON ? CellKind::hexahedron : CellKind::tetrahedron;
+  return *kind_of_type(first);
 }
 
 std::vector<std::int32_t> connectivity_of(const std::filesystem::path& file, vtkUnstructuredGrid& grid,
                                           const Points& vertices, CellKind kind) {
-  const vtkIdType corners = kind == CellKind::hexahedron ? 8 : 4;
+  const vtkIdType corners = corner_count(kind);
   std::vector<std::int32_t> connectivity;
   connectivity.reserve(static_cast<std::size_t>(grid.GetNumberOfCells() * corners));
   for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
@@ -79,7 +121,9 @@ std::vector<std::int32_t> connectivity_of(const std::filesystem::path& file, vtk
       connectivity.push_back(static_cast<std::int32_t>(points[k]));
     }
     if (!(worst_corner(vertices, connectivity.data() + cell * corners, kind) > 1e-12)) {
-      refuse(file, "cell " + std::to_string(cell) + " is inverted or flat.");
+      refuse(file, "cell " + std::to_string(cell) +
+                       (is_planar(kind) ? " is clockwise, not convex or flat; its corners go counter-clockwise about z."
+                                        : " is inverted or flat."));
     }
   }
   return connectivity;
@@ -160,6 +204,11 @@ BackgroundCells read_background_cells(const std::filesystem::path& file) {
   BackgroundCells cells;
   cells.kind = kind_of(file, *grid);
   cells.vertices = vtu::points(file, *grid, "vertex");
+  if (is_planar(cells.kind)) {
+    if (const auto fault = off_plane(cells.vertices, "vertex")) {
+      refuse(file, *fault);
+    }
+  }
   cells.connectivity = connectivity_of(file, *grid, cells.vertices, cells.kind);
   const auto count = static_cast<std::size_t>(grid->GetNumberOfCells());
   cells.inside_fraction = fractions_of(file, *grid, count);
@@ -179,7 +228,7 @@ void write_background_cells(const std::filesystem::path& file, const BackgroundC
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     vtkIdType points[8];
     std::copy_n(cells.connectivity.begin() + static_cast<std::ptrdiff_t>(cell * corners), corners, points);
-    grid->InsertNextCell(cells.kind == CellKind::hexahedron ? VTK_HEXAHEDRON : VTK_TETRA, cells.corners(), points);
+    grid->InsertNextCell(vtk_type(cells.kind), cells.corners(), points);
   }
   vtkCellData& data = *grid->GetCellData();
   vtu::add_array(data, "inside_fraction", cells.inside_fraction);

@@ -42,6 +42,9 @@ void check_options(const DiscretiseOptions& options) {
   check_range("tumour_factor", options.tumour_factor, smallest_factor, 1);
   check_range("tissue_boundary_factor", options.tissue_boundary_factor, smallest_factor, 1);
   check_range("cells_per_node", options.cells_per_node, 0.05, 100);
+  if (is_planar(options.cells)) {
+    throw std::invalid_argument("a body is filled with hexahedra or tetrahedra, not with planar cells.");
+  }
   if (options.craniotomy) {
     check_range("the craniotomy's refinement factor", options.craniotomy->factor, smallest_factor, 1);
     check_range("the craniotomy's refinement radius", options.craniotomy->radius, 1e-3, 1e6);

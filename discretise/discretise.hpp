@@ -29,8 +29,8 @@ struct DiscretiseOptions {
   std::optional<Refinement> craniotomy;  ///< finer towards the opening
   double tumour_factor = 1.0;            ///< spacing inside and at a tumour / uniform spacing
   std::int32_t tumour_label = 3;
-  double tissue_boundary_factor = 1.0;  ///< spacing at boundaries between tissues / uniform spacing
-  CellKind cells = CellKind::hexahedron;
+  double tissue_boundary_factor = 1.0;    ///< spacing at boundaries between tissues / uniform spacing
+  CellKind cells = CellKind::hexahedron;  ///< or tetrahedron; a body has no planar cells
   /// Hexahedra: cells a node (inside volume / cell volume / nodes). With eight points a cell and one pressure for them,
   /// more cells lock and fewer are too soft. Where the nodes are finer the cells are split.
   double cells_per_node = 0.75;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "discretise/neighbours/neighbour_distance.hpp"
+#include "discretise/plane.hpp"
 #include "discretise/vtu/vtu_file.hpp"
 
 namespace brainshift {
@@ -45,7 +46,20 @@ ShapeOptions shape_options(const std::filesystem::path& file, vtkFieldData& data
   if (!penalty.empty()) {
     options.penalty = penalty[0];
   }
+  const std::vector<std::int32_t> planar = vtu::whole_number_array(file, data, "shape_planar", 1, "entry");
+  if (!planar.empty()) {
+    if (planar[0] != 0 && planar[0] != 1) {
+      refuse(file, "shape_planar is " + std::to_string(planar[0]) + "; 0 or 1 is expected.");
+    }
+    options.planar = planar[0] == 1;
+  }
   return options;
+}
+
+void check_plane(const std::filesystem::path& file, const Points& positions) {
+  if (const auto fault = off_plane(positions, "node")) {
+    refuse(file, "shape_planar is 1, but " + *fault);
+  }
 }
 
 }  // namespace
@@ -53,12 +67,18 @@ ShapeOptions shape_options(const std::filesystem::path& file, vtkFieldData& data
 Solution read_solution(const std::filesystem::path& file) {
   const auto grid = vtu::read(file);
   Solution solution;
+  solution.shape = shape_options(file, *grid->GetFieldData());
   solution.positions = vtu::points(file, *grid, "node");
+  if (solution.shape.planar) {
+    check_plane(file, solution.positions);
+  }
   const auto nodes = static_cast<std::size_t>(solution.positions.rows());
   vtkPointData& data = *grid->GetPointData();
   solution.displacement = vectors(file, data, "displacement", nodes);
-  if (nodes < 4 || solution.displacement.rows() == 0) {
-    refuse(file, "it has no point array `displacement` of three components over at least four nodes.");
+  const std::size_t least = solution.shape.planar ? 3 : 4;
+  if (nodes < least || solution.displacement.rows() == 0) {
+    refuse(file, "it has no point array `displacement` of three components over at least " + std::to_string(least) +
+                     " nodes.");
   }
   for (Eigen::Index a = 0; a < solution.displacement.rows(); ++a) {
     if (!solution.displacement.row(a).allFinite()) {
@@ -78,7 +98,6 @@ Solution read_solution(const std::filesystem::path& file) {
       refuse(file, "the spacing of node " + std::to_string(a) + " is not positive.");
     }
   }
-  solution.shape = shape_options(file, *grid->GetFieldData());
   return solution;
 }
 
@@ -92,7 +111,9 @@ void write_solution(const std::filesystem::path& file, const Solution& solution)
   const std::array basis = {static_cast<std::int32_t>(solution.shape.basis)};
   const std::array dilatation = {solution.shape.dilatation};
   const std::array penalty = {solution.shape.penalty};
+  const std::array planar = {static_cast<std::uint8_t>(solution.shape.planar)};
   vtu::add_array(*grid->GetFieldData(), "shape_penalty", std::span<const double>(penalty));
+  vtu::add_array(*grid->GetFieldData(), "shape_planar", std::span<const std::uint8_t>(planar));
   vtu::add_array(*grid->GetFieldData(), "shape_basis", std::span<const std::int32_t>(basis));
   vtu::add_array(*grid->GetFieldData(), "shape_dilatation", std::span<const double>(dilatation));
   vtu::write(file, *grid);

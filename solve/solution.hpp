@@ -18,9 +18,9 @@ struct Solution {
 };
 
 /// solution.vtu: one vertex cell a node; point arrays displacement, reaction_force, spacing; field arrays shape_basis
-/// (0 linear, 1 quadratic, 2 modified quadratic), shape_dilatation and shape_penalty. On reading, everything but
-/// displacement may be absent (another program's solution): no force, the mean distance to the six nearest nodes, the
-/// default shape options. Throws std::invalid_argument, naming the file and what is wrong.
+/// (0 linear, 1 quadratic, 2 modified quadratic), shape_dilatation, shape_penalty and shape_planar (0 or 1). On
+/// reading, everything but displacement may be absent (another program's solution): no force, the mean distance to the
+/// six nearest nodes, the default shape options. Throws std::invalid_argument, naming the file and what is wrong.
 Solution read_solution(const std::filesystem::path& file);
 void write_solution(const std::filesystem::path& file, const Solution& solution);
 

@@ -14,7 +14,7 @@ struct CellGrid {
   double dropped_volume = 0;      ///< inside volume of those, mm³
 };
 
-/// Volume of the cells' inside parts, mm³; hexahedra are boxes.
+/// Volume of the inside parts of hexahedra, which are boxes, or tetrahedra, mm³.
 double inside_volume(const BackgroundCells& cells);
 
 }  // namespace brainshift::discretise

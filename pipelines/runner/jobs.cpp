@@ -5,6 +5,7 @@
 
 #include "pipelines/runner/measures.hpp"
 #include "register/files/warp_any.hpp"
+#include "solve/quadrature/integration_points.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -102,7 +103,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
     solve::write_craniotomy_csv(out / "load.csv", load);
   }
   solve::SolveOptions options = job.options;
-  options.points_per_cell = job.points_per_cell.value_or(model.cells.kind == CellKind::hexahedron ? 8 : 4);
+  options.points_per_cell = job.points_per_cell.value_or(solve::most_points_per_cell(model.cells.kind));
   const solve::SolveResult result = solve::solve(model, options, progress);
   write_solution(out / "solution.vtu", result.solution);
   solve::write_history(out / "history.csv", result.history);

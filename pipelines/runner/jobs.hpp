@@ -35,7 +35,7 @@ struct SolveJob {
   std::optional<Load> load;       ///< absent: what the nodes prescribe
   std::map<std::int32_t, solve::Material> materials;
   solve::SolveOptions options;         ///< but for points_per_cell
-  std::optional<int> points_per_cell;  ///< absent: 8 a hexahedron, 4 a tetrahedron
+  std::optional<int> points_per_cell;  ///< absent: the most that the cells take
 };
 
 struct RegisterJob {

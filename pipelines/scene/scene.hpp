@@ -101,7 +101,7 @@ struct Scene {
   discretise::DiscretiseOptions discretise;
   CraniotomyRefinement refinement;
   solve::SolveOptions solve;           ///< but for points_per_cell
-  std::optional<int> points_per_cell;  ///< absent: 8 a hexahedron, 4 a tetrahedron
+  std::optional<int> points_per_cell;  ///< absent: the most that the cells take
   registration::RegisterOptions registration;
   std::array<std::string, all_stages.size()> commands;  ///< external commands that replace stages; empty: our own stage
   SceneSource source;

@@ -14,6 +14,8 @@ namespace {
 
 using Corners = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, 8, 3>;
 
+constexpr double thickness = 1;  // of planar cells, mm
+
 struct WeightedPoint {
   Eigen::Vector3d position;
   double volume;
@@ -92,6 +94,59 @@ void whole_tetrahedron(const Corners& corners, int points, std::vector<WeightedP
   }
 }
 
+/// Bilinear map of the quadrilateral (VTK's corner order) at local coordinates in [-1, 1]², and its area ratio.
+WeightedPoint quadrilateral_point(const Corners& corners, double xi, double eta, double weight) {
+  constexpr double sign[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();
+  for (int i = 0; i < 4; ++i) {
+    const double along = 1 + sign[i][0] * xi;
+    const double across = 1 + sign[i][1] * eta;
+    const Eigen::Vector3d corner = corners.row(i);
+    x += along * across / 4 * corner;
+    jacobian += corner.head<2>() / 4 * Eigen::RowVector2d(sign[i][0] * across, sign[i][1] * along);
+  }
+  return {x, weight * jacobian.determinant() * thickness};
+}
+
+void whole_quadrilateral(const Corners& corners, int points, std::vector<WeightedPoint>& out) {
+  if (points == 1) {
+    out.push_back(quadrilateral_point(corners, 0, 0, 4.0));
+    return;
+  }
+  const double g = 1 / std::sqrt(3.0);
+  for (int quadrant = 0; quadrant < 4; ++quadrant) {
+    out.push_back(quadrilateral_point(corners, (quadrant & 1) ? g : -g, (quadrant & 2) ? g : -g, 1.0));
+  }
+}
+
+void whole_triangle(const Corners& corners, int points, std::vector<WeightedPoint>& out) {
+  const Eigen::Vector3d centre = corners.colwise().mean();
+  const Eigen::Matrix<double, 2, 3> edges = corners.bottomRows<2>().rowwise() - corners.row(0);
+  const double volume = edges.leftCols<2>().determinant() / 2 * thickness;
+  if (points == 1) {
+    out.push_back({centre, volume});
+    return;
+  }
+  for (int i = 0; i < 3; ++i) {  // barycentric 2/3 and 1/6: exact for quadratics
+    const Eigen::Vector3d corner = corners.row(i);
+    out.push_back({(corner + centre) / 2, volume / 3});
+  }
+}
+
+void whole_cell(CellKind kind, const Corners& corners, int points, std::vector<WeightedPoint>& out) {
+  switch (kind) {
+    case CellKind::hexahedron:
+      return whole_hexahedron(corners, points, out);
+    case CellKind::tetrahedron:
+      return whole_tetrahedron(corners, points, out);
+    case CellKind::quadrilateral:
+      return whole_quadrilateral(corners, points, out);
+    case CellKind::triangle:
+      return whole_triangle(corners, points, out);
+  }
+}
+
 void append_points(const BackgroundCells& cells, std::size_t cell, int points, std::vector<WeightedPoint>& out) {
   const std::int32_t cut = cells.cut_index.empty() ? -1 : cells.cut_index[cell];
   if (cells.kind == CellKind::hexahedron && cut >= 0) {
@@ -99,19 +154,14 @@ void append_points(const BackgroundCells& cells, std::size_t cell, int points, s
     return;
   }
   const std::size_t first = out.size();
-  const Corners corners = corners_of(cells, cell);
-  if (cells.kind == CellKind::hexahedron) {
-    whole_hexahedron(corners, points, out);
-  } else {
-    whole_tetrahedron(corners, points, out);
-  }
+  whole_cell(cells.kind, corners_of(cells, cell), points, out);
   for (std::size_t i = first; i < out.size(); ++i) {
     out[i].volume *= cells.inside_fraction[cell];
   }
 }
 
 void check_points_per_cell(CellKind kind, int points) {
-  const int many = kind == CellKind::hexahedron ? 8 : 4;
+  const int many = most_points_per_cell(kind);
   if (points != 1 && points != many) {
     throw std::invalid_argument("points per cell is " + std::to_string(points) + ", but these cells take 1 or " +
                                 std::to_string(many));
@@ -119,6 +169,10 @@ void check_points_per_cell(CellKind kind, int points) {
 }
 
 }  // namespace
+
+int most_points_per_cell(CellKind kind) {
+  return kind == CellKind::hexahedron ? 8 : kind == CellKind::triangle ? 3 : 4;
+}
 
 IntegrationPoints integration_points(const BackgroundCells& cells, int points_per_cell, const LabelMap* labels,
                                      const std::vector<std::int32_t>& tissues) {

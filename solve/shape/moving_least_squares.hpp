@@ -3,6 +3,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <span>
 
@@ -12,17 +14,27 @@
 
 namespace brainshift::solve {
 
-/// The m monomials (4 or 10) at ξ: 1 x y z √2xy √2xz √2yz x² y² z² (eq 2). With the factor √2 a rotation of the frame
-/// turns the quadratic ones among themselves, so neither the penalty nor what counts as admissible depends on the
-/// frame.
-template <int m>
-Eigen::Matrix<double, m, 1> monomials(const Eigen::Vector3d& xi) {
-  Eigen::Matrix<double, m, 1> p;
-  p.template head<4>() << 1, xi.x(), xi.y(), xi.z();
-  if constexpr (m == 10) {
-    constexpr double cross = std::numbers::sqrt2;
-    p.template tail<6>() << cross * xi.x() * xi.y(), cross * xi.x() * xi.z(), cross * xi.y() * xi.z(), xi.x() * xi.x(),
-        xi.y() * xi.y(), xi.z() * xi.z();
+/// Number of monomials up to an order (1 or 2): 4 or 10 in space, 3 or 6 in the plane.
+constexpr int monomial_count(int dimensions, int order) {
+  return order == 1 ? dimensions + 1 : (dimensions + 1) * (dimensions + 2) / 2;
+}
+
+/// The monomials at ξ: 1 x y z √2xy √2xz √2yz x² y² z² (eq 2), in the plane 1 x y √2xy x² y². With the factor √2 a
+/// rotation of the frame turns the quadratic ones among themselves, so neither the penalty nor what counts as
+/// admissible depends on the frame.
+template <int dimensions, int order>
+Eigen::Matrix<double, monomial_count(dimensions, order), 1> monomials(const Eigen::Matrix<double, dimensions, 1>& xi) {
+  Eigen::Matrix<double, monomial_count(dimensions, order), 1> p;
+  p[0] = 1;
+  p.template segment<dimensions>(1) = xi;
+  if constexpr (order == 2) {
+    int next = dimensions + 1;
+    for (int j = 0; j < dimensions; ++j) {
+      for (int k = j + 1; k < dimensions; ++k) {
+        p[next++] = std::numbers::sqrt2 * xi[j] * xi[k];
+      }
+    }
+    p.template tail<dimensions>() = xi.cwiseAbs2();
   }
   return p;
 }
@@ -35,10 +47,15 @@ struct QuarticSpline {
 };
 
 /// One evaluation of (modified) moving least squares at a point, eqs 1-15, in local scaled coordinates ξ = (X_a − x)/r:
-/// there p(x) is the first unit vector, and the moment matrix is well conditioned in any unit and at any offset.
-template <int m>
+/// there p(x) is the first unit vector, and the moment matrix is well conditioned in any unit and at any offset. In the
+/// plane (two dimensions) it looks at x and y alone.
+template <int dimensions, int order>
 class MovingLeastSquares {
+  static constexpr int m = monomial_count(dimensions, order);
+  static constexpr int linear_terms = monomial_count(dimensions, 1);
+
  public:
+  using Place = Eigen::Matrix<double, dimensions, 1>;
   using Vector = Eigen::Matrix<double, m, 1>;
   using Matrix = Eigen::Matrix<double, m, m>;
 
@@ -47,28 +64,30 @@ class MovingLeastSquares {
   bool build(const Eigen::Vector3d& x, std::span<const Supporter> support, const Points& positions,
              std::span<const double> radius, double scale, double penalty, bool leave_to_penalty) {
     count_ = static_cast<int>(support.size());
-    if (count_ < (leave_to_penalty ? 4 : m)) {
+    if (count_ < (leave_to_penalty ? linear_terms : m)) {
       return false;
     }
     basis_.resize(m, count_);
     weight_.resize(count_);
-    weight_gradient_.resize(3, count_);
+    weight_gradient_.resize(dimensions, count_);
     length_ = 0;
     for (const Supporter& s : support) {
       length_ = std::max(length_, scale * radius[static_cast<std::size_t>(s.node)]);
     }
     moment_.setZero();
+    double weighted_radii = 0;
     for (int a = 0; a < count_; ++a) {
       const Supporter& s = support[static_cast<std::size_t>(a)];
       const double r = scale * radius[static_cast<std::size_t>(s.node)];
-      const Eigen::Vector3d away = positions.row(s.node).transpose() - x;
+      const Place away = (positions.row(s.node).transpose() - x).template head<dimensions>();
       const QuarticSpline w(s.distance / r);
-      basis_.col(a) = monomials<m>(away / length_);
+      basis_.col(a) = monomials<dimensions, order>(away / length_);
       weight_[a] = w.value;
+      weighted_radii += w.value * r;
       weight_gradient_.col(a) = -w.slope_over_d / (r * r) * away;
       moment_.template selfadjointView<Eigen::Lower>().rankUpdate(basis_.col(a), w.value);
     }
-    return factorise(penalty, leave_to_penalty);
+    return factorise(penalty, leave_to_penalty, weighted_radii / (weight_.sum() * length_));
   }
 
   /// φ_a(x), into values[0..count).
@@ -79,9 +98,10 @@ class MovingLeastSquares {
     }
   }
 
-  /// ∂φ_a/∂x_J, 1/mm, into gradient[3a + J]. Call values() first.
+  /// ∂φ_a/∂x_J, 1/mm, into gradient[3a + J]; in the plane that by z is 0. Call values() first.
   void gradients(Derivatives kind, std::span<double> gradient) {
-    for (int axis = 0; axis < 3; ++axis) {
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    for (int axis = 0; axis < dimensions; ++axis) {
       Vector right = Vector::Unit(1 + axis) / length_;
       if (kind == Derivatives::full) {
         for (int a = 0; a < count_; ++a) {
@@ -102,17 +122,21 @@ class MovingLeastSquares {
  private:
   /// A support is admissible when it determines the basis. Below the quadratic limit the derivatives of quadratic shape
   /// functions grow wild: on a jittered grid up to thirty times the usual; from there on they stay within four times.
-  bool factorise(double penalty, bool leave_to_penalty) {
-    constexpr double linear_limit = 1e-3, quadratic_limit = 2e-4;
+  /// The same limits do in the plane, where a moment matrix determines its terms about twice as well. They hold where
+  /// all radii are alike; where the mean of the radii is only `reach` of the largest, which scales the coordinates,
+  /// second and fourth moments are smaller by its second and fourth power, however far the support is grown.
+  bool factorise(double penalty, bool leave_to_penalty, double reach) {
+    const double linear_limit = 1e-3 * std::pow(reach, 2), quadratic_limit = 2e-4 * std::pow(reach, 4);
     const double total = weight_.sum();
-    if (!(determination<4, 1>(moment_.template topLeftCorner<4, 4>() / total) > linear_limit)) {
+    if (!(determination<linear_terms, 1>(moment_.template topLeftCorner<linear_terms, linear_terms>() / total) >
+          linear_limit)) {
       return false;
     }
-    if constexpr (m == 10) {
-      if (!leave_to_penalty && !(determination<10, 4>(moment_ / total) > quadratic_limit)) {
+    if constexpr (order == 2) {
+      if (!leave_to_penalty && !(determination<m, linear_terms>(moment_ / total) > quadratic_limit)) {
         return false;
       }
-      moment_.diagonal().template tail<6>().array() += penalty;
+      moment_.diagonal().template tail<m - linear_terms>().array() += penalty;
     }
     factor_.compute(moment_);
     return factor_.info() == Eigen::Success;
@@ -138,7 +162,7 @@ class MovingLeastSquares {
   double length_ = 0;
   Eigen::Matrix<double, m, Eigen::Dynamic> basis_;
   Eigen::VectorXd weight_;
-  Eigen::Matrix3Xd weight_gradient_;
+  Eigen::Matrix<double, dimensions, Eigen::Dynamic> weight_gradient_;
   Matrix moment_;
   Eigen::LLT<Matrix> factor_;
   Vector coefficients_;

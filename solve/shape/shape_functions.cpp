@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "discretise/plane.hpp"
 #include "solve/shape/moving_least_squares.hpp"
 #include "solve/shape/support_search.hpp"
 
@@ -32,6 +33,9 @@ double dilatation(const ShapeOptions& options) {
   if (options.dilatation > 0) {
     return options.dilatation;
   }
+  if (options.planar) {
+    return options.basis == Basis::linear ? 1.8 : 2.4;
+  }
   return options.basis == Basis::linear ? 1.6 : 2.2;
 }
 
@@ -47,7 +51,7 @@ struct ShapeFunctions::Impl {
 namespace {
 
 /// Evaluates the shape functions at one point after another; owned by one thread.
-template <int m>
+template <int dimensions, int order>
 class Evaluator {
  public:
   explicit Evaluator(const ShapeFunctions::Impl& impl)
@@ -82,7 +86,7 @@ class Evaluator {
   double scale_ = 1;
   std::vector<Supporter> support_;
   std::vector<double> phi_, gradient_;
-  MovingLeastSquares<m> mls_;
+  MovingLeastSquares<dimensions, order> mls_;
 };
 
 /// The rows of a batch of points, before they are joined.
@@ -94,21 +98,22 @@ struct Batch {
 
 constexpr Eigen::Index none = -1;
 
-[[noreturn]] void throw_inadmissible(const Points& points, Eigen::Index i) {
+[[noreturn]] void throw_inadmissible(const Points& points, Eigen::Index i, bool planar) {
   std::ostringstream text;
   text << "no admissible support at the point (" << points(i, 0) << ", " << points(i, 1) << ", " << points(i, 2)
-       << ") mm: too few nodes near it, or all of them in one plane; add nodes or check their spacing";
+       << ") mm: too few nodes near it, or all of them " << (planar ? "on one line" : "in one plane")
+       << "; add nodes or check their spacing";
   throw std::invalid_argument(text.str());
 }
 
 /// Calls use(evaluator, point) for every point; batches go to whichever thread is free.
-template <int m, class Use>
+template <int dimensions, int order, class Use>
 void for_each_point(const ShapeFunctions::Impl& impl, const Points& points, const Use& use) {
   const Eigen::Index batches = (points.rows() + batch - 1) / batch;
   std::atomic<Eigen::Index> bad = none;
 #pragma omp parallel
   {
-    Evaluator<m> evaluator(impl);
+    Evaluator<dimensions, order> evaluator(impl);
 #pragma omp for schedule(dynamic)
     for (Eigen::Index b = 0; b < batches; ++b) {
       const Eigen::Index end = std::min((b + 1) * batch, points.rows());
@@ -122,7 +127,7 @@ void for_each_point(const ShapeFunctions::Impl& impl, const Points& points, cons
     }
   }
   if (bad != none) {
-    throw_inadmissible(points, bad);
+    throw_inadmissible(points, bad, impl.options.planar);
   }
 }
 
@@ -142,10 +147,10 @@ ShapeRows join(const std::vector<Batch>& batches, std::size_t points) {
   return rows;
 }
 
-template <int m>
+template <int dimensions, int order>
 ShapeRows evaluate_rows(const ShapeFunctions::Impl& impl, const Points& points, bool with_derivatives) {
   std::vector<Batch> batches(static_cast<std::size_t>((points.rows() + batch - 1) / batch));
-  for_each_point<m>(impl, points, [&](Evaluator<m>& at, Eigen::Index i) {
+  for_each_point<dimensions, order>(impl, points, [&](Evaluator<dimensions, order>& at, Eigen::Index i) {
     Batch& b = batches[static_cast<std::size_t>(i / batch)];
     b.length.push_back(static_cast<std::int32_t>(at.support().size()));
     b.grown += at.grown() ? 1 : 0;
@@ -161,10 +166,10 @@ ShapeRows evaluate_rows(const ShapeFunctions::Impl& impl, const Points& points, 
   return join(batches, static_cast<std::size_t>(points.rows()));
 }
 
-template <int m>
+template <int dimensions, int order>
 Points interpolate_at(const ShapeFunctions::Impl& impl, const Points& points, const Points& values) {
   Points result(points.rows(), 3);
-  for_each_point<m>(impl, points, [&](Evaluator<m>& at, Eigen::Index i) {
+  for_each_point<dimensions, order>(impl, points, [&](Evaluator<dimensions, order>& at, Eigen::Index i) {
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     for (std::size_t a = 0; a < at.support().size(); ++a) {
       sum += at.values()[a] * values.row(at.support()[a].node);
@@ -174,14 +179,34 @@ Points interpolate_at(const ShapeFunctions::Impl& impl, const Points& points, co
   return result;
 }
 
+void check_plane(const Points& points, const ShapeOptions& options, const char* what) {
+  if (!options.planar) {
+    return;
+  }
+  if (const auto fault = off_plane(points, what)) {
+    throw std::invalid_argument(*fault);
+  }
+}
+
+/// Calls use<dimensions, order>() as the options say.
+template <class Use>
+auto with_basis(const ShapeOptions& options, const Use& use) {
+  const bool linear = options.basis == Basis::linear;
+  if (options.planar) {
+    return linear ? use.template operator()<2, 1>() : use.template operator()<2, 2>();
+  }
+  return linear ? use.template operator()<3, 1>() : use.template operator()<3, 2>();
+}
+
 }  // namespace
 
 ShapeFunctions::ShapeFunctions(const Points& positions, std::span<const double> spacing, const ShapeOptions& options) {
-  const Eigen::Index least = options.basis == Basis::quadratic ? 10 : 4;
+  const Eigen::Index least = monomial_count(options.planar ? 2 : 3, options.basis == Basis::quadratic ? 2 : 1);
   if (positions.rows() < least) {
     throw std::invalid_argument("the cloud has " + std::to_string(positions.rows()) + " nodes, but this basis needs " +
                                 std::to_string(least) + " in a support; add nodes");
   }
+  check_plane(positions, options, "node");
   impl_ = std::make_shared<const Impl>(positions, spacing, options);
 }
 
@@ -190,13 +215,17 @@ std::size_t ShapeFunctions::nodes() const {
 }
 
 ShapeRows ShapeFunctions::evaluate(const Points& points, bool with_derivatives) const {
-  return impl_->options.basis == Basis::linear ? evaluate_rows<4>(*impl_, points, with_derivatives)
-                                               : evaluate_rows<10>(*impl_, points, with_derivatives);
+  check_plane(points, impl_->options, "point");
+  return with_basis(impl_->options, [&]<int dimensions, int order>() {
+    return evaluate_rows<dimensions, order>(*impl_, points, with_derivatives);
+  });
 }
 
 Points ShapeFunctions::interpolate(const Points& points, const Points& values) const {
-  return impl_->options.basis == Basis::linear ? interpolate_at<4>(*impl_, points, values)
-                                               : interpolate_at<10>(*impl_, points, values);
+  check_plane(points, impl_->options, "point");
+  return with_basis(impl_->options, [&]<int dimensions, int order>() {
+    return interpolate_at<dimensions, order>(*impl_, points, values);
+  });
 }
 
 }  // namespace brainshift::solve

@@ -30,11 +30,12 @@ struct ShapeRows {
 class ShapeFunctions {
  public:
   /// positions (n × 3) mm, spacing one a node, mm. Throws std::invalid_argument when there are fewer nodes than the
-  /// basis needs.
+  /// basis needs, and, naming the node, when the basis is planar and a node's z is not 0.
   ShapeFunctions(const Points& positions, std::span<const double> spacing, const ShapeOptions& options);
 
   /// Values, and derivatives if asked, at points (m × 3). Uses all threads; the result does not depend on their number.
-  /// Throws std::invalid_argument, naming the point, where no support is admissible (all nodes in one plane).
+  /// Of a planar basis the derivatives by z are exactly 0. Throws std::invalid_argument, naming the point, where no
+  /// support is admissible (all nodes in one plane; planar: on one line) or, planar, where z is not 0.
   ShapeRows evaluate(const Points& points, bool with_derivatives) const;
 
   /// The field Σφ_a(x) values_a at points (m × 3); values (n × 3). What evaluate() and a product would give, without

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -84,6 +85,64 @@ inline BackgroundCells box_tetrahedra(const NodeCloud& cloud, int n) {
     }
   }
   cells.inside_fraction.assign(cells.connectivity.size() / 4, 1.0);
+  cells.label.assign(cells.inside_fraction.size(), 1);
+  return cells;
+}
+
+/// A rectangle of nx × ny nodes with z = 0, the inner ones moved at random by up to `jitter` of the spacing.
+inline NodeCloud irregular_rectangle(int nx, int ny, double width, double height, double jitter = 0.25,
+                                     unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> within(-jitter, jitter);
+  NodeCloud cloud;
+  const double hx = width / (nx - 1), hy = height / (ny - 1);
+  cloud.positions.resize(static_cast<Eigen::Index>(nx) * ny, 3);
+  for (int j = 0; j < ny; ++j) {
+    for (int i = 0; i < nx; ++i) {
+      const bool x_end = i == 0 || i == nx - 1, y_end = j == 0 || j == ny - 1;
+      const double x = i + (x_end ? 0.0 : within(random)), y = j + (y_end ? 0.0 : within(random));
+      cloud.positions.row(j * nx + i) << hx * x, hy * y, 0;
+      cloud.on_surface.push_back(x_end || y_end ? 1 : 0);
+    }
+  }
+  cloud.spacing.assign(cloud.on_surface.size(), std::max(hx, hy));
+  cloud.label.assign(cloud.on_surface.size(), 1);
+  cloud.prescribed_displacement = Points::Constant(cloud.positions.rows(), 3, std::nan(""));
+  return cloud;
+}
+
+/// nx × ny quadrilaterals over a rectangle.
+inline BackgroundCells rectangle_cells(int nx, int ny, double width, double height) {
+  BackgroundCells cells;
+  cells.kind = CellKind::quadrilateral;
+  const auto vertex = [nx](int i, int j) { return j * (nx + 1) + i; };
+  cells.vertices.resize(static_cast<Eigen::Index>(nx + 1) * (ny + 1), 3);
+  for (int j = 0; j <= ny; ++j) {
+    for (int i = 0; i <= nx; ++i) {
+      cells.vertices.row(vertex(i, j)) << width / nx * i, height / ny * j, 0;
+      if (i < nx && j < ny) {
+        cells.connectivity.insert(cells.connectivity.end(),
+                                  {vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+      }
+    }
+  }
+  cells.inside_fraction.assign(cells.connectivity.size() / 4, 1.0);
+  cells.label.assign(cells.inside_fraction.size(), 1);
+  return cells;
+}
+
+/// Triangles whose vertices are the nodes of irregular_rectangle(nx, ny): two a rectangle, conforming.
+inline BackgroundCells rectangle_triangles(const NodeCloud& cloud, int nx, int ny) {
+  BackgroundCells cells;
+  cells.kind = CellKind::triangle;
+  cells.vertices = cloud.positions;
+  for (int j = 0; j + 1 < ny; ++j) {
+    for (int i = 0; i + 1 < nx; ++i) {
+      const int a = j * nx + i, b = a + 1, c = b + nx, d = a + nx;
+      cells.connectivity.insert(cells.connectivity.end(), {a, b, c, a, c, d});
+    }
+  }
+  cells.inside_fraction.assign(cells.connectivity.size() / 3, 1.0);
   cells.label.assign(cells.inside_fraction.size(), 1);
   return cells;
 }

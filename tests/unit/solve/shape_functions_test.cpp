@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "discretise/neighbours/neighbour_distance.hpp"
 #include "solve/shape/support_search.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/completeness.hpp"
 
 namespace brainshift::solve {
 namespace {
 
+using test::completeness_error;
 using test::irregular_box;
 using test::random_points;
 
@@ -21,30 +24,6 @@ class EveryBasis : public testing::TestWithParam<Basis> {
 };
 INSTANTIATE_TEST_SUITE_P(Bases, EveryBasis,
                          testing::Values(Basis::linear, Basis::quadratic, Basis::modified_quadratic));
-
-/// Largest errors of Σφ − 1, Σφ X − x, Σ∇φ and Σ X∇φ − 1, the last two times a length of 1 spacing.
-double completeness_error(const NodeCloud& cloud, const Points& at, const ShapeOptions& options) {
-  const ShapeRows rows = ShapeFunctions(cloud.positions, cloud.spacing, options).evaluate(at, true);
-  double worst = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    double sum = 0;
-    Eigen::RowVector3d place = Eigen::RowVector3d::Zero(), slope = place;
-    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-    const Eigen::RowVector3d x = at.row(static_cast<Eigen::Index>(i));
-    for (auto k = static_cast<std::size_t>(rows.begin[i]); k < static_cast<std::size_t>(rows.begin[i + 1]); ++k) {
-      const Eigen::RowVector3d away = cloud.positions.row(rows.node[k]) - x;
-      const Eigen::RowVector3d b(&rows.derivative[3 * k]);
-      sum += rows.value[k];
-      place += rows.value[k] * away;
-      slope += b;
-      gradient += away.transpose() * b;
-    }
-    const double h = cloud.spacing[0];
-    worst = std::max({worst, std::abs(sum - 1), place.norm() / h, slope.norm() * h,
-                      (gradient - Eigen::Matrix3d::Identity()).norm()});
-  }
-  return worst;
-}
 
 TEST_P(EveryBasis, IsAPartitionOfUnityAndLinearlyCompleteOnAnIrregularCloud) {
   EXPECT_LE(completeness_error(irregular_box(9, side), random_points(500, side), options()), 1e-10);
@@ -123,6 +102,14 @@ TEST(ShapeFunctions, GrowASupportThatIsTooSmallAndCountIt) {
   const Points at = random_points(50, side);
   EXPECT_GT(ShapeFunctions(cloud.positions, cloud.spacing, small).evaluate(at, false).grown, 25u);
   EXPECT_LE(completeness_error(cloud, at, small), 1e-10);
+}
+
+/// The nodes at a corner are farther from their six nearest than the others.
+TEST_P(EveryBasis, IsCompleteAtTheCornerOfACloudWithoutAStatedSpacing) {
+  NodeCloud cloud = irregular_box(9, side, 0.4);
+  cloud.spacing = mean_neighbour_distance(nearest_neighbours(cloud.positions, 6));
+  const Points at = random_points(500, side / 16);
+  EXPECT_LE(completeness_error(cloud, at, options()), 1e-10);
 }
 
 TEST(ShapeFunctions, RefuseACloudInOnePlane) {
