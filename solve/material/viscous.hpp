@@ -43,8 +43,8 @@ Eigen::Matrix3d relaxed_stress(const PronyStep& step, const Eigen::Matrix3d& iso
                                std::span<double> state);
 
 /// law.isochoric_stress(d), relaxed.
-template <class ElasticLaw>
-Eigen::Matrix3d viscous_stress(const ElasticLaw& law, const PronyStep& step, const Deformation& d,
+template <class OneLaw>
+Eigen::Matrix3d viscous_stress(const OneLaw& law, const PronyStep& step, const Deformation& d,
                                std::span<double> state) {
   return relaxed_stress(step, law.isochoric_stress(d), d, state);
 }
