@@ -51,6 +51,22 @@ Points prescribed(const std::filesystem::path& file, vtkPointData& data, std::si
   return Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
 }
 
+Points forces(const std::filesystem::path& file, vtkPointData& data, std::size_t nodes) {
+  const std::vector<double> values = vtu::array(file, data, "force", nodes, 3);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) {
+      refuse(file, "the force on node " + std::to_string(i / 3) + " is not finite; newtons are expected, 0 for none.");
+    }
+  }
+  return Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
+}
+
+void add_vectors(vtkPointData& data, const char* name, const Points& values) {
+  if (values.rows() > 0) {
+    vtu::add_array(data, name, {values.data(), static_cast<std::size_t>(values.size())}, 3);
+  }
+}
+
 }  // namespace
 
 NodeCloud read_node_cloud(const std::filesystem::path& file) {
@@ -81,6 +97,7 @@ NodeCloud read_node_cloud(const std::filesystem::path& file) {
     cloud.label.assign(nodes, 1);
   }
   cloud.prescribed_displacement = prescribed(file, data, nodes);
+  cloud.force = forces(file, data, nodes);
   return cloud;
 }
 
@@ -90,10 +107,8 @@ void write_node_cloud(const std::filesystem::path& file, const NodeCloud& cloud)
   vtu::add_array(data, "spacing", cloud.spacing);
   vtu::add_array(data, "on_surface", cloud.on_surface);
   vtu::add_array(data, "label", cloud.label);
-  if (cloud.prescribed_displacement.rows() > 0) {
-    const Points& values = cloud.prescribed_displacement;
-    vtu::add_array(data, "prescribed_displacement", {values.data(), static_cast<std::size_t>(values.size())}, 3);
-  }
+  add_vectors(data, "prescribed_displacement", cloud.prescribed_displacement);
+  add_vectors(data, "force", cloud.force);
   vtu::write(file, *grid);
 }
 

@@ -10,10 +10,14 @@
 #include "solve/boundary/contact.hpp"
 #include "solve/boundary/essential_conditions.hpp"
 #include "solve/boundary/signed_distance.hpp"
-#include "solve/dynamics/nodal_mass.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/space_filling.hpp"
+#include "solve/dynamics/stiffness_bound.hpp"
+#include "solve/dynamics/transient.hpp"
+#include "solve/material/material_table.hpp"
 #include "solve/quadrature/integration_points.hpp"
+#include "solve/quadrature/pressure_patches.hpp"
+#include "solve/shape/consistent_derivatives.hpp"
 
 namespace brainshift::solve {
 
@@ -25,53 +29,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The materials of the labels that occur, as rows of a table, and the row of each point.
-struct MaterialTable {
-  std::vector<NeoHookean> laws;
-  std::vector<double> wave_speed;  ///< c_d, mm/s
-  std::vector<std::int32_t> row_of_point;
-};
-
-void check_material(std::int32_t label, const Material& m) {
-  const std::string name = "the material of label " + std::to_string(label);
-  if (!(m.youngs_modulus > 0 && std::isfinite(m.youngs_modulus))) {
-    throw std::invalid_argument(name + " has E = " + std::to_string(m.youngs_modulus) + " Pa; it must be positive");
-  }
-  if (!(m.poisson_ratio > -1 && m.poisson_ratio < 0.5)) {
-    throw std::invalid_argument(name + " has nu = " + std::to_string(m.poisson_ratio) +
-                                "; it must lie between -1 and 0.5, both excluded");
-  }
-  if (!(m.density > 0 && std::isfinite(m.density))) {
-    throw std::invalid_argument(name + " has the density " + std::to_string(m.density) + " kg/m3; it must be positive");
-  }
-}
-
-MaterialTable material_table(const std::map<std::int32_t, Material>& materials, const IntegrationPoints& points) {
-  MaterialTable table;
-  std::map<std::int32_t, std::int32_t> row_of_label;
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    const std::int32_t label = points.label[p];
-    const auto [row, is_new] = row_of_label.try_emplace(label, static_cast<std::int32_t>(table.laws.size()));
-    if (is_new) {
-      const auto found = materials.find(label);
-      if (found == materials.end()) {
-        throw std::invalid_argument("tissue label " + std::to_string(label) +
-                                    " occurs in the cells but has no material; name one for it");
-      }
-      check_material(label, found->second);
-      table.laws.emplace_back(found->second);
-      constexpr double per_cubic_mm = 1e-6;  // kg/m³ to g/mm³
-      table.wave_speed.push_back(std::sqrt(table.laws.back().wave_modulus() / (found->second.density * per_cubic_mm)));
-    }
-    table.row_of_point.push_back(row->second);
-  }
-  return table;
-}
-
 /// The cloud with its nodes along a space-filling curve, and where each came from.
 struct OrderedCloud {
   Points positions;
   Points prescribed;
+  Points force;  ///< N; no rows: none
   std::vector<double> spacing;
   std::vector<std::uint8_t> on_surface;
   std::vector<std::int32_t> original;  ///< the cloud's node
@@ -83,6 +45,7 @@ OrderedCloud order_nodes(const NodeCloud& cloud) {
   const auto n = static_cast<Eigen::Index>(cloud.size());
   ordered.positions.resize(n, 3);
   ordered.prescribed = Points::Constant(n, 3, std::nan(""));
+  ordered.force.resize(cloud.force.rows(), 3);
   for (Eigen::Index a = 0; a < n; ++a) {
     const std::int32_t from = ordered.original[static_cast<std::size_t>(a)];
     ordered.positions.row(a) = cloud.positions.row(from);
@@ -91,23 +54,26 @@ OrderedCloud order_nodes(const NodeCloud& cloud) {
     if (cloud.prescribed_displacement.rows() == n) {
       ordered.prescribed.row(a) = cloud.prescribed_displacement.row(from);
     }
+    if (cloud.force.rows() == n) {
+      ordered.force.row(a) = cloud.force.row(from);
+    }
   }
   return ordered;
 }
 
-/// Rigid motions that the conditions leave free make the steady state undefined.
-void check_held(const OrderedCloud& cloud, bool contact) {
+/// Rigid motions that the conditions leave free make the steady state undefined. A plane has three, x, y and the turn
+/// about z, else there are six.
+void check_held(const OrderedCloud& cloud, Plane plane, bool contact) {
   std::vector<Eigen::Matrix<double, 1, 6>> rows;
   const Eigen::RowVector3d centre = cloud.positions.colwise().mean();
   const double size = (cloud.positions.rowwise() - centre).cwiseAbs().maxCoeff();
   for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
     const Eigen::Vector3d x = (cloud.positions.row(a) - centre) / size;
     const Eigen::Matrix3d turn{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < (plane == Plane::none ? 3 : 2); ++axis) {
       if (!std::isnan(cloud.prescribed(a, axis))) {
-        Eigen::Matrix<double, 1, 6> row = Eigen::Matrix<double, 1, 6>::Zero();
-        row[axis] = 1;
-        row.tail<3>() = turn.row(axis);
+        Eigen::Matrix<double, 1, 6> row;
+        row << Eigen::RowVector3d::Unit(axis), turn.row(axis);
         rows.push_back(row);
       }
     }
@@ -120,11 +86,49 @@ void check_held(const OrderedCloud& cloud, bool contact) {
     held += row.transpose() * row;
   }
   const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(held);
-  if (!contact && svd.singularValues()[5] < 1e-9 * svd.singularValues()[0]) {
+  const int motions = plane == Plane::none ? 6 : 3;
+  if (!contact && svd.singularValues()[motions - 1] < 1e-9 * svd.singularValues()[0]) {
     throw std::invalid_argument(
-        "the prescribed displacements leave the body free to move as a whole, and there is no skull to stop it: hold "
-        "three nodes that are not in line, or add contact");
+        "the prescribed displacements leave the body free to move as a whole, and there is no skull to stop it: hold " +
+        std::string(plane == Plane::none ? "three nodes that are not in line, or add contact" : "two nodes"));
   }
+}
+
+void check_plane(const Model& model) {
+  const bool planar = model.plane != Plane::none;
+  if (planar != is_planar(model.cells.kind)) {
+    throw std::invalid_argument(planar ? "a plane problem needs cells that are quadrilaterals or triangles"
+                                       : "the cells are planar; say whether it is plane strain or plane stress");
+  }
+  if (planar && model.skull) {
+    throw std::invalid_argument("contact with a skull needs three dimensions; leave it out of a plane problem");
+  }
+  for (const auto& [label, material] : model.materials) {
+    if (model.plane == Plane::stress && !material.prony.empty()) {
+      throw std::invalid_argument("the material of label " + std::to_string(label) +
+                                  " relaxes, which plane stress does not model; take plane strain or no Prony terms");
+    }
+  }
+}
+
+/// The nodes that each integration point stands for: its volume over that of a node there, scaled to their number.
+std::vector<double> nodes_per_point(const IntegrationPoints& points, const ShapeRows& rows,
+                                    std::span<const double> spacing) {
+  std::vector<double> share(points.size());
+  double total = 0;
+  for (std::size_t p = 0; p < share.size(); ++p) {
+    double cube = 0;
+    for (std::int64_t k = rows.begin[p]; k < rows.begin[p + 1]; ++k) {
+      const double s = spacing[static_cast<std::size_t>(rows.node[static_cast<std::size_t>(k)])];
+      cube += s * s * s / static_cast<double>(rows.begin[p + 1] - rows.begin[p]);
+    }
+    share[p] = points.volume[p] / cube;
+    total += share[p];
+  }
+  for (double& s : share) {
+    s *= static_cast<double>(spacing.size()) / total;
+  }
+  return share;
 }
 
 /// A node that no integration point sees has no mass, and nothing would hold it.
@@ -179,54 +183,145 @@ std::vector<std::int32_t> tissues_of(const std::map<std::int32_t, Material>& mat
   return tissues;
 }
 
-std::size_t count_loaded(const Points& prescribed) {
+std::size_t count_loaded(const OrderedCloud& cloud) {
   std::size_t loaded = 0;
-  for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
-    loaded += prescribed.row(a).array().isNaN().all() ? 0 : 1;
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    const bool pushed = cloud.force.rows() > 0 && !cloud.force.row(a).isZero();
+    loaded += pushed || !cloud.prescribed.row(a).array().isNaN().all() ? 1 : 0;
   }
   return loaded;
 }
 
+/// Forces on the parameters under the full load, µN; empty when nothing pushes.
+NodalVectors external_force(const Model& model, const OrderedCloud& cloud, const ShapeRows& nodal_rows,
+                            const IntegrationPoints& points, const ShapeRows& point_rows) {
+  const bool gravity = !model.gravity.isZero();
+  if (cloud.force.rows() == 0 && !gravity && !model.body_force) {
+    return {};
+  }
+  NodalVectors force(4 * model.cloud.size(), 0.0);
+  if (cloud.force.rows() > 0) {
+    add_nodal_force(cloud.force, nodal_rows, force);
+  }
+  if (gravity) {
+    constexpr double per_cubic_millimetre = 1e-9;  // kg/m³ m/s² to N/mm³
+    add_body_force(
+        [&](const Eigen::Vector3d&, std::int32_t label) -> Eigen::Vector3d {
+          return per_cubic_millimetre * model.materials.at(label).density * model.gravity;
+        },
+        points, point_rows, force);
+  }
+  if (model.body_force) {
+    add_body_force(model.body_force, points, point_rows, force);
+  }
+  return force;
+}
+
+std::vector<std::int32_t> surface_nodes(const OrderedCloud& cloud) {
+  std::vector<std::int32_t> nodes;
+  for (std::size_t a = 0; a < cloud.on_surface.size(); ++a) {
+    if (cloud.on_surface[a] != 0) {
+      nodes.push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  return nodes;
+}
+
+/// The laws as stepping needs them: at rest relaxed materials have relaxed.
+PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics) {
+  PointLaws laws;
+  for (const Material& m : table.material) {
+    laws.elastic.push_back(elastic_law(dynamics == Dynamics::relaxation ? long_term(m) : m));
+  }
+  laws.plane_stress = plane == Plane::stress;
+  return laws;
+}
+
+SteppingResult step_in_time(const System& system, const MaterialTable& table, const SolveOptions& options,
+                            const Progress& progress) {
+  std::vector<double> density;
+  std::vector<std::vector<PronyTerm>> prony;
+  bool relaxing = false;
+  for (const Material& m : table.material) {
+    density.push_back(density_per_cubic_millimetre(m));
+    prony.push_back(m.prony);
+    relaxing = relaxing || !m.prony.empty();
+  }
+  if (!relaxing) {
+    prony.clear();
+  }
+  return march(system, prony, physical_mass(system.points, density), options, progress);
+}
+
+double physical_critical_step(const PointBlocks& blocks, const PointLaws& laws, const MaterialTable& table) {
+  std::vector<double> density;
+  for (const Material& m : table.material) {
+    density.push_back(density_per_cubic_millimetre(m));
+  }
+  ForceScratch scratch(blocks, laws);
+  NodalVectors rest(4 * blocks.nodes(), 0.0), force(rest);
+  internal_force(blocks, laws, rest, scratch, force);
+  return critical_step(stiffness_bound(blocks, laws, scratch), physical_mass(blocks, density));
+}
+
 }  // namespace
 
-SolveResult solve(const Model& model, const SolveOptions& options, const Progress& progress) {
+SolveResult solve(const Model& model, const SolveOptions& given, const Progress& progress) {
   const auto start = Clock::now();
+  SolveOptions options = given;
+  options.shape.planar = model.plane != Plane::none;
+  check_plane(model);
   const OrderedCloud cloud = order_nodes(model.cloud);
-  check_held(cloud, model.skull.has_value());
+  if (options.dynamics == Dynamics::relaxation) {
+    check_held(cloud, model.plane, model.skull.has_value());
+  }
 
   report(progress, 0, "placing integration points");
   const IntegrationPoints points = integration_points(
       model.cells, options.points_per_cell, model.labels ? &*model.labels : nullptr, tissues_of(model.materials));
-  const MaterialTable materials = material_table(model.materials, points);
+  const MaterialTable materials = material_table(model.materials, points.label);
 
   report(progress, 0.01, "evaluating shape functions");
   const ShapeFunctions shape(cloud.positions, cloud.spacing, options.shape);
   const ShapeRows nodal_rows = shape.evaluate(cloud.positions, false);
-  const ShapeRows point_rows = shape.evaluate(points.positions, true);
-  const PointBlocks blocks = point_blocks(points, point_rows, materials.row_of_point, model.cloud.size(),
-                                          options.volumetric == Volumetric::mean_dilatation);
-
+  ShapeRows point_rows = shape.evaluate(points.positions, true);
+  SolveResult result;
+  if (options.integration == Integration::consistent) {
+    constexpr double defect = 1e-10;
+    const ConsistencyMeasures done = make_derivatives_consistent(cloud.positions, surface_nodes(cloud), nodal_rows,
+                                                                 points.volume, defect, point_rows);
+    result.measures.consistency_iterations = done.iterations;
+  }
+  const bool shared_pressure = options.volumetric == Volumetric::mean_dilatation && model.plane != Plane::stress;
+  const PressurePatches patches =
+      pressure_patches(points.positions, nodes_per_point(points, point_rows, cloud.spacing), materials.row_of_point,
+                       shared_pressure ? options.nodes_per_patch : 0);
+  const PointBlocks blocks = point_blocks(points, point_rows, materials.row_of_point, model.cloud.size(), patches);
   check_supported(blocks, cloud);
-  EssentialConditions essential(cloud.prescribed, nodal_rows, cloud.original);
+
+  const PointLaws laws = point_laws(materials, model.plane, options.dynamics);
+  EssentialConditions essential(cloud.prescribed, nodal_rows, cloud.original, options.imposition);
   std::optional<SignedDistance> skull;
   std::optional<Contact> contact;
   if (model.skull) {
     skull.emplace(*model.skull);
     contact.emplace(*skull, cloud.positions, contact_nodes(cloud), nodal_rows);
   }
+  const NodalVectors external = external_force(model, cloud, nodal_rows, points, point_rows);
   const double setup = seconds_since(start);
 
   const auto stepping = Clock::now();
-  RelaxationResult relaxed =
-      relax({blocks, materials.laws, essential, contact ? &*contact : nullptr}, options, progress);
+  const System system{blocks, laws, essential, contact ? &*contact : nullptr, external, model.curve};
+  SteppingResult stepped = options.dynamics == Dynamics::relaxation
+                               ? relax(system, options, progress)
+                               : step_in_time(system, materials, options, progress);
 
-  SolveResult result;
-  result.failure = relaxed.failure;
-  result.history = std::move(relaxed.history);
+  result.failure = stepped.failure;
+  result.history = std::move(stepped.history);
   constexpr double newton = 1e-6;  // µN to N
-  result.solution = {model.cloud.positions, nodal_displacement(nodal_rows, relaxed.parameters, cloud.original),
-                     newton * in_original_order(relaxed.reactions, cloud.original), model.cloud.spacing, options.shape};
-  for (const RelaxationSnapshot& s : relaxed.snapshots) {
+  result.solution = {model.cloud.positions, nodal_displacement(nodal_rows, stepped.parameters, cloud.original),
+                     newton * in_original_order(stepped.reactions, cloud.original), model.cloud.spacing, options.shape};
+  for (const ParameterSnapshot& s : stepped.snapshots) {
     result.snapshots.push_back({s.step, s.time, nodal_displacement(nodal_rows, s.parameters, cloud.original)});
   }
   SolveMeasures& m = result.measures;
@@ -236,20 +331,20 @@ SolveResult solve(const Model& model, const SolveOptions& options, const Progres
   m.mean_support = static_cast<double>(m.pairs) / static_cast<double>(m.integration_points);
   m.grown_supports = point_rows.grown;
   m.outside_label = points.labelled_by_cell;
-  m.loaded_nodes = count_loaded(cloud.prescribed);
-  m.steps = relaxed.steps;
-  m.converged = relaxed.failure.empty();
-  m.error_bound = relaxed.error_bound;
-  m.critical_step = critical_step(blocks, materials.wave_speed);
+  m.loaded_nodes = count_loaded(cloud);
+  m.steps = stepped.steps;
+  m.converged = stepped.failure.empty();
+  m.error_bound = stepped.error_bound;
+  m.critical_step = physical_critical_step(blocks, laws, materials);
   m.largest_displacement = result.solution.displacement.rowwise().norm().maxCoeff();
-  m.constraint_error = essential.largest_error(relaxed.parameters);
+  m.constraint_error = essential.largest_error(stepped.fraction, stepped.parameters);
   if (contact) {
-    const Contact::Measures touch = contact->measure(relaxed.parameters);
+    const Contact::Measures touch = contact->measure(stepped.parameters);
     m.contact_nodes = touch.touching;
     m.largest_penetration = touch.largest_penetration;
   }
-  m.smallest_jacobian = relaxed.state.smallest_jacobian;
-  m.largest_stretch = relaxed.state.largest_stretch;
+  m.smallest_jacobian = stepped.state.smallest_jacobian;
+  m.largest_stretch = stepped.state.largest_stretch;
   m.seconds_setup = setup;
   m.seconds_stepping = seconds_since(stepping);
   return result;

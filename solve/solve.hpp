@@ -12,6 +12,9 @@
 #include "discretise/node_cloud.hpp"
 #include "segmentation/image/image.hpp"
 #include "segmentation/progress.hpp"
+#include "solve/boundary/essential_conditions.hpp"
+#include "solve/boundary/external_force.hpp"
+#include "solve/boundary/load_curve.hpp"
 #include "solve/material/material.hpp"
 #include "solve/solution.hpp"
 
@@ -19,19 +22,40 @@ namespace brainshift::solve {
 
 /// How the volumetric part of the strain energy is integrated.
 enum class Volumetric : std::uint8_t {
-  mean_dilatation,  ///< one pressure a background cell, K(J̄ − 1): no volumetric locking
+  mean_dilatation,  ///< pressures linear over patches of a few nodes, pressure_patches.hpp: no volumetric locking
   pointwise,        ///< the plain method
 };
 
+/// Whether derivatives are corrected for background cells that do not conform to the body.
+enum class Integration : std::uint8_t {
+  plain,
+  consistent,  ///< make_derivatives_consistent(): the linear patch test holds
+};
+
+/// What time stepping is for.
+enum class Dynamics : std::uint8_t {
+  relaxation,  ///< the steady state under the full load: adaptive dynamic relaxation
+  transient,   ///< the motion in time, with the physical mass
+};
+
 struct SolveOptions {
-  ShapeOptions shape;
+  ShapeOptions shape;  ///< planar is set from the model
   Volumetric volumetric = Volumetric::mean_dilatation;
-  int points_per_cell = 8;  ///< hexahedra: 1 or 8; tetrahedra: 1 or 4
-  double tolerance = 0.01;  ///< stop when the bound of the remaining error is below this, mm
-  int load_steps = 400;     ///< steps of 3-4-5 loading
+  double nodes_per_patch = 6;  ///< of mean dilatation
+  Integration integration = Integration::plain;
+  Imposition imposition = Imposition::exact;
+  int points_per_cell = 8;  ///< hexahedra 1 or 8, tetrahedra 1 or 4, quadrilaterals 1 or 4, triangles 1 or 3
+  Dynamics dynamics = Dynamics::relaxation;
+  double tolerance = 0.01;  ///< relaxation: stop when the bound of the remaining error is below this, mm
+  int load_steps = 400;     ///< relaxation: steps over the load's curve
+  double time_step = 0;     ///< transient: s; 0: nine tenths of the critical one
+  double damping = 0;       ///< transient: c of eq 26, 1/s
   int max_steps = 50000;
   int snapshot_every = 0;  ///< steps between displacements kept for steps.pvd, each 20th at the most; 0: none
 };
+
+/// Three dimensions, or a plane problem on nodes and cells with z = 0; forces are then per mm of thickness.
+enum class Plane : std::uint8_t { none, strain, stress };
 
 /// What is solved.
 struct Model {
@@ -40,23 +64,29 @@ struct Model {
   std::optional<LabelMap> labels;              ///< tissue at an integration point; absent, or 0 there: the cell's label
   std::map<std::int32_t, Material> materials;  ///< by label
   std::optional<Surface> skull;                ///< rigid, frictionless contact from inside; absent: none
+  Plane plane = Plane::none;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s²
+  BodyForce body_force = {};                          ///< N/mm³ undeformed; empty: none
+  LoadCurve curve = {};  ///< of prescribed displacements and all forces; in a transient run its times are seconds
 };
 
 /// A row of history.csv.
 struct HistoryRow {
   int step = 0;
-  double time = 0;            ///< fraction of the load, 0 to 1
-  double external_work = 0;   ///< mJ
-  double strain_energy = 0;   ///< mJ
-  double kinetic_energy = 0;  ///< mJ, fictitious in dynamic relaxation
-  double residual = 0;        ///< |f_int - reactions| / |reactions|
-  double error_bound = 0;     ///< mm; infinite until it is estimated
+  double time = 0;                                     ///< relaxation: share of the load's curve, 0 to 1; transient: s
+  double external_work = 0;                            ///< mJ
+  double strain_energy = 0;                            ///< mJ
+  double kinetic_energy = 0;                           ///< mJ, fictitious in dynamic relaxation
+  double dissipated_energy = 0;                        ///< mJ, by the damping
+  Eigen::Vector3d reaction = Eigen::Vector3d::Zero();  ///< N, sum over the nodes whose prescribed displacement is not 0
+  double residual = 0;                                 ///< |f_int - reactions| / |reactions|
+  double error_bound = 0;                              ///< mm; infinite until it is estimated
 };
 
 /// The displacement on the way to the end state.
 struct Snapshot {
   int step = 0;
-  double time = 0;                     ///< fraction of the load, 0 to 1
+  double time = 0;                     ///< as in HistoryRow
   Points displacement = Points(0, 3);  ///< mm, in the cloud's order
 };
 
@@ -72,7 +102,8 @@ struct SolveMeasures {
   int steps = 0;
   bool converged = false;
   double error_bound = 0;           ///< mm
-  double critical_step = 0;         ///< eq 25 with the physical mass, s
+  double critical_step = 0;         ///< with the physical mass, s: a rigorous bound for the undeformed body
+  int consistency_iterations = 0;   ///< of the correction of the derivatives
   double largest_displacement = 0;  ///< mm
   double constraint_error = 0;      ///< largest |Σφû − prescribed|, mm
   double largest_penetration = 0;   ///< deepest node outside the skull, mm
@@ -90,9 +121,9 @@ struct SolveResult {
   std::string failure;  ///< empty when converged; else one sentence: what went wrong, where and when (exit 3)
 };
 
-/// Runs the stage: MTLED with adaptive dynamic relaxation to the steady state. Throws std::invalid_argument when the
-/// model cannot be solved: a label without a material, too few nodes for a support, constraints that contradict each
-/// other, nothing that holds the body.
+/// Runs the stage: MTLED, to the steady state by adaptive dynamic relaxation or in time. Throws std::invalid_argument
+/// when the model cannot be solved: a label without a material, too few nodes for a support, constraints that
+/// contradict each other, nothing that holds the body, a plane problem with contact or cells of three dimensions.
 SolveResult solve(const Model& model, const SolveOptions& options, const Progress& progress = {});
 
 /// Writes steps/NNNNNN.vtu, one a snapshot, and steps.pvd that ParaView plays, into the folder.

@@ -36,11 +36,11 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of_nodes(const ShapeRows& rows
 }  // namespace
 
 EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows,
-                                         std::vector<std::int32_t> names)
-    : names_(std::move(names)) {
+                                         std::vector<std::int32_t> names, Imposition imposition)
+    : names_(std::move(names)), imposition_(imposition) {
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
-    std::vector<double> values;
+    std::vector<double> values, loaded;
     for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
       const double value = prescribed(a, axis);
       if (std::isinf(value)) {
@@ -51,10 +51,12 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
       if (!std::isnan(value)) {
         c.node.push_back(static_cast<std::int32_t>(a));
         values.push_back(value);
+        loaded.push_back((prescribed.row(a).array().abs() > 0).any() ? 1.0 : 0.0);
       }
     }
     c.shape = rows_of_nodes(nodal_rows, c.node);
     c.prescribed = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    c.loaded = Eigen::Map<const Eigen::VectorXd>(loaded.data(), static_cast<Eigen::Index>(loaded.size()));
     c.multiplier = Eigen::VectorXd::Zero(c.prescribed.size());
   }
 }
@@ -68,6 +70,12 @@ void EssentialConditions::factorise(std::span<const double> mass) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Component& c = component_[axis];
     if (c.node.empty()) {
+      continue;
+    }
+    if (imposition_ == Imposition::simplified) {
+      const Eigen::VectorXd at_nodes =
+          inverse.cwiseProduct(c.shape.cwiseAbs().transpose() * Eigen::VectorXd::Ones(c.prescribed.size()));
+      c.lumped = c.shape.cwiseAbs() * at_nodes;
       continue;
     }
     if (axis > 0 && c.node == component_[axis - 1].node) {
@@ -93,7 +101,8 @@ void EssentialConditions::apply(double fraction, NodalVectors& parameters) {
     if (c.node.empty()) {
       continue;
     }
-    c.multiplier = c.factor->solve(fraction * c.prescribed - c.shape * component_of(parameters, axis));
+    const Eigen::VectorXd error = fraction * c.prescribed - c.shape * component_of(parameters, axis);
+    c.multiplier = c.factor ? c.factor->solve(error) : error.cwiseQuotient(c.lumped).eval();
     for (Eigen::Index i = 0; i < c.shape.rows(); ++i) {
       for (RowMatrix::InnerIterator entry(c.shape, i); entry; ++entry) {
         const auto node = static_cast<std::size_t>(entry.col());
@@ -114,12 +123,22 @@ Points EssentialConditions::reactions(double step_squared, std::size_t nodes) co
   return forces;
 }
 
-double EssentialConditions::largest_error(const NodalVectors& parameters) const {
+Eigen::Vector3d EssentialConditions::reaction_of_loaded(double step_squared) const {
+  Eigen::Vector3d sum;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Component& c = component_[static_cast<std::size_t>(axis)];
+    sum[axis] = c.multiplier.dot(c.loaded) / step_squared;
+  }
+  return sum;
+}
+
+double EssentialConditions::largest_error(double fraction, const NodalVectors& parameters) const {
   double largest = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const Component& c = component_[static_cast<std::size_t>(axis)];
     if (!c.node.empty()) {
-      largest = std::max(largest, (c.shape * component_of(parameters, axis) - c.prescribed).cwiseAbs().maxCoeff());
+      largest =
+          std::max(largest, (c.shape * component_of(parameters, axis) - fraction * c.prescribed).cwiseAbs().maxCoeff());
     }
   }
   return largest;

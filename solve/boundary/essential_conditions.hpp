@@ -16,6 +16,10 @@
 
 namespace brainshift::solve {
 
+/// How the conditions are imposed. The simplified form lumps V M⁻¹ Vᵀ into the row sums of |V| M⁻¹ |V|ᵀ: nothing to
+/// factorise, but at rest V û differs from ū by what the next step takes back.
+enum class Imposition : std::uint8_t { exact, simplified };
+
 /// Essential conditions on Σφû, EBCIEM (Joldes et al. 2017): after a step the parameters are projected onto V û = ū,
 ///   û ← û + M⁻¹Vᵀ μ,  (V M⁻¹ Vᵀ) μ = ū − V û,
 /// with V the shape functions at the constrained nodes. The multipliers give the reaction forces.
@@ -24,10 +28,11 @@ class EssentialConditions {
  public:
   /// prescribed (n × 3) mm, NaN: free. nodal_rows: shape functions at all nodes' positions. names: what the user calls
   /// the nodes. Throws std::invalid_argument, naming the node, where a prescribed value is infinite.
-  EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names);
+  EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names,
+                      Imposition imposition = Imposition::exact);
 
-  /// Factorises V M⁻¹ Vᵀ for nodal masses (one a node). Throws std::invalid_argument, naming a node, when it is
-  /// singular: two constrained nodes say the same.
+  /// Factorises (or lumps) V M⁻¹ Vᵀ for nodal masses (one a node). Throws std::invalid_argument, naming a node, when it
+  /// is singular: two constrained nodes say the same.
   void factorise(std::span<const double> mass);
 
   /// Projects the parameters onto V û = fraction · ū. The multipliers are kept.
@@ -37,8 +42,11 @@ class EssentialConditions {
   /// at free components.
   Points reactions(double step_squared, std::size_t nodes) const;
 
-  /// Largest |V û − ū| at full load, mm.
-  double largest_error(const NodalVectors& parameters) const;
+  /// Sum of the reactions on nodes that are loaded: whose prescribed displacement is not all zero, µN.
+  Eigen::Vector3d reaction_of_loaded(double step_squared) const;
+
+  /// Largest |V û − fraction · ū|, mm.
+  double largest_error(double fraction, const NodalVectors& parameters) const;
 
   /// Σ μ·ū over all conditions: the rate of work of the reactions by the load's fraction, times α.
   double multiplier_work() const;
@@ -50,11 +58,14 @@ class EssentialConditions {
     RowMatrix shape;             ///< V, (conditions × nodes)
     Eigen::VectorXd prescribed;  ///< ū, mm
     Eigen::VectorXd multiplier;  ///< μ
+    Eigen::VectorXd loaded;      ///< 1 where the node is loaded, else 0
+    Eigen::VectorXd lumped;      ///< of the simplified form
     std::shared_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> factor;
   };
   std::array<Component, 3> component_;
   std::vector<double> inverse_mass_;
   std::vector<std::int32_t> names_;
+  Imposition imposition_;
 };
 
 }  // namespace brainshift::solve

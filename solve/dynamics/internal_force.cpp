@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/dynamics/internal_force.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
+
+#include "solve/dynamics/patch_dilatation.hpp"
+#include "solve/material/volumetric.hpp"
 
 namespace brainshift::solve {
 
@@ -58,35 +61,76 @@ void scatter_stress(std::span<const std::uint16_t> slots, const double* derivati
   }
 }
 
-Eigen::Map<const Eigen::Matrix3d> gradient_of(const ForceScratch& scratch, std::int32_t point) {
-  return Eigen::Map<const Eigen::Matrix3d>(scratch.gradient.data() + 9 * static_cast<std::size_t>(point));
+/// F_33 for which P_33 = 0, by the secant method from the last step's.
+template <class ElasticLaw>
+double free_thickness(const ElasticLaw& law, Eigen::Matrix3d gradient, double start) {
+  constexpr int most = 50;
+  constexpr double relative = 1e-10;
+  const auto normal_stress = [&](double stretch) {
+    gradient(2, 2) = stretch;
+    const Deformation d(gradient);
+    return law.isochoric_stress(d)(2, 2) + volumetric_pressure(law, law.dilatation(d)) * law.dilatation_slope(d)(2, 2);
+  };
+  double before = start * (1 + 1e-4), now = start;
+  double stress_before = normal_stress(before), stress = normal_stress(now);
+  for (int i = 0; i < most && std::abs(stress) > relative * law.bulk_modulus && stress != stress_before; ++i) {
+    const double next = now - stress * (now - before) / (stress - stress_before);
+    before = now;
+    stress_before = stress;
+    now = std::clamp(next, now / 2, 2 * now);
+    stress = normal_stress(now);
+  }
+  return now;
 }
 
-double mean_jacobian(const PointBlocks& points, const Patch& patch, const ForceScratch& scratch) {
-  double swept = 0;
-  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-    swept += points.volume[static_cast<std::size_t>(p)] * Deformation(gradient_of(scratch, p)).jacobian;
+/// Where a patch's points keep what a time step of Prony terms needs; nothing for a law that does not relax.
+struct Relaxing {
+  const PronyStep* step;
+  ForceScratch* scratch;
+
+  template <class ElasticLaw>
+  Eigen::Matrix3d stress(const ElasticLaw& law, const Deformation& d, std::int32_t point) const {
+    const std::size_t begin = scratch->viscous_begin[static_cast<std::size_t>(point)];
+    return viscous_stress(law, *step, d,
+                          std::span(scratch->viscous_state).subspan(begin, viscous_state_size(step->terms.size())));
   }
-  return swept / patch.volume;
+};
+
+struct NotRelaxing {
+  template <class ElasticLaw>
+  Eigen::Matrix3d stress(const ElasticLaw& law, const Deformation& d, std::int32_t) const {
+    return law.isochoric_stress(d);
+  }
+};
+
+template <class ElasticLaw>
+void patch_gradients(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, bool plane_stress,
+                     const double* displacement, ForceScratch& scratch) {
+  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+    const auto i = static_cast<std::size_t>(p);
+    deformation_gradient(points.slots_of(p), points.derivatives_of(p), displacement, scratch.gradient.data() + 9 * i);
+    if (plane_stress) {
+      scratch.thickness[i] = free_thickness(law, gradient_of(scratch, p), scratch.thickness[i]);
+      scratch.gradient[9 * i + 8] = scratch.thickness[i];
+    }
+  }
 }
 
-void patch_force(const PointBlocks& points, const Patch& patch, const NeoHookean& law, const double* displacement,
-                 double* force, ForceScratch& scratch) {
-  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-    deformation_gradient(points.slots_of(p), points.derivatives_of(p), displacement,
-                         scratch.gradient.data() + 9 * static_cast<std::size_t>(p));
-  }
-  const double pressure = law.pressure(mean_jacobian(points, patch, scratch));
+template <class ElasticLaw, class Viscosity>
+void patch_force(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const Viscosity& viscosity,
+                 double* force, const ForceScratch& scratch) {
+  const Eigen::Vector4d pressures = law.bulk_modulus * projected_dilatation(points, patch, law, scratch);
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const Deformation d(gradient_of(scratch, p));
+    const double pressure = pressures.dot(points.modes_of(p));
     const Eigen::Matrix3d stress =
-        points.volume[static_cast<std::size_t>(p)] * (law.isochoric_stress(d) + pressure * d.cofactor);
+        points.volume[static_cast<std::size_t>(p)] * (viscosity.stress(law, d, p) + pressure * law.dilatation_slope(d));
     scatter_stress(points.slots_of(p), points.derivatives_of(p), stress.data(), force);
   }
 }
 
-void block_force(const PointBlocks& points, const Block& block, std::span<const NeoHookean> laws,
-                 const NodalVectors& parameters, ForceScratch& scratch) {
+void block_force(const PointBlocks& points, const Block& block, const PointLaws& laws, const NodalVectors& parameters,
+                 ForceScratch& scratch) {
   const auto first = static_cast<std::size_t>(block.first_slot);
   const auto slots = static_cast<std::size_t>(block.slots);
   double* displacement = scratch.slot_displacement.data() + 4 * first;
@@ -98,19 +142,41 @@ void block_force(const PointBlocks& points, const Block& block, std::span<const 
   std::fill_n(force, 4 * slots, 0.0);
   for (std::int32_t i = block.first_patch; i < block.last_patch; ++i) {
     const Patch& patch = points.patches[static_cast<std::size_t>(i)];
-    patch_force(points, patch, laws[static_cast<std::size_t>(patch.material)], displacement, force, scratch);
+    const auto row = static_cast<std::size_t>(patch.material);
+    std::visit(
+        [&](const auto& law) {
+          patch_gradients(points, patch, law, laws.plane_stress, displacement, scratch);
+          if (laws.prony.empty() || laws.prony[row].terms.empty()) {
+            patch_force(points, patch, law, NotRelaxing{}, force, scratch);
+          } else {
+            patch_force(points, patch, law, Relaxing{&laws.prony[row], &scratch}, force, scratch);
+          }
+        },
+        laws.elastic[row]);
   }
-}
-
-Eigen::Vector3d principal_stretches(const Eigen::Matrix3d& gradient) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(gradient.transpose() * gradient, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues().cwiseMax(1e-8).cwiseSqrt();
 }
 
 }  // namespace
 
-void internal_force(const PointBlocks& points, std::span<const NeoHookean> laws, const NodalVectors& parameters,
+ForceScratch::ForceScratch(const PointBlocks& points, const PointLaws& laws)
+    : slot_displacement(4 * points.slots()), slot_force(4 * points.slots()), gradient(9 * points.points()) {
+  if (laws.plane_stress) {
+    thickness.assign(points.points(), 1.0);
+  }
+  if (!laws.prony.empty()) {
+    std::size_t size = 0;
+    for (const Patch& patch : points.patches) {
+      const std::size_t terms = laws.prony[static_cast<std::size_t>(patch.material)].terms.size();
+      for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+        viscous_begin.push_back(size);
+        size += terms > 0 ? viscous_state_size(terms) : 0;
+      }
+    }
+    viscous_state.assign(size, 0.0);
+  }
+}
+
+void internal_force(const PointBlocks& points, const PointLaws& laws, const NodalVectors& parameters,
                     ForceScratch& scratch, NodalVectors& force) {
   const auto blocks = static_cast<std::int64_t>(points.blocks.size());
   const auto nodes = static_cast<std::int64_t>(points.nodes());
@@ -131,63 +197,6 @@ void internal_force(const PointBlocks& points, std::span<const NeoHookean> laws,
       Eigen::Map<Eigen::Vector4d>(force.data() + 4 * node) = sum;
     }
   }
-}
-
-namespace {
-
-PointState block_state(const PointBlocks& points, const Block& block, std::span<const NeoHookean> laws,
-                       const ForceScratch& scratch) {
-  PointState state;
-  for (std::int32_t i = block.first_patch; i < block.last_patch; ++i) {
-    const Patch& patch = points.patches[static_cast<std::size_t>(i)];
-    const NeoHookean& law = laws[static_cast<std::size_t>(patch.material)];
-    state.strain_energy += patch.volume * law.volumetric_energy(mean_jacobian(points, patch, scratch));
-    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-      const Deformation d(gradient_of(scratch, p));
-      state.strain_energy += points.volume[static_cast<std::size_t>(p)] * law.isochoric_energy(d);
-      // written so that a NaN stays
-      state.smallest_jacobian = d.jacobian >= state.smallest_jacobian ? state.smallest_jacobian : d.jacobian;
-      state.largest_stretch = std::max(state.largest_stretch, principal_stretches(d.gradient).maxCoeff());
-    }
-  }
-  return state;
-}
-
-}  // namespace
-
-PointState point_state(const PointBlocks& points, std::span<const NeoHookean> laws, const ForceScratch& scratch) {
-  std::vector<PointState> partial(points.blocks.size());
-  const auto blocks = static_cast<std::int64_t>(points.blocks.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::int64_t b = 0; b < blocks; ++b) {
-    const auto i = static_cast<std::size_t>(b);
-    partial[i] = block_state(points, points.blocks[i], laws, scratch);
-  }
-  PointState state;
-  for (const PointState& part : partial) {
-    state.strain_energy += part.strain_energy;
-    state.smallest_jacobian =
-        part.smallest_jacobian >= state.smallest_jacobian ? state.smallest_jacobian : part.smallest_jacobian;
-    state.largest_stretch = std::max(state.largest_stretch, part.largest_stretch);
-  }
-  return state;
-}
-
-std::vector<double> tangent_moduli(const PointBlocks& points, std::span<const NeoHookean> laws,
-                                   const ForceScratch& scratch) {
-  std::vector<double> moduli(points.points());
-  const auto patches = static_cast<std::int64_t>(points.patches.size());
-#pragma omp parallel for schedule(static)
-  for (std::int64_t i = 0; i < patches; ++i) {
-    const Patch& patch = points.patches[static_cast<std::size_t>(i)];
-    const NeoHookean& law = laws[static_cast<std::size_t>(patch.material)];
-    const double pressure = law.pressure(mean_jacobian(points, patch, scratch));
-    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-      const double tangent = largest_tangent(law, principal_stretches(gradient_of(scratch, p)), pressure);
-      moduli[static_cast<std::size_t>(p)] = std::max(tangent, law.wave_modulus());
-    }
-  }
-  return moduli;
 }
 
 }  // namespace brainshift::solve

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "solve/dynamics/space_filling.hpp"
-
 namespace brainshift::solve {
 
 namespace {
@@ -15,46 +13,6 @@ constexpr std::int64_t pairs_per_block =
 
 constexpr std::int32_t points_per_block =
     512;  // a block's nodes, forces and derivatives stay in the second-level cache
-
-/// Points along the space-filling curve of their cells, the points of a cell side by side and sorted by material.
-std::vector<std::int32_t> point_order(const IntegrationPoints& points, std::span<const std::int32_t> material) {
-  const std::vector<std::int32_t> along_curve = space_filling_order(points.positions);
-  const std::int32_t cells = points.cell.empty() ? 0 : 1 + *std::max_element(points.cell.begin(), points.cell.end());
-  std::vector<std::int32_t> rank(static_cast<std::size_t>(cells), -1);
-  std::int32_t next = 0;
-  for (const std::int32_t p : along_curve) {
-    std::int32_t& r = rank[static_cast<std::size_t>(points.cell[static_cast<std::size_t>(p)])];
-    r = r < 0 ? next++ : r;
-  }
-  std::vector<std::int32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    const auto i = static_cast<std::size_t>(a);
-    const auto j = static_cast<std::size_t>(b);
-    const std::int32_t ri = rank[static_cast<std::size_t>(points.cell[i])];
-    const std::int32_t rj = rank[static_cast<std::size_t>(points.cell[j])];
-    return ri != rj ? ri < rj : material[i] < material[j];
-  });
-  return order;
-}
-
-std::vector<Patch> group_patches(const IntegrationPoints& points, std::span<const std::int32_t> material,
-                                 const std::vector<std::int32_t>& order, bool shared_pressure) {
-  std::vector<Patch> patches;
-  std::int32_t last_cell = -1;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const auto p = static_cast<std::size_t>(order[k]);
-    const auto at = static_cast<std::int32_t>(k);
-    const bool same = shared_pressure && points.cell[p] == last_cell && patches.back().material == material[p];
-    if (!same) {
-      patches.push_back({at, at, material[p], 0});
-    }
-    patches.back().last_point = at + 1;
-    patches.back().volume += points.volume[p];
-    last_cell = points.cell[p];
-  }
-  return patches;
-}
 
 std::int64_t pairs_of(const Patch& patch, const ShapeRows& rows, const std::vector<std::int32_t>& order) {
   std::int64_t pairs = 0;
@@ -113,15 +71,22 @@ void list_slots_of_nodes(PointBlocks& out, std::size_t nodes) {
 }  // namespace
 
 PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows, std::span<const std::int32_t> material,
-                         std::size_t nodes, bool shared_pressure) {
-  const std::vector<std::int32_t> order = point_order(points, material);
+                         std::size_t nodes, const PressurePatches& patched) {
+  const std::vector<std::int32_t>& order = patched.order;
   PointBlocks out;
-  out.patches = group_patches(points, material, order, shared_pressure);
   out.pair_begin.push_back(0);
   out.pair_slot.reserve(rows.node.size());
   out.pair_derivative.reserve(rows.derivative.size());
   for (const std::int32_t p : order) {
     out.volume.push_back(points.volume[static_cast<std::size_t>(p)]);
+  }
+  out.mode.resize(4 * order.size());
+  for (std::size_t i = 0; i < patched.size(); ++i) {
+    const auto first = static_cast<std::size_t>(patched.begin[i]);
+    const auto count = static_cast<std::size_t>(patched.begin[i + 1]) - first;
+    out.patches.push_back({patched.begin[i], patched.begin[i + 1], material[static_cast<std::size_t>(order[first])]});
+    pressure_modes(points.positions, points.volume, std::span(order).subspan(first, count),
+                   std::span(out.mode).subspan(4 * first, 4 * count));
   }
   std::vector<std::int32_t> slot_of_node(nodes, 0);
   Block block{0, 0, 0, 0};

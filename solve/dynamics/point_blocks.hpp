@@ -6,16 +6,15 @@
 #include <vector>
 
 #include "solve/quadrature/integration_points.hpp"
+#include "solve/quadrature/pressure_patches.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::solve {
 
-/// The integration points that share one pressure (those of a background cell that are of one tissue) or, without mean
-/// dilatation, one point.
+/// Integration points whose dilatation is projected onto the patch's pressure modes; without projection, one point.
 struct Patch {
   std::int32_t first_point, last_point;  ///< [first, last)
   std::int32_t material;                 ///< row of the material table
-  double volume;                         ///< Σ w, mm³
 };
 
 /// A few hundred consecutive points, handled by one thread at a time with its nodes gathered side by side. The division
@@ -32,6 +31,7 @@ struct PointBlocks {
   std::vector<Block> blocks;
   std::vector<Patch> patches;
   std::vector<double> volume;            ///< one a point, mm³
+  std::vector<double> mode;              ///< (points × 4) pressure modes, orthonormal in Σ w over a patch
   std::vector<std::int64_t> pair_begin;  ///< (points + 1)
   std::vector<std::uint16_t> pair_slot;  ///< one a (point, node) pair: local node of the block
   std::vector<double> pair_derivative;   ///< (pairs × 3) ∂φ_a/∂X_J, 1/mm
@@ -50,15 +50,18 @@ struct PointBlocks {
     const auto p = static_cast<std::size_t>(point);
     return static_cast<std::size_t>(pair_begin[p + 1] - pair_begin[p]);
   }
+  Eigen::Map<const Eigen::Vector4d> modes_of(std::int32_t point) const {
+    return Eigen::Map<const Eigen::Vector4d>(mode.data() + 4 * static_cast<std::size_t>(point));
+  }
   /// (support × 3) derivatives of a point's shape functions.
   const double* derivatives_of(std::int32_t point) const {
     return pair_derivative.data() + 3 * pair_begin[static_cast<std::size_t>(point)];
   }
 };
 
-/// Lays out points and their shape functions. material: row of the material table, one a point. Points are taken in an
-/// order near in space; shared_pressure groups the points of a cell and tissue into one patch.
+/// Lays out points and their shape functions, in the order of the patches. material: row of the material table, one a
+/// point.
 PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows, std::span<const std::int32_t> material,
-                         std::size_t nodes, bool shared_pressure);
+                         std::size_t nodes, const PressurePatches& patches);
 
 }  // namespace brainshift::solve

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <sstream>
 
-#include "solve/boundary/load_curve.hpp"
-#include "solve/dynamics/nodal_mass.hpp"
+#include "solve/dynamics/largest_eigenvalue.hpp"
+#include "solve/dynamics/stiffness_bound.hpp"
 
 namespace brainshift::solve {
 
@@ -18,33 +17,9 @@ constexpr int window = 20;         // steps between looks at the state
 constexpr int recent_windows = 4;  // that the error bound looks back on
 constexpr int power_iterations = 40;
 constexpr double eigenvalue_margin = 1.25;  // power iteration comes from below, and tangents turn as the body deforms
-constexpr double rest_amplitude = 1e-7;     // mm: small enough to stay linear
-constexpr double mass_margin = 1.1;         // tangents may grow by this before the masses are made anew
+constexpr double mass_margin = 1.1;         // stiffness may grow by this before the masses are made anew
 constexpr double energy_unit = 1e-6;        // g mm²/s² to mJ
-constexpr std::int64_t chunk = 2048;        // nodes summed at a time: sums do not depend on the number of threads
-
-/// Sums term(node) over the nodes, in an order that does not depend on the number of threads.
-template <class Term>
-double sum_over_nodes(std::size_t nodes, const Term& term) {
-  const std::int64_t chunks = (static_cast<std::int64_t>(nodes) + chunk - 1) / chunk;
-  std::vector<double> partial(static_cast<std::size_t>(chunks), 0.0);
-#pragma omp parallel for schedule(static)
-  for (std::int64_t c = 0; c < chunks; ++c) {
-    const auto end = std::min(static_cast<std::size_t>((c + 1) * chunk), nodes);
-    for (auto a = static_cast<std::size_t>(c * chunk); a < end; ++a) {
-      partial[static_cast<std::size_t>(c)] += term(a);
-    }
-  }
-  double sum = 0;
-  for (const double p : partial) {
-    sum += p;
-  }
-  return sum;
-}
-
-Eigen::Map<const Eigen::Vector4d> at(const NodalVectors& v, std::size_t node) {
-  return Eigen::Map<const Eigen::Vector4d>(v.data() + 4 * node);
-}
+constexpr double newton = 1e-6;             // µN to N
 
 /// α of all steps. It stays the same: nodes in contact rest where a step's push and their way back cancel, which moves
 /// with α. Stable up to 2(1 + β) for A_m = 1; the best, 4/(1 + √A_0)², would save an eighth of the steps.
@@ -63,7 +38,7 @@ class Relaxation {
       : system_(system),
         options_(options),
         nodes_(system.points.nodes()),
-        scratch_(system.points),
+        scratch_(system.points, system.laws),
         now_(4 * nodes_, 0.0),
         before_(now_),
         next_(now_),
@@ -74,23 +49,24 @@ class Relaxation {
         load_steps_(std::max(options.load_steps, 1)),
         next_snapshot_(options.snapshot_every) {
     internal_force(system_.points, system_.laws, now_, scratch_, force_);
-    moduli_ = tangent_moduli(system_.points, system_.laws, scratch_);
-    for (double& m : moduli_) {
-      m *= mass_margin;
-    }
+    mass_ = stiffness_bound(system_.points, system_.laws, scratch_);
     if (!cautious) {
-      mass_scale_ = eigenvalue_margin * largest_eigenvalue_at_rest();
+      const double largest = largest_eigenvalue(system_.points, system_.laws, mass_, power_iterations);
+      mass_scale_ = std::min(eigenvalue_margin * largest, 1.0);
     }
-    set_masses();
+    for (double& m : mass_) {
+      m *= mass_margin * mass_scale_;
+    }
+    use_masses();
   }
 
-  RelaxationResult run(const Progress& progress) {
+  SteppingResult run(const Progress& progress) {
     while (result_.failure.empty() && result_.steps < options_.max_steps) {
-      step(std::min(1.0, static_cast<double>(result_.steps + 1) / load_steps_));
+      step();
       if (result_.steps % window == 0) {
         look();
         report_progress(progress);
-        if (fraction_ >= 1 && bound_ <= options_.tolerance) {
+        if (time_ >= 1 && bound_ <= options_.tolerance) {
           return finish();
         }
       }
@@ -105,119 +81,83 @@ class Relaxation {
   }
 
  private:
-  void set_masses() {
-    mass_ = relaxation_mass(system_.points, moduli_);
-    for (double& m : mass_) {
-      m *= mass_scale_;
-    }
+  void use_masses() {
     system_.essential.factorise(mass_);
     if (system_.contact) {
       system_.contact->weigh(mass_);
     }
   }
 
-  /// Largest eigenvalue of M⁻¹K with the masses of the bound, by power iteration from a rough start: between 0 and 1.
-  double largest_eigenvalue_at_rest() {
-    const std::vector<double> mass = relaxation_mass(system_.points, moduli_);
-    NodalVectors shape(4 * nodes_, 0.0);
-    std::mt19937 random(1);
-    for (std::size_t i = 0; i < shape.size(); ++i) {
-      shape[i] = i % 4 < 3 ? static_cast<double>(random() % 2001) - 1000.0 : 0.0;
-    }
-    double eigenvalue = 1;
-    for (int iteration = 0; iteration < power_iterations; ++iteration) {
-      const double norm =
-          std::sqrt(sum_over_nodes(nodes_, [&](std::size_t a) { return mass[a] * at(shape, a).squaredNorm(); }));
-      const double scale = rest_amplitude * std::sqrt(mass[0]) / norm;
-      for (double& x : shape) {
-        x *= scale;
-      }
-      internal_force(system_.points, system_.laws, shape, scratch_, force_);
-      const double inertia =
-          sum_over_nodes(nodes_, [&](std::size_t a) { return mass[a] * at(shape, a).squaredNorm(); });
-      eigenvalue = sum_over_nodes(nodes_, [&](std::size_t a) { return at(shape, a).dot(at(force_, a)); }) / inertia;
-      for (std::size_t i = 0; i < shape.size(); ++i) {
-        shape[i] = force_[i] / mass[i / 4];
-      }
-    }
-    return std::min(eigenvalue, 1.0 / eigenvalue_margin);
-  }
-
-  void step(double time) {
+  void step() {
     if (result_.steps % window == window - 1) {
       std::swap(force_, force_before_);
     }
     internal_force(system_.points, system_.laws, now_, scratch_, force_);
+    if (!system_.external.empty()) {
+      add_external_force();
+    }
     const double beta = critical_beta(lowest_);
     const auto nodes = static_cast<std::int64_t>(nodes_);
 #pragma omp parallel for schedule(static)
     for (std::int64_t i = 0; i < nodes; ++i) {
       const auto a = static_cast<std::size_t>(i);
-      Eigen::Map<Eigen::Vector4d>(next_.data() + 4 * a) =
-          at(now_, a) + beta * (at(now_, a) - at(before_, a)) - alpha / mass_[a] * at(force_, a);
+      at(next_, a) = at(now_, a) + beta * (at(now_, a) - at(before_, a)) - alpha / mass_[a] * at(force_, a);
     }
     if (system_.contact) {
       system_.contact->apply(next_);
     }
-    const double fraction = smooth_load(time);
+    time_ = std::min(1.0, static_cast<double>(result_.steps + 1) / load_steps_);
+    const double fraction = system_.curve.at(time_ * system_.curve.duration());
     system_.essential.apply(fraction, next_);
-    add_external_work(fraction);
+    add_energies(fraction, beta);
     std::swap(before_, now_);
     std::swap(now_, next_);
     ++result_.steps;
   }
 
-  /// Reactions times the displacement they were moved through, by the trapezoidal rule.
-  void add_external_work(double fraction) {
+  /// force_ becomes f_int − f_ext.
+  void add_external_force() {
+    for (std::size_t i = 0; i < force_.size(); ++i) {
+      force_[i] -= fraction_ * system_.external[i];
+    }
+  }
+
+  /// Work of the reactions and the forces by the trapezoidal rule, and what the damping takes: c h mass |Δû|²/h².
+  void add_energies(double fraction, double beta) {
     const double rate = system_.essential.multiplier_work() / alpha;
     external_work_ += (fraction - fraction_) * (rate + work_rate_) / 2;
     work_rate_ = rate;
+    if (!system_.external.empty()) {
+      external_work_ += (fraction + fraction_) / 2 * sum_over_nodes(nodes_, [this](std::size_t a) {
+                          return at(system_.external, a).dot(at(next_, a) - at(now_, a));
+                        });
+    }
+    dissipated_ += (1 - beta) / alpha * sum_over_nodes(nodes_, [this](std::size_t a) {
+                     return mass_[a] * (at(next_, a) - at(now_, a)).squaredNorm();
+                   });
     fraction_ = fraction;
   }
 
   /// Once a window: is the state sound, how far is it from rest, how fast does it get there?
   void look() {
     const PointState state = point_state(system_.points, system_.laws, scratch_);
-    const double motion = largest_motion();
-    if (!sound(state, motion)) {
+    const double motion = largest_difference(now_, before_);
+    result_.failure = unsound(state, motion, result_.steps, fraction_);
+    if (!result_.failure.empty()) {
+      result_.unstable = true;
       return;
     }
     result_.state = state;
+    result_.fraction = fraction_;
     good_ = now_;
     good_reactions_ = system_.essential.reactions(alpha, nodes_);
     estimate_lowest_eigenvalue();
     estimate_error(motion);
     record();
     const int windows = result_.steps / window;
-    if (windows % (fraction_ < 1 ? 3 : 10) == 0) {
-      follow_tangents();
+    if (windows % (time_ < 1 ? 3 : 10) == 0) {
+      follow_stiffness();
     }
-  }
-
-  double largest_motion() const {
-    double largest = 0;
-    for (std::size_t i = 0; i < now_.size(); ++i) {
-      const double moved = std::abs(now_[i] - before_[i]);
-      largest = moved <= largest ? largest : moved;  // a NaN stays
-    }
-    return largest;
-  }
-
-  bool sound(const PointState& state, double motion) {
-    if (std::isfinite(motion) && state.smallest_jacobian > 0) {
-      return true;
-    }
-    std::ostringstream text;
-    text << "unstable at step " << result_.steps << " with " << 100 * fraction_ << " % of the load: ";
-    if (std::isfinite(motion)) {
-      text << "an integration point turned inside out (J = " << state.smallest_jacobian << ")";
-    } else {
-      text << "displacements are no longer finite";
-    }
-    text << "; the load is too large for this cloud, or a material too soft beside its neighbour";
-    result_.failure = text.str();
-    result_.unstable = true;
-    return false;
   }
 
   /// A_0 from the last increments: before_ and force_ are one step after next_ and force_before_.
@@ -228,7 +168,7 @@ class Relaxation {
     const double inertia = sum_over_nodes(
         nodes_, [this](std::size_t a) { return mass_[a] * (at(before_, a) - at(next_, a)).squaredNorm(); });
     if (inertia > 0 && stiffness > 0) {
-      lowest_ = std::clamp(stiffness / inertia, smallest_eigenvalue, largest_eigenvalue);
+      lowest_ = std::clamp(stiffness / inertia, smallest_eigenvalue, largest_eigenvalue_of_beta);
     }
   }
 
@@ -239,7 +179,7 @@ class Relaxation {
     motions_.push_back(motion);
     rates_.push_back(std::sqrt(critical_beta(lowest_)));
     bounds_.push_back(std::numeric_limits<double>::infinity());
-    if (fraction_ >= 1 && motions_.size() > recent_windows) {
+    if (time_ >= 1 && motions_.size() > recent_windows) {
       const double earlier = *(motions_.end() - 1 - recent_windows);
       const double measured = motion > 0 ? std::pow(motion / earlier, 1.0 / (recent_windows * window)) : 0.0;
       const double rate = std::max(measured, *std::max_element(rates_.end() - recent_windows, rates_.end()));
@@ -259,11 +199,13 @@ class Relaxation {
         nodes_, [this](std::size_t a) { return mass_[a] * (at(now_, a) - at(before_, a)).squaredNorm(); });
     HistoryRow row;
     row.step = result_.steps;
-    row.time = std::min(1.0, static_cast<double>(result_.steps) / load_steps_);
+    row.time = time_;
     row.external_work = external_work_ * energy_unit;
     row.strain_energy = result_.state.strain_energy * energy_unit;
     row.kinetic_energy = inertia * (1 + beta) / (4 * alpha) * energy_unit;
     row.residual = squared_force > 0 ? std::sqrt(squared_residual / squared_force) : 0;
+    row.dissipated_energy = dissipated_ * energy_unit;
+    row.reaction = newton * system_.essential.reaction_of_loaded(alpha);
     row.error_bound = bound_;
     result_.history.push_back(row);
     if (options_.snapshot_every > 0 && row.step >= next_snapshot_) {
@@ -272,25 +214,25 @@ class Relaxation {
     }
   }
 
-  /// Makes the masses anew when a point has become stiffer than they allow for.
-  void follow_tangents() {
-    const std::vector<double> reached = tangent_moduli(system_.points, system_.laws, scratch_);
+  /// Makes the masses anew when a node has become stiffer than they allow for.
+  void follow_stiffness() {
+    const std::vector<double> bound = stiffness_bound(system_.points, system_.laws, scratch_);
     bool stiffer = false;
-    for (std::size_t p = 0; p < reached.size(); ++p) {
-      stiffer = stiffer || reached[p] > moduli_[p];
+    for (std::size_t a = 0; a < nodes_; ++a) {
+      stiffer = stiffer || mass_scale_ * bound[a] > mass_[a];
     }
     if (stiffer) {
-      for (std::size_t p = 0; p < reached.size(); ++p) {
-        moduli_[p] = std::max(moduli_[p], mass_margin * reached[p]);
+      for (std::size_t a = 0; a < nodes_; ++a) {
+        mass_[a] = std::max(mass_[a], mass_margin * mass_scale_ * bound[a]);
       }
-      set_masses();
+      use_masses();
     }
   }
 
   void report_progress(const Progress& progress) const {
     std::ostringstream text;
     text << "step " << result_.steps;
-    double done = 0.3 * fraction_;
+    double done = 0.3 * time_;
     if (std::isfinite(bound_)) {
       text << ", error bound " << bound_ << " mm";
       const double decades = std::log10(std::max(bound_ / options_.tolerance, 1.0));
@@ -299,7 +241,7 @@ class Relaxation {
     report(progress, done, text.str());
   }
 
-  RelaxationResult finish() {
+  SteppingResult finish() {
     result_.error_bound = bound_;
     result_.parameters = std::move(good_);
     result_.reactions = std::move(good_reactions_);
@@ -307,7 +249,7 @@ class Relaxation {
   }
 
   static constexpr double smallest_eigenvalue = 1e-8;
-  static constexpr double largest_eigenvalue = 0.028;  // above it β is too small for α
+  static constexpr double largest_eigenvalue_of_beta = 0.028;  // above it β is too small for α
 
   const System& system_;
   const SolveOptions& options_;
@@ -315,22 +257,24 @@ class Relaxation {
   ForceScratch scratch_;
   NodalVectors now_, before_, next_, force_, force_before_, good_;
   Points good_reactions_;
-  std::vector<double> moduli_, mass_, motions_, rates_, bounds_;
+  std::vector<double> mass_, motions_, rates_, bounds_;
   double mass_scale_ = 1;
   double lowest_ = 1e-4;  // A_0: a guess until there are increments
+  double time_ = 0;       // 0 to 1 while the load's curve is run through, then 1
   double fraction_ = 0;   // of the load
   double work_rate_ = 0;
   double external_work_ = 0;
+  double dissipated_ = 0;
   double bound_ = std::numeric_limits<double>::infinity();
   int load_steps_;
   int next_snapshot_;
-  RelaxationResult result_;
+  SteppingResult result_;
 };
 
 }  // namespace
 
-RelaxationResult relax(const System& system, const SolveOptions& options, const Progress& progress) {
-  RelaxationResult result = Relaxation(system, options, false).run(progress);
+SteppingResult relax(const System& system, const SolveOptions& options, const Progress& progress) {
+  SteppingResult result = Relaxation(system, options, false).run(progress);
   if (result.unstable) {
     result = Relaxation(system, options, true).run(progress);
   }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace brainshift::solve {
+
+/// Vectors at nodes, four doubles each (x, y, z, unused), so that a node is one load of a vector register.
+using NodalVectors = std::vector<double>;
+
+inline Eigen::Map<const Eigen::Vector4d> at(const NodalVectors& v, std::size_t node) {
+  return Eigen::Map<const Eigen::Vector4d>(v.data() + 4 * node);
+}
+inline Eigen::Map<Eigen::Vector4d> at(NodalVectors& v, std::size_t node) {
+  return Eigen::Map<Eigen::Vector4d>(v.data() + 4 * node);
+}
+
+/// Sums term(node) over the nodes with all threads, in an order that does not depend on their number.
+template <class Term>
+double sum_over_nodes(std::size_t nodes, const Term& term) {
+  constexpr std::int64_t chunk = 2048;
+  const std::int64_t chunks = (static_cast<std::int64_t>(nodes) + chunk - 1) / chunk;
+  std::vector<double> partial(static_cast<std::size_t>(chunks), 0.0);
+#pragma omp parallel for schedule(static)
+  for (std::int64_t c = 0; c < chunks; ++c) {
+    const auto end = std::min(static_cast<std::size_t>((c + 1) * chunk), nodes);
+    for (auto a = static_cast<std::size_t>(c * chunk); a < end; ++a) {
+      partial[static_cast<std::size_t>(c)] += term(a);
+    }
+  }
+  double sum = 0;
+  for (const double p : partial) {
+    sum += p;
+  }
+  return sum;
+}
+
+/// Largest |component| of a − b; NaN where one is.
+inline double largest_difference(const NodalVectors& a, const NodalVectors& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double moved = std::abs(a[i] - b[i]);
+    largest = moved <= largest ? largest : moved;  // a NaN stays
+  }
+  return largest;
+}
+
+}  // namespace brainshift::solve

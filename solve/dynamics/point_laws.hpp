@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "solve/material/elastic_law.hpp"
+#include "solve/material/viscous.hpp"
+
+namespace brainshift::solve {
+
+/// How the points answer deformation. The rows are those of the material table; a patch is of one row, and its law is
+/// resolved once.
+struct PointLaws {
+  std::vector<ElasticLaw> elastic;
+  std::vector<PronyStep> prony = {};  ///< one a row in a transient run where some material relaxes, else empty
+  bool plane_stress = false;          ///< F_33 follows from P_33 = 0; patches are then single points
+};
+
+}  // namespace brainshift::solve

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "solve/dynamics/patch_dilatation.hpp"
+#include "solve/material/principal.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+/// The lesser, or NaN where one is.
+double least(double a, double b) {
+  return a >= b ? b : (b >= a ? a : std::nan(""));
+}
+
+template <class ElasticLaw>
+void add_patch(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
+               PointState& state) {
+  state.strain_energy += law.bulk_modulus / 2 * projected_dilatation(points, patch, law, scratch).squaredNorm();
+  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+    const Deformation d(gradient_of(scratch, p));
+    state.strain_energy += points.volume[static_cast<std::size_t>(p)] * law.isochoric_energy(d);
+    state.smallest_jacobian = least(state.smallest_jacobian, d.jacobian);
+    state.largest_stretch = std::max(state.largest_stretch, principal_stretches(d.gradient).maxCoeff());
+  }
+}
+
+}  // namespace
+
+PointState point_state(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch) {
+  std::vector<PointState> partial(points.blocks.size());
+  const auto blocks = static_cast<std::int64_t>(points.blocks.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::int64_t b = 0; b < blocks; ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    for (std::int32_t k = points.blocks[i].first_patch; k < points.blocks[i].last_patch; ++k) {
+      const Patch& patch = points.patches[static_cast<std::size_t>(k)];
+      std::visit([&](const auto& law) { add_patch(points, patch, law, scratch, partial[i]); },
+                 laws.elastic[static_cast<std::size_t>(patch.material)]);
+    }
+  }
+  PointState state;
+  for (const PointState& part : partial) {
+    state.strain_energy += part.strain_energy;
+    state.smallest_jacobian = least(state.smallest_jacobian, part.smallest_jacobian);
+    state.largest_stretch = std::max(state.largest_stretch, part.largest_stretch);
+  }
+  return state;
+}
+
+}  // namespace brainshift::solve

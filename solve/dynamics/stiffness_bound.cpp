@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/dynamics/stiffness_bound.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solve/dynamics/patch_dilatation.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+Eigen::Map<const Eigen::Matrix3Xd> derivatives(const PointBlocks& points, std::int32_t point) {
+  return {points.derivatives_of(point), 3, static_cast<Eigen::Index>(points.support_size(point))};
+}
+
+/// ‖Σ_b B_b ⊗ B_b / |B_b|‖, the largest eigenvalue.
+double weighted_norm(const Eigen::Map<const Eigen::Matrix3Xd>& b) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (Eigen::Index a = 0; a < b.cols(); ++a) {
+    const double norm = b.col(a).norm();
+    if (norm > 0) {
+      sum += b.col(a) * b.col(a).transpose() / norm;
+    }
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(sum, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[2];
+}
+
+/// Sums over the slots of a block.
+struct BlockSums {
+  double* bound;
+  std::vector<double> mode;            ///< 3 a slot: b of one pressure mode; zero between patches
+  std::vector<std::uint16_t> touched;  ///< slots of the patch
+
+  Eigen::Map<Eigen::Vector3d> mode_at(std::uint16_t slot) {
+    return Eigen::Map<Eigen::Vector3d>(mode.data() + 3 * std::size_t{slot});
+  }
+};
+
+template <class ElasticLaw>
+void add_shape_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
+                     BlockSums& sums) {
+  ElasticLaw shape_only = law;
+  shape_only.bulk_modulus = 0;
+  const Eigen::Vector4d pressures = law.bulk_modulus * projected_dilatation(points, patch, law, scratch);
+  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+    const double tangent = largest_tangent(shape_only, gradient_of(scratch, p), pressures.dot(points.modes_of(p)));
+    const auto b = derivatives(points, p);
+    const double scale = points.volume[static_cast<std::size_t>(p)] * std::max(tangent, 2 * law.shear_modulus) *
+                         weighted_norm(b);
+    Eigen::Index a = 0;
+    for (const std::uint16_t slot : points.slots_of(p)) {
+      sums.bound[slot] += scale * b.col(a++).norm();
+    }
+  }
+}
+
+void find_touched(const PointBlocks& points, const Patch& patch, std::vector<std::uint16_t>& touched) {
+  touched.clear();
+  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+    const auto slots = points.slots_of(p);
+    touched.insert(touched.end(), slots.begin(), slots.end());
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+}
+
+template <class ElasticLaw>
+void add_volume_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
+                      BlockSums& sums) {
+  find_touched(points, patch, sums.touched);
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+      const Eigen::Matrix3d slope = points.volume[static_cast<std::size_t>(p)] * points.modes_of(p)[k] *
+                                    law.dilatation_slope(Deformation(gradient_of(scratch, p)));
+      const auto b = derivatives(points, p);
+      Eigen::Index a = 0;
+      for (const std::uint16_t slot : points.slots_of(p)) {
+        sums.mode_at(slot) += slope * b.col(a++);
+      }
+    }
+    double total = 0;
+    for (const std::uint16_t slot : sums.touched) {
+      total += sums.mode_at(slot).norm();
+    }
+    for (const std::uint16_t slot : sums.touched) {
+      sums.bound[slot] += law.bulk_modulus * total * sums.mode_at(slot).norm();
+      sums.mode_at(slot).setZero();
+    }
+  }
+}
+
+std::vector<double> sum_at_nodes(const PointBlocks& points, const std::vector<double>& at_slots) {
+  std::vector<double> sum(points.nodes(), 0.0);
+  for (std::size_t slot = 0; slot < at_slots.size(); ++slot) {
+    sum[static_cast<std::size_t>(points.slot_node[slot])] += at_slots[slot];
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch) {
+  std::vector<double> slot_bound(points.slots(), 0.0);
+  const auto blocks = static_cast<std::int64_t>(points.blocks.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::int64_t i = 0; i < blocks; ++i) {
+    const Block& block = points.blocks[static_cast<std::size_t>(i)];
+    BlockSums sums{slot_bound.data() + block.first_slot, std::vector<double>(3 * static_cast<std::size_t>(block.slots)),
+                   {}};
+    for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
+      const Patch& patch = points.patches[static_cast<std::size_t>(k)];
+      std::visit(
+          [&](const auto& law) {
+            add_shape_bound(points, patch, law, scratch, sums);
+            add_volume_bound(points, patch, law, scratch, sums);
+          },
+          laws.elastic[static_cast<std::size_t>(patch.material)]);
+    }
+  }
+  return sum_at_nodes(points, slot_bound);
+}
+
+std::vector<double> physical_mass(const PointBlocks& points, std::span<const double> density) {
+  std::vector<double> slot_mass(points.slots(), 0.0);
+  for (const Block& block : points.blocks) {
+    for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
+      const Patch& patch = points.patches[static_cast<std::size_t>(k)];
+      for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+        const double share = density[static_cast<std::size_t>(patch.material)] *
+                             points.volume[static_cast<std::size_t>(p)] / static_cast<double>(points.support_size(p));
+        for (const std::uint16_t slot : points.slots_of(p)) {
+          slot_mass[static_cast<std::size_t>(block.first_slot) + slot] += share;
+        }
+      }
+    }
+  }
+  return sum_at_nodes(points, slot_mass);
+}
+
+double critical_step(std::span<const double> stiffness_bound, std::span<const double> mass) {
+  double largest = 0;
+  for (std::size_t a = 0; a < mass.size(); ++a) {
+    largest = std::max(largest, stiffness_bound[a] / mass[a]);
+  }
+  return 2 / std::sqrt(largest);
+}
+
+double chapter_critical_step(const PointBlocks& points, std::span<const double> wave_speed) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Patch& patch : points.patches) {
+    const double c = wave_speed[static_cast<std::size_t>(patch.material)];
+    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+      const auto n = static_cast<double>(points.support_size(p));
+      smallest = std::min(smallest, 2 / (c * std::sqrt(n * derivatives(points, p).squaredNorm())));
+    }
+  }
+  return smallest;
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solve/boundary/contact.hpp"
+#include "solve/boundary/essential_conditions.hpp"
+#include "solve/boundary/load_curve.hpp"
+#include "solve/dynamics/internal_force.hpp"
+#include "solve/solve.hpp"
+
+namespace brainshift::solve {
+
+/// What time stepping moves: points and laws that resist, conditions that hold, forces that push.
+struct System {
+  const PointBlocks& points;
+  const PointLaws& laws;
+  EssentialConditions& essential;
+  Contact* contact;              ///< null: nothing is stepped over
+  const NodalVectors& external;  ///< forces on the parameters under the full load, µN; empty: none
+  const LoadCurve& curve;        ///< of the prescribed displacements and of the forces
+};
+
+/// Parameters on the way.
+struct ParameterSnapshot {
+  int step;
+  double time;
+  NodalVectors parameters;
+};
+
+/// What time stepping leaves behind.
+struct SteppingResult {
+  NodalVectors parameters;          ///< û of the last good state, mm
+  Points reactions = Points(0, 3);  ///< µN
+  std::vector<HistoryRow> history;
+  std::vector<ParameterSnapshot> snapshots;
+  PointState state;
+  int steps = 0;
+  double fraction = 0;     ///< of the load, at the last good state
+  double error_bound = 0;  ///< mm; relaxation only
+  bool unstable = false;   ///< failed because it blew up, not for want of steps
+  std::string failure;     ///< empty when all went well
+};
+
+/// One sentence when the state is not sound: displacements that are no longer finite, a point that turned inside out;
+/// else empty. motion: largest |û⁺ − û| of the last step.
+std::string unsound(const PointState& state, double motion, int step, double fraction);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "solve/material/material.hpp"
+
+namespace brainshift::solve {
+
+/// The materials of the labels that occur, as rows of a table.
+struct MaterialTable {
+  std::vector<Material> material;          ///< one a row
+  std::vector<std::int32_t> row_of_point;  ///< one a point
+};
+
+/// label: one a point. Throws std::invalid_argument when a label has no material, or one that check_material refuses.
+MaterialTable material_table(const std::map<std::int32_t, Material>& materials, std::span<const std::int32_t> label);
+
+/// ρ in g/mm³.
+double density_per_cubic_millimetre(const Material& material);
+
+/// c_d = sqrt((λ + 2µ)/ρ), mm/s: the speed of dilatational waves.
+double wave_speed(const Material& material);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/shape/consistent_derivatives.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr int most_iterations = 2000;
+
+using Coefficients = Eigen::Matrix<double, 4, 3>;
+
+/// λ_a minus, at each point, its best linear fit over the support; weighted and summed over the points. Symmetric and
+/// positive semi-definite: S of the header's system.
+class FitResidual {
+ public:
+  FitResidual(const Points& positions, std::span<const double> volume, const ShapeRows& rows)
+      : positions_(positions),
+        volume_(volume),
+        rows_(rows),
+        centre_(rows.size()),
+        inverse_(rows.size()),
+        coefficients_(rows.size()) {
+    const auto points = static_cast<std::int64_t>(rows.size());
+#pragma omp parallel for schedule(static)
+    for (std::int64_t i = 0; i < points; ++i) {
+      prepare(static_cast<std::size_t>(i));
+    }
+    list_points_of_nodes();
+  }
+
+  /// S λ; afterwards the fits of λ are those that correction() takes.
+  void apply(const Points& lambda, Points& result) {
+    const auto points = static_cast<std::int64_t>(rows_.size());
+    const auto nodes = static_cast<std::int64_t>(lambda.rows());
+#pragma omp parallel
+    {
+#pragma omp for schedule(static)
+      for (std::int64_t i = 0; i < points; ++i) {
+        fit(static_cast<std::size_t>(i), lambda);
+      }
+#pragma omp for schedule(static)
+      for (std::int64_t a = 0; a < nodes; ++a) {
+        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+        for (auto k = node_begin_[static_cast<std::size_t>(a)]; k < node_begin_[static_cast<std::size_t>(a) + 1]; ++k) {
+          const auto point = static_cast<std::size_t>(node_point_[static_cast<std::size_t>(k)]);
+          sum += volume_[point] * correction(point, static_cast<std::int32_t>(a), lambda);
+        }
+        result.row(a) = sum;
+      }
+    }
+  }
+
+  /// δB of a pair.
+  Eigen::RowVector3d correction(std::size_t point, std::int32_t node, const Points& lambda) const {
+    return lambda.row(node) - monomials_at(point, node).transpose() * coefficients_[point];
+  }
+
+ private:
+  Eigen::Vector4d monomials_at(std::size_t point, std::int32_t node) const {
+    Eigen::Vector4d p;
+    p << 1, positions_.row(node).transpose() - centre_[point];
+    return p;
+  }
+
+  std::span<const std::int32_t> support(std::size_t point) const {
+    const auto begin = static_cast<std::size_t>(rows_.begin[point]);
+    return std::span(rows_.node).subspan(begin, static_cast<std::size_t>(rows_.begin[point + 1]) - begin);
+  }
+
+  /// Centre of the support and the pseudo-inverse of its moments: in the plane the z terms drop out.
+  void prepare(std::size_t point) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const std::int32_t a : support(point)) {
+      centre += positions_.row(a).transpose() / static_cast<double>(support(point).size());
+    }
+    centre_[point] = centre;
+    Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
+    for (const std::int32_t a : support(point)) {
+      const Eigen::Vector4d p = monomials_at(point, a);
+      moments += p * p.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(moments);
+    Eigen::Vector4d inverse = Eigen::Vector4d::Zero();
+    for (int k = 0; k < 4; ++k) {
+      const double value = eigen.eigenvalues()[k];
+      inverse[k] = value > 1e-12 * eigen.eigenvalues()[3] ? 1 / value : 0;
+    }
+    inverse_[point] = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  }
+
+  void fit(std::size_t point, const Points& lambda) {
+    Coefficients sum = Coefficients::Zero();
+    for (const std::int32_t a : support(point)) {
+      sum += monomials_at(point, a) * lambda.row(a);
+    }
+    coefficients_[point] = inverse_[point] * sum;
+  }
+
+  void list_points_of_nodes() {
+    node_begin_.assign(static_cast<std::size_t>(positions_.rows()) + 1, 0);
+    for (const std::int32_t a : rows_.node) {
+      ++node_begin_[static_cast<std::size_t>(a) + 1];
+    }
+    std::partial_sum(node_begin_.begin(), node_begin_.end(), node_begin_.begin());
+    std::vector<std::int64_t> next(node_begin_.begin(), node_begin_.end() - 1);
+    node_point_.resize(rows_.node.size());
+    for (std::size_t point = 0; point < rows_.size(); ++point) {
+      for (const std::int32_t a : support(point)) {
+        node_point_[static_cast<std::size_t>(next[static_cast<std::size_t>(a)]++)] = static_cast<std::int32_t>(point);
+      }
+    }
+  }
+
+  const Points& positions_;
+  std::span<const double> volume_;
+  const ShapeRows& rows_;
+  std::vector<Eigen::Vector3d> centre_;
+  std::vector<Eigen::Matrix4d> inverse_;
+  std::vector<Coefficients> coefficients_;
+  std::vector<std::int64_t> node_begin_;
+  std::vector<std::int32_t> node_point_;
+};
+
+/// Takes out of nodal vectors what forces at the surface nodes can balance: the part in the range of Vᵀ.
+class Unbalanced {
+ public:
+  Unbalanced(std::span<const std::int32_t> surface, const ShapeRows& nodal_rows, Eigen::Index nodes)
+      : shape_(static_cast<Eigen::Index>(surface.size()), nodes) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+      const auto node = static_cast<std::size_t>(surface[i]);
+      for (auto k = static_cast<std::size_t>(nodal_rows.begin[node]);
+           k < static_cast<std::size_t>(nodal_rows.begin[node + 1]); ++k) {
+        entries.emplace_back(static_cast<int>(i), nodal_rows.node[k], nodal_rows.value[k]);
+      }
+    }
+    shape_.setFromTriplets(entries.begin(), entries.end());
+    factor_.compute(shape_ * shape_.transpose());
+  }
+
+  void apply(Points& vectors) const {
+    const Eigen::MatrixXd multipliers = factor_.solve(shape_ * vectors);
+    vectors -= shape_.transpose() * multipliers;
+  }
+
+ private:
+  Eigen::SparseMatrix<double> shape_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+Points integrated_derivatives(std::span<const double> volume, const ShapeRows& rows, Eigen::Index nodes) {
+  Points sum = Points::Zero(nodes, 3);
+  for (std::size_t point = 0; point < rows.size(); ++point) {
+    for (auto k = static_cast<std::size_t>(rows.begin[point]); k < static_cast<std::size_t>(rows.begin[point + 1]);
+         ++k) {
+      sum.row(rows.node[k]) += volume[point] * Eigen::Map<const Eigen::RowVector3d>(&rows.derivative[3 * k]);
+    }
+  }
+  return sum;
+}
+
+/// Mean over the nodes of Σ_I w |B_a|: what the defect is measured by.
+double mean_magnitude(std::span<const double> volume, const ShapeRows& rows, Eigen::Index nodes) {
+  double sum = 0;
+  for (std::size_t point = 0; point < rows.size(); ++point) {
+    for (auto k = static_cast<std::size_t>(rows.begin[point]); k < static_cast<std::size_t>(rows.begin[point + 1]);
+         ++k) {
+      sum += volume[point] * Eigen::Map<const Eigen::Vector3d>(&rows.derivative[3 * k]).norm();
+    }
+  }
+  return sum / static_cast<double>(nodes);
+}
+
+/// Conjugate gradients on the three columns at once, within the unbalanced vectors.
+int conjugate_gradients(FitResidual& system, const Unbalanced& unbalanced, Points residual, double goal,
+                        Points& lambda) {
+  Points direction = residual, image(residual.rows(), 3);
+  Eigen::RowVector3d squared = residual.colwise().squaredNorm();
+  int iteration = 0;
+  while (iteration < most_iterations && residual.cwiseAbs().maxCoeff() > goal) {
+    system.apply(direction, image);
+    unbalanced.apply(image);
+    const Eigen::RowVector3d curvature = direction.cwiseProduct(image).colwise().sum();
+    Eigen::RowVector3d next;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double step = curvature[axis] > 0 ? squared[axis] / curvature[axis] : 0;
+      lambda.col(axis) += step * direction.col(axis);
+      residual.col(axis) -= step * image.col(axis);
+      next[axis] = residual.col(axis).squaredNorm();
+      const double turn = squared[axis] > 0 ? next[axis] / squared[axis] : 0;
+      direction.col(axis) = residual.col(axis) + turn * direction.col(axis);
+    }
+    squared = next;
+    ++iteration;
+  }
+  return iteration;
+}
+
+}  // namespace
+
+ConsistencyMeasures make_derivatives_consistent(const Points& positions, std::span<const std::int32_t> surface,
+                                                const ShapeRows& nodal_rows, std::span<const double> volume,
+                                                double tolerance, ShapeRows& rows) {
+  if (surface.empty()) {
+    throw std::invalid_argument(
+        "no node is on the surface: consistent derivatives need to know where forces may act; give the nodes the "
+        "array on_surface");
+  }
+  FitResidual system(positions, volume, rows);
+  const Unbalanced unbalanced(surface, nodal_rows, positions.rows());
+  const double unit = mean_magnitude(volume, rows, positions.rows());
+  Points defect = integrated_derivatives(volume, rows, positions.rows());
+  unbalanced.apply(defect);
+  ConsistencyMeasures measures;
+  measures.defect_before = defect.cwiseAbs().maxCoeff() / unit;
+
+  Points lambda = Points::Zero(positions.rows(), 3);
+  measures.iterations = conjugate_gradients(system, unbalanced, -defect, tolerance * unit, lambda);
+  Points image(positions.rows(), 3);
+  system.apply(lambda, image);
+  const auto points = static_cast<std::int64_t>(rows.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t i = 0; i < points; ++i) {
+    const auto point = static_cast<std::size_t>(i);
+    for (auto k = static_cast<std::size_t>(rows.begin[point]); k < static_cast<std::size_t>(rows.begin[point + 1]);
+         ++k) {
+      Eigen::Map<Eigen::RowVector3d>(&rows.derivative[3 * k]) += system.correction(point, rows.node[k], lambda);
+    }
+  }
+  defect = integrated_derivatives(volume, rows, positions.rows());
+  unbalanced.apply(defect);
+  measures.defect_after = defect.cwiseAbs().maxCoeff() / unit;
+  return measures;
+}
+
+}  // namespace brainshift::solve
