@@ -1,0 +1,74 @@
+"""The reference files: comment lines that say what a file is and how good, then rows."""
+import re
+import subprocess
+
+import numpy as np
+
+
+def program_version(command):
+    said = subprocess.run(command, capture_output=True, text=True, check=False)
+    found = re.search(r"\d+\.\d+(\.\d+)?", said.stdout + said.stderr)
+    return found[0] if found else "unknown"
+
+
+def versions(with_gmsh=False):
+    made = "ccx " + program_version(["ccx", "-v"])
+    return (f"gmsh {program_version(['gmsh', '--version'])}, " if with_gmsh else "gmsh not used (structured mesh by the script), ") + made
+
+
+def differences(coarse, fine):
+    """Largest, 95 % and mean length of the difference of two displacement samples, mm."""
+    lengths = np.linalg.norm(coarse - fine, axis=1)
+    return lengths.max(), np.percentile(lengths, 95), lengths.mean()
+
+
+def error_line(force_percent, lengths):
+    return (f"error: force_percent={force_percent:.3g} largest_mm={lengths[0]:.3g} p95_mm={lengths[1]:.3g} "
+            f"mean_mm={lengths[2]:.3g}")
+
+
+def write_samples(path, comments, points, displacements):
+    write(path, comments, "x,y,z,ux,uy,uz", np.hstack([points, displacements]), "%.4f")
+
+
+def write_curve(path, comments, rows, columns="displacement_mm,force_N"):
+    write(path, comments, columns, np.asarray(rows), "%.7g")
+
+
+def write(path, comments, columns, rows, number):
+    with open(path, "w") as table:
+        table.writelines(f"# {line}\n" for line in comments)
+        table.write(columns + "\n")
+        np.savetxt(table, rows + 0.0, fmt=number, delimiter=",")
+
+
+def convergence(forces, samples, sizes):
+    """Own error of the finest of several meshes: (force in %, lengths in mm, comment lines).
+
+    `sizes` are cell counts along a length. What is left in the finest mesh is its last change times 1 / (ratio^rate - 1)
+    (Richardson), for the force and for each measure of the displacement with the rate seen over the last three meshes, kept
+    between 0.5 and 2; rate 1 where there are only two meshes.
+    """
+    changes = np.array([differences(a, b) for a, b in zip(samples, samples[1:])])
+    steps = np.array([[abs(b - a)] for a, b in zip(forces, forces[1:])])
+    measures = np.hstack([steps, changes])
+    rates = [observed_rate(column, sizes) for column in measures.T]
+    left = measures[-1] / ((sizes[-1] / sizes[-2]) ** np.array(rates) - 1)
+    limit = forces[-1] + np.sign(forces[-1] - forces[-2]) * left[0]
+    lines = [f"meshes {', '.join(map(str, sizes))} cells along: force {', '.join(f'{f:.6g}' for f in forces)}; "
+             f"last change {100 * (forces[-1] / forces[-2] - 1):+.4f} %; converged by Richardson {limit:.6g}"]
+    lines += [f"change of the samples from {a} to {b} cells: largest {c[0]:.4f}, 95 % {c[1]:.4f}, mean {c[2]:.4f} mm"
+              for a, b, c in zip(sizes, sizes[1:], changes)]
+    lines.append("the error line is Richardson's estimate of what is left in the finest mesh, with rates (force, largest, 95 %, mean) "
+                 + ", ".join(f"{r:.2f}" for r in rates))
+    return 100 * left[0] / forces[-1], left[1:], lines
+
+
+def observed_rate(changes, sizes):
+    """p for which the changes over the last three meshes are those of c size^-p."""
+    if len(changes) < 2:
+        return 1.0
+    n = np.array(sizes[-3:], float)
+    rates = np.linspace(0.5, 2, 151)
+    ratios = (n[0] ** -rates - n[1] ** -rates) / (n[1] ** -rates - n[2] ** -rates)
+    return float(rates[np.argmin(np.abs(ratios - changes[-2] / changes[-1]))])
