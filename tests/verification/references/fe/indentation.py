@@ -7,7 +7,7 @@ from . import ccx, cylinders, deck, evaluate, meshes, tables
 
 RADIUS, HEIGHT, PUNCH, DEEPEST = 15.0, 17.0, 5.0, 8.0
 LEVELS = [4, 8, 16]  # cells under the punch; as many beside it and 3/2 as many in the height
-POWER = 1.5
+POWER = 1.25
 STEP = 0.25
 SHARES = np.arange(1, int(DEEPEST / STEP) + 1) * STEP / DEEPEST
 SAMPLED = [2.0, 4.0]

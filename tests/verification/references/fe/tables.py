@@ -72,3 +72,13 @@ def observed_rate(changes, sizes):
     rates = np.linspace(0.5, 2, 151)
     ratios = (n[0] ** -rates - n[1] ** -rates) / (n[1] ** -rates - n[2] ** -rates)
     return float(rates[np.argmin(np.abs(ratios - changes[-2] / changes[-1]))])
+
+
+def read(path):
+    """Rows of a table without its comment and title lines."""
+    return np.loadtxt(path, delimiter=",", skiprows=1 + comment_count(path))
+
+
+def comment_count(path):
+    with open(path) as table:
+        return sum(line.startswith("#") for line in table)
