@@ -8,7 +8,7 @@ from . import ccx, cylinder_compression, cylinders, deck, evaluate, meshes, tabl
 HALF = 0.5 * cylinder_compression.HEIGHT
 
 
-def main(folder, out, core=3, ring=5, layers=9, kind="C3D20R"):
+def main(folder, out, core=5, ring=8, layers=15, kind="C3D20R"):
     material = deck.NeoHookean.from_shear(1000, 0.49)
     flat = cylinders.half_disc(core, ring, cylinder_compression.POWER, cylinder_compression.RADIUS)
     mesh = meshes.extruded(flat, HALF * meshes.graded(layers, cylinder_compression.POWER))
