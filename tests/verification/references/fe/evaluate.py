@@ -43,6 +43,23 @@ def slopes(functions, local, step=1e-5):
     return np.stack(columns, -1)
 
 
+def smallest_area_ratio(mesh, field):
+    """Least ratio of deformed to undeformed area (or volume) at the integration points, in the plane of a flat mesh.
+    CalculiX accepts elements turned inside out: a solution with a negative ratio is none."""
+    count, dim = mesh.elements.shape[1], mesh.nodes.shape[1]
+    functions, _, _ = shape_functions(count)
+    if count in (8, 20):
+        local = np.stack(np.meshgrid(*[[-3 ** -0.5, 3 ** -0.5]] * dim), -1).reshape(-1, dim)
+    else:
+        inner = {2: 1 / 6, 3: 0.1381966}[dim]
+        local = np.vstack([np.full(dim, inner), inner + (1 - (dim + 1) * inner) * np.eye(dim)])
+    gradients = slopes(functions, local)
+    before = mesh.nodes[mesh.elements]
+    after = before + field[mesh.elements][:, :, :dim]
+    return min((np.linalg.det(np.einsum("ead,ak->edk", after, g)) / np.linalg.det(np.einsum("ead,ak->edk", before, g))).min()
+               for g in gradients)
+
+
 class Interpolator:
     """Finds the elements and weights of `points` in `mesh` once; evaluates any nodal field there."""
 

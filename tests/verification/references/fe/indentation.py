@@ -42,15 +42,28 @@ def at_points(mesh, field, points):
     return np.column_stack([points[:, :2] / np.maximum(r, 1e-9)[:, None] * values[:, :1], values[:, 1]])
 
 
+def sound_curve(mesh, run):
+    """Rows depth, force as far as they can be trusted: to the first snap (a step of the force 5 % below the one before: the
+    elements at the punch edge fold) or element turned inside out. CalculiX goes on after both."""
+    rows = [[0.0, 0.0]]
+    for share, force in sorted(run.forces["PUNCH"].items()):
+        row = [DEEPEST * share, -TO_NEWTON * force[1]]
+        snaps = len(rows) > 1 and row[1] - rows[-1][1] < 0.95 * (rows[-1][1] - rows[-2][1])
+        if snaps or evaluate.smallest_area_ratio(mesh, run.fields[share]) <= 0:
+            break
+        rows.append(row)
+    return np.array(rows[1:])
+
+
 def main(folder, out):
     material = deck.NeoHookean.from_young(5000, 0.49)
     points = cylinders.sample_points(RADIUS, HEIGHT, [(PUNCH, HEIGHT), (RADIUS, 0)])
     runs = [solve(cells, folder, material) for cells in LEVELS]
-    curves = [np.array([[DEEPEST * s, -TO_NEWTON * f[1]] for s, f in sorted(run.forces["PUNCH"].items())]) for _, run in runs]
-    stopped = [curve[-1, 0] for curve in curves]
+    curves = [sound_curve(mesh, run) for mesh, run in runs]
+    reached = [curve[-1, 0] for curve in curves]
     for (mesh, run), curve in zip(runs, curves):
-        print(f"indentation: {len(mesh.elements)} CAX6, stopped after {curve[-1]}, bottom "
-              f"{run.forces['BOTTOM'][max(run.forces['BOTTOM'])][1] * TO_NEWTON:.6f} N, {run.seconds:.0f} s", flush=True)
+        print(f"indentation: {len(mesh.elements)} CAX6, stopped after {DEEPEST * run.reached:g} mm, sound to {curve[-1]}, bottom "
+              f"{run.forces['BOTTOM'][round(curve[-1, 0] / DEEPEST, 6)][1] * TO_NEWTON:.6f} N, {run.seconds:.0f} s", flush=True)
     finest = runs[-1][0]
 
     def about(title, lines):
@@ -62,10 +75,12 @@ def main(folder, out):
                 f"made by fe/indentation.py with {tables.versions()}",
                 f"finest mesh: {len(finest.elements)} CAX6 on {len(finest.nodes)} nodes in the axial section, "
                 f"graded to the punch edge with power {POWER}",
-                f"CalculiX stopped after {', '.join(f'{d:g}' for d in stopped)} mm with {', '.join(map(str, LEVELS))} cells under the punch",
+                f"with {', '.join(map(str, LEVELS))} cells under the punch CalculiX stopped after "
+                f"{', '.join(f'{DEEPEST * run.reached:g}' for _, run in runs)} mm; the last depth before the elements at the "
+                f"punch edge fold (the force snaps) is {', '.join(f'{d:g}' for d in reached)} mm",
                 *lines]
 
-    for depth in sorted({min(d, min(stopped)) for d in SAMPLED}):
+    for depth in sorted({min(d, min(reached)) for d in SAMPLED}):
         share = round(depth / DEEPEST, 6)
         samples = [at_points(mesh, run.fields[share], points) for mesh, run in runs]
         forces = [-TO_NEWTON * run.forces["PUNCH"][share][1] for _, run in runs]
