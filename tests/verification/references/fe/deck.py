@@ -45,7 +45,7 @@ def numbered_lines(numbers, per_line=12):
     return "\n".join(", ".join(str(int(a) + 1) for a in numbers[i:i + per_line]) for i in range(0, len(numbers), per_line)) + "\n"
 
 
-def write_deck(path, mesh, kind, material, loading, force_sets, thickness=None, equations=()):
+def write_deck(path, mesh, kind, material, loading, force_sets, thickness=None, equations=(), solver="SPOOLES"):
     """Write the deck. `force_sets` names the node sets whose total reaction is printed at each output, as are the
     displacements of all nodes (CalculiX knows one list of time points a step)."""
     nodes = np.zeros((len(mesh.nodes), 3))
@@ -65,7 +65,7 @@ def write_deck(path, mesh, kind, material, loading, force_sets, thickness=None, 
         deck.write("*SOLID SECTION, ELSET=BODY, MATERIAL=SOFT\n" + (f"{thickness:.12g}\n" if thickness else ""))
         deck.write("*TIME POINTS, NAME=OUTPUTS\n" + "".join(f"{t:.9g},\n" for t in loading.outputs))
         step = loading.largest_increment
-        deck.write(f"*STEP, NLGEOM, INC=2000\n*STATIC\n{step:.9g}, 1., 1e-4, {step:.9g}\n*BOUNDARY\n")
+        deck.write(f"*STEP, NLGEOM, INC=2000\n*STATIC, SOLVER={solver}\n{step:.9g}, 1., 1e-4, {step:.9g}\n*BOUNDARY\n")
         deck.writelines(f"{a + 1}, {d}, {d}, {v:.12g}\n" for a, d, v in loading.prescribed)
         for name in force_sets:
             deck.write(f"*NODE PRINT, NSET={name}, TOTALS=ONLY, TIME POINTS=OUTPUTS\nRF\n")
