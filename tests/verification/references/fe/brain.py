@@ -13,7 +13,7 @@ from scipy.stats import qmc
 from . import ccx, deck, evaluate, tables, tetrahedra, vtp
 
 YOUNG, NU = 3000.0, 0.49
-SHARES = np.array([0.25, 0.5, 0.75, 1.0])
+SHARES = np.array([0.5, 1.0])
 LEVELS = 2  # meshes: the first filling, then each tetrahedron cut into eight
 
 
