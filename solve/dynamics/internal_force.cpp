@@ -119,10 +119,12 @@ void patch_gradients(const PointBlocks& points, const Patch& patch, const Elasti
 template <class ElasticLaw, class Viscosity>
 void patch_force(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const Viscosity& viscosity,
                  double* force, const ForceScratch& scratch) {
-  const Eigen::Vector4d pressures = law.bulk_modulus * projected_dilatation(points, patch, law, scratch);
+  const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, scratch);
+  const double unprojected = unprojected_modulus(law);
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const Deformation d(gradient_of(scratch, p));
-    const double pressure = pressures.dot(points.modes_of(p));
+    const double seen = dilatations.dot(points.modes_of(p));
+    const double pressure = law.bulk_modulus * seen + unprojected * (law.dilatation(d) - seen);
     const Eigen::Matrix3d stress =
         points.volume[static_cast<std::size_t>(p)] * (viscosity.stress(law, d, p) + pressure * law.dilatation_slope(d));
     scatter_stress(points.slots_of(p), points.derivatives_of(p), stress.data(), force);

@@ -44,11 +44,15 @@ struct BlockSums {
 template <class ElasticLaw>
 void add_shape_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
                      BlockSums& sums) {
-  ElasticLaw shape_only = law;
-  shape_only.bulk_modulus = 0;
-  const Eigen::Vector4d pressures = law.bulk_modulus * projected_dilatation(points, patch, law, scratch);
+  ElasticLaw unprojected = law;
+  unprojected.bulk_modulus = unprojected_modulus(law);
+  const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, scratch);
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-    const double tangent = largest_tangent(shape_only, gradient_of(scratch, p), pressures.dot(points.modes_of(p)));
+    const auto gradient = gradient_of(scratch, p);
+    const double seen = dilatations.dot(points.modes_of(p));
+    const double pressure = law.bulk_modulus * seen +
+                            unprojected.bulk_modulus * (law.dilatation(Deformation(gradient)) - seen);
+    const double tangent = largest_tangent(unprojected, gradient, pressure);
     const auto b = derivatives(points, p);
     const double scale = points.volume[static_cast<std::size_t>(p)] * std::max(tangent, 2 * law.shear_modulus) *
                          weighted_norm(b);
