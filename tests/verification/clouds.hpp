@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <unordered_map>
+#include <vector>
+
+#include "discretise/background_cells.hpp"
+#include "discretise/node_cloud.hpp"
+
+namespace brainshift::verification {
+
+/// Irregular nodes by throwing darts: a node is kept when it lies no nearer than the least distance to the nodes before
+/// it. Edges first, then faces, then the inside, so that the boundary is covered up to its edges. The same seed gives
+/// the same cloud.
+class Darts {
+ public:
+  Darts(double least_distance, unsigned seed) : least_(least_distance), random_(seed) {}
+
+  double uniform() { return static_cast<double>(random_() >> 11) * 0x1.0p-53; }
+
+  /// True when the node was kept.
+  bool put(const Eigen::Vector3d& position, bool on_surface);
+
+  /// Throws until 3000 in a row were in vain.
+  void fill(const std::function<Eigen::Vector3d()>& place, bool on_surface);
+
+  /// Nodes along a closed or open line of the given length, evenly but for a tenth of their distance.
+  void along(double length, bool closed, const std::function<Eigen::Vector3d(double share)>& place);
+
+  /// The cloud; its spacing is the mean distance to the six nearest nodes (planar: four).
+  NodeCloud cloud(bool planar = false) const;
+
+  double least_distance() const { return least_; }
+
+ private:
+  std::int64_t key(int i, int j, int k) const;
+
+  double least_;
+  std::mt19937_64 random_;
+  std::vector<Eigen::Vector3d> nodes_;
+  std::vector<std::uint8_t> on_surface_;
+  std::unordered_map<std::int64_t, std::vector<std::size_t>> buckets_;
+};
+
+/// A cylinder along z from 0 to height, with nodes on both rims; ring > 0: also on a circle of that radius on the top.
+NodeCloud cylinder_cloud(double radius, double height, double least_distance, unsigned seed, double ring = 0);
+
+/// The box from 0 to size.
+NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned seed);
+
+/// The rectangle from 0 to (width, height) in the plane.
+NodeCloud rectangle_cloud(double width, double height, double least_distance, unsigned seed);
+
+/// An eighth of a hollow ball: x, y, z ≥ 0, between two radii.
+NodeCloud hollow_ball_cloud(double inner, double outer, double least_distance, unsigned seed);
+
+/// Regular hexahedra over a closed surface that do not conform to it, as `discretise` makes them.
+BackgroundCells cells_over(const Surface& surface, std::size_t nodes, double cells_per_node);
+
+/// Closed surface of a cylinder along z, a prism of many sides.
+Surface cylinder_surface(double radius, double height);
+
+/// nx × ny quadrilaterals over the rectangle.
+BackgroundCells rectangle_cells(int nx, int ny, double width, double height);
+
+/// nx × ny × nz hexahedra over the box from low to high.
+BackgroundCells box_cells(const Eigen::Vector3i& count, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+
+}  // namespace brainshift::verification

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace brainshift::verification {
+
+/// One row of the table: what was measured, beside what was published and the bound it must keep.
+struct Figure {
+  std::string quantity;
+  std::string published;  ///< as the source has it; empty: nothing
+  double ours = 0;
+  std::string unit;
+  std::optional<double> most = {};   ///< bound from above
+  std::optional<double> least = {};  ///< bound from below
+  std::string reference = {};        ///< what it is measured against, with that reference's own error
+  double seconds = 0;
+
+  bool holds() const { return !(most && !(ours <= *most)) && !(least && !(ours >= *least)); }
+};
+
+/// Points joined by straight lines, in a plot.
+struct Series {
+  std::string name;
+  std::vector<double> x, y;
+};
+
+struct Plot {
+  std::string file;  ///< without .png
+  std::string title, x_label, y_label;
+  std::vector<Series> series;
+  bool logarithmic = false;  ///< both axes
+};
+
+struct Outcome {
+  std::vector<Figure> figures;
+  std::vector<Plot> plots;
+};
+
+/// small: minutes become seconds, for the tests; the bounds are then wider where the case says so.
+using Case = std::function<Outcome(bool small)>;
+
+struct NamedCase {
+  std::string name;
+  Case run;
+};
+
+/// All cases, in the table's order.
+const std::vector<NamedCase>& all_cases();
+
+/// The table of the cases that ran: case · quantity · published · ours · bound · reference · seconds.
+struct Row {
+  std::string name;
+  Figure figure;
+};
+std::string markdown_table(const std::vector<Row>& rows);
+std::string csv_table(const std::vector<Row>& rows);
+
+/// Draws a plot to folder/file.png.
+void draw(const std::filesystem::path& folder, const Plot& plot);
+
+}  // namespace brainshift::verification
