@@ -49,7 +49,9 @@ std::string optional_part(const Element& element, const Scene& scene) {
 }
 
 std::string tissues_part() {
-  const std::string example = "<tissues><tissue" + attributes(tissue_options(), Tissue{1, {}, {}, {}}) + "/></tissues>";
+  Tissue tissue;
+  tissue.label = 1;
+  const std::string example = "<tissues><tissue" + attributes(tissue_options(), tissue) + "/></tissues>";
   return comment("The brain's tissues: one element a label.",
                  help_lines(tissue_options(), "       ") + "       " + example + "\n");
 }
