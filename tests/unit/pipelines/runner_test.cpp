@@ -70,7 +70,7 @@ class Stamps : public Runner {
     write("run/discretise/cells.vtu", "cells");
     scene_.image.t1 = write("t1.nii", "t1");
     scene_.image.labels = write("labels.nii", "map");
-    scene_.tissues.push_back({1, "parenchyma", Law::neo_hookean, {}});
+    scene_.tissues.push_back({1, "parenchyma", "", {}});
     scene_.load.emplace().craniotomy = write("load.csv", "load");
     scene_.source.file = folder_ / "scene.xml";
   }
@@ -100,9 +100,11 @@ TEST_F(Stamps, ChangeForTheStagesThatDependOnAnOptionAlone) {
   EXPECT_EQ(changed_by([&] { scene_.discretise.seed = 2; }), "-d--");
   EXPECT_EQ(changed_by([&] { scene_.solve.tolerance = 0.1; }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.youngs_modulus = 1; }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.prony.push_back({0.5, 1}); }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.loading.gravity.z() = -9.81; }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.contact.emplace(); }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.registration.fade = 3; }), "---r");
-  EXPECT_EQ(changed_by([&] { scene_.tissues.push_back({3, "", Law::neo_hookean, {}}); }), "sdv-");
+  EXPECT_EQ(changed_by([&] { scene_.tissues.push_back({3, "", "", {}}); }), "sdv-");
 }
 
 TEST_F(Stamps, ChangeWithTheContentsOfFilesNotTheirNames) {
@@ -111,6 +113,8 @@ TEST_F(Stamps, ChangeWithTheContentsOfFilesNotTheirNames) {
   EXPECT_EQ(changed_by([&] { write("run/segment/brain.vtp", "another"); }), "-d-r");
   EXPECT_EQ(changed_by([&] { write("run/discretise/nodes.vtu", "another"); }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.load->craniotomy = write("moved.csv", "another"); }), "----");
+  EXPECT_EQ(changed_by([&] { scene_.loading.curve = write("curve.csv", "one"); }), "--v-");
+  EXPECT_EQ(changed_by([&] { write("curve.csv", "two"); }), "--v-");
 }
 
 TEST_F(Stamps, ACommandCountsWithTheScriptThatItNames) {
