@@ -7,6 +7,7 @@
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/scene_table.hpp"
+#include "solve/material/named_materials.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -109,10 +110,18 @@ Tissue read_material(const std::string& text) {
 }
 
 solve::Plane plane_of(const std::string& name) {
-  if (name == "strain") {
-    return solve::Plane::strain;
+  if (!name.empty() && name != "strain" && name != "stress") {
+    throw std::invalid_argument("--plane is '" + name + "', but must be strain | stress");
   }
-  return name == "stress" ? solve::Plane::stress : solve::Plane::none;
+  return name.empty() ? solve::Plane::none : name == "strain" ? solve::Plane::strain : solve::Plane::stress;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
 }
 
 std::optional<Load> load_of(const SolveArguments& arguments) {
@@ -162,7 +171,7 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
       ->add_option("--material", arguments->materials,
                    "of one label; again for each. 1:3000,0.49 or with a density, 1000 kg/m3 if absent; a name from the "
                    "literature, 1:brain_ogden (" +
-                       find_option(tissue_options(), "material")->allowed +
+                       listed(solve::material_names()) +
                        "); or attributes of a scene's <tissue>, also behind these: "
                        "'1:law=ogden,ogden=842,-4.7,poisson_ratio=0.49,prony=0.45,0.5;0.365,50', in quotes for the "
                        "semicolon's sake")
@@ -176,7 +185,6 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
   command
       ->add_option("--plane", arguments->plane,
                    "a plane problem, of cells that are quadrilaterals or triangles, z = 0 and 1 mm thick")
-      ->check(CLI::IsMember({"strain", "stress"}))
       ->type_name("strain | stress");
   command
       ->add_option("--load", arguments->craniotomy,

@@ -214,7 +214,8 @@ Element solve_element() {
                      std::vector<std::pair<std::string, solve::LoadCurve::Join>>{
                          {"smooth", solve::LoadCurve::Join::smooth}, {"straight", solve::LoadCurve::Join::straight}},
                      "of the curve's rows: by 3-4-5 polynomials or straight lines"),
-       vector<Scene>("gravity", MEMBER(loading.gravity), "m/s2, LPS", "as 0,0,-9.81; it comes with the load's curve"),
+       vector<Scene>("gravity", MEMBER(loading.gravity), "m/s2, LPS",
+                     "on a patient who sits 0,0,-9.81, who lies on the back 0,9.81,0; it comes with the load's curve"),
        number<Scene>("max_steps", MEMBER(solve.max_steps), {.low = 1}, "", "give up after so many steps"),
        number<Scene>(
            "snapshot_every", MEMBER(solve.snapshot_every), not_negative, "",

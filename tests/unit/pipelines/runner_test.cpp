@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
+#include "pipelines/report/run_data.hpp"
 #include "pipelines/runner/external_command.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run_record.hpp"
@@ -163,6 +165,27 @@ TEST_F(Runner, ACommandSeesItsFoldersWhateverTheirNames) {
   fs::create_directories(out);
   run_external_command({"echo {in} > {out}/said", folder_ / "in here", out, folder_}, interruption_);
   EXPECT_EQ(read(out / "said"), (folder_ / "in here").string() + "\n");
+}
+
+TEST_F(Runner, AHistoryIsReadByTheNamesOfItsColumns) {
+  const auto rows = read_history(write("h.csv", "time,step,mine,reaction_z_N,error_bound_mm\n0.5,20,7,-3,inf\n"));
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].time, 0.5);
+  EXPECT_EQ(rows[0].step, 20);
+  EXPECT_EQ(rows[0].reaction, Eigen::Vector3d(0, 0, -3));
+  EXPECT_TRUE(std::isinf(rows[0].error_bound));
+  EXPECT_EQ(rows[0].dissipated_energy, 0) << "a column that is not there";
+  const std::pair<const char*, const char*> faults[] = {{"step\n1\n", "no column 'time'"},
+                                                        {"step,time\n1\n", "line 2: 2 numbers"},
+                                                        {"step,time\n1,2\n3,x\n", "line 3: time is 'x'"}};
+  for (const auto& [text, said] : faults) {
+    try {
+      read_history(write("h.csv", text));
+      FAIL() << text;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST_F(Runner, AFailedCommandIsAFaultWithItsCodeAndLastWords) {

@@ -84,6 +84,16 @@ TEST_F(SceneFile, PartsInTheCommentsOfTheDefaultsParseToo) {
   EXPECT_EQ(scene.tissues[0].material.youngs_modulus, solve::Material{}.youngs_modulus);
 }
 
+TEST_F(SceneFile, DefaultsExplainEveryOptionOfATissue) {
+  const std::string text = default_scene();
+  for (const auto& option : tissue_options()) {
+    expect_parts(text, {" " + option.name + "=\"", option.name + ": " + option.help});
+  }
+  const std::string by_name = "<tissues><tissue label=\"1\" material=\"brain_viscoelastic\"/></tissues>";
+  expect_parts(text, {by_name});
+  EXPECT_EQ(parse("<scene>" + by_name + "</scene>").tissues.at(0).material.prony.size(), 2U);
+}
+
 TEST_F(SceneFile, EveryOptionReadsBackWhatItWrites) {
   Scene scene;
   for (const Element& element : scene_elements()) {
