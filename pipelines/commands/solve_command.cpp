@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cctype>
+#include <map>
 #include <memory>
 
 #include "pipelines/commands/commands.hpp"
+#include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/scene_table.hpp"
+#include "solve/material/named_materials.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -14,6 +19,7 @@ struct SolveArguments {
   std::filesystem::path craniotomy;
   std::vector<std::filesystem::path> markups;
   std::vector<std::filesystem::path> surfaces;
+  std::string plane;
   std::filesystem::path out;
 };
 
@@ -25,25 +31,97 @@ void set_material(Tissue& tissue, const std::string& name, const std::string& va
   }
 }
 
-/// 'LABEL:E_Pa,nu,density' or without density.
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// What a --material says: numbers or a name in their places, then attributes, of which a list keeps its commas.
+struct MaterialWords {
+  std::vector<std::string> placed;
+  std::map<std::string, std::string> attributes;
+};
+
+MaterialWords words_of(const std::string& values, const std::string& text) {
+  MaterialWords words;
+  std::string* last = nullptr;
+  for (const std::string& part : split(values, ',')) {
+    const std::size_t equals = part.find('=');
+    if (equals != std::string::npos) {
+      const auto [at, is_new] = words.attributes.emplace(part.substr(0, equals), part.substr(equals + 1));
+      const Option<Tissue>* option = find_option(tissue_options(), at->first);
+      if (option == nullptr || option->required) {
+        throw std::invalid_argument("--material '" + text + "' has no attribute '" + at->first +
+                                    "'; allowed: " + option_names(tissue_options()) + ", without label");
+      }
+      if (!is_new) {
+        throw std::invalid_argument("--material '" + text + "' names " + at->first + " twice");
+      }
+      last = &at->second;
+    } else if (last != nullptr) {
+      *last += "," + part;
+    } else {
+      words.placed.push_back(part);
+    }
+  }
+  return words;
+}
+
+/// The attributes of a <tissue>, in whose order they are set: 'LABEL:E_Pa,nu[,density]' or 'LABEL:NAME', then
+/// 'ATTRIBUTE=VALUE' as in a scene, or these alone.
 Tissue read_material(const std::string& text) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t end = text.find(':'); end != std::string::npos; end = text.find(',', begin)) {
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  parts.push_back(text.substr(begin));
-  if (parts.size() < 3 || parts.size() > 4) {
+  const std::size_t colon = text.find(':');
+  MaterialWords words = words_of(colon == std::string::npos ? "" : text.substr(colon + 1), text);
+  const std::size_t placed = words.placed.size();
+  const bool named = placed == 1 && !words.placed[0].empty() && std::isalpha(words.placed[0][0]) != 0;
+  if (colon == std::string::npos ||
+      !(named || placed == 2 || placed == 3 || (placed == 0 && colon + 1 < text.size()))) {
     throw std::invalid_argument("--material '" + text +
-                                "' is not LABEL:E_Pa,nu or LABEL:E_Pa,nu,density, as 1:3000,0.49 is");
+                                "' is not LABEL:E_Pa,nu or LABEL:E_Pa,nu,density, as 1:3000,0.49 is, nor LABEL:NAME or "
+                                "LABEL:ATTRIBUTE=VALUE,..., as 1:brain is and 1:law=ogden,ogden=842,-4.7");
   }
-  const std::array<std::string, 4> names = {"label", "youngs_modulus", "poisson_ratio", "density"};
+  const std::array<std::string, 3> places = {"youngs_modulus", "poisson_ratio", "density"};
+  for (std::size_t i = 0; i < placed; ++i) {
+    const std::string& name = named ? "material" : places[i];
+    if (!words.attributes.emplace(name, words.placed[i]).second) {
+      throw std::invalid_argument("--material '" + text + "' gives " + name + " twice");
+    }
+  }
+  words.attributes["label"] = text.substr(0, colon);
   Tissue tissue;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    set_material(tissue, names[i], parts[i], text);
+  for (const auto& option : tissue_options()) {
+    if (const auto found = words.attributes.find(option.name); found != words.attributes.end()) {
+      set_material(tissue, found->first, found->second, text);
+    }
+  }
+  try {
+    check_material(tissue);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("--material '" + text + "': " + error.what());
   }
   return tissue;
+}
+
+solve::Plane plane_of(const std::string& name) {
+  if (!name.empty() && name != "strain" && name != "stress") {
+    throw std::invalid_argument("--plane is '" + name + "', but must be strain | stress");
+  }
+  return name.empty() ? solve::Plane::none : name == "strain" ? solve::Plane::strain : solve::Plane::stress;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
 }
 
 std::optional<Load> load_of(const SolveArguments& arguments) {
@@ -65,9 +143,12 @@ std::optional<Load> load_of(const SolveArguments& arguments) {
 }
 
 void solve(const SolveArguments& arguments, const Settings& settings) {
+  check_solve_options(arguments.scene);
   SolveJob job = arguments.job;
   job.options = arguments.scene.solve;
   job.points_per_cell = arguments.scene.points_per_cell;
+  job.loading = arguments.scene.loading;
+  job.plane = plane_of(arguments.plane);
   job.load = load_of(arguments);
   for (const std::string& text : arguments.materials) {
     const Tissue tissue = read_material(text);
@@ -87,20 +168,34 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
   command->add_option("--nodes", arguments->job.nodes, "nodes.vtu")->required()->type_name("FILE");
   command->add_option("--cells", arguments->job.cells, "cells.vtu")->required()->type_name("FILE");
   command
-      ->add_option("--material", arguments->materials, "of one label; again for each; density is 1000 kg/m3 if absent")
+      ->add_option("--material", arguments->materials,
+                   "of one label; again for each. 1:3000,0.49 or with a density, 1000 kg/m3 if absent; a name from the "
+                   "literature, 1:brain_ogden (" +
+                       listed(solve::material_names()) +
+                       "); or attributes of a scene's <tissue>, also behind these: "
+                       "'1:law=ogden,ogden=842,-4.7,poisson_ratio=0.49,prony=0.45,0.5;0.365,50', in quotes for the "
+                       "semicolon's sake")
       ->required()
-      ->type_name("LABEL:E_Pa,nu,density")
+      ->type_name("LABEL:E_Pa,nu[,density] | LABEL:NAME | LABEL:ATTRIBUTE=VALUE,...")
       ->take_all()
       ->allow_extra_args(false);
   command->add_option("--labels", arguments->job.labels, "label map; without it the cells' labels count")
       ->type_name("FILE");
   command->add_option("--skull", arguments->job.skull, "the skull's inner surface, for contact")->type_name("FILE");
-  command->add_option("--load", arguments->craniotomy, "craniotomy.csv; without a load the nodes' own")
+  command
+      ->add_option("--plane", arguments->plane,
+                   "a plane problem, of cells that are quadrilaterals or triangles, z = 0 and 1 mm thick")
+      ->type_name("strain | stress");
+  command
+      ->add_option("--load", arguments->craniotomy,
+                   "craniotomy.csv; without a load the nodes' own; their forces act in any case")
       ->type_name("FILE");
   command->add_option("--markups", arguments->markups, "markups before and after")->expected(2)->type_name("FILE");
   command->add_option("--surfaces", arguments->surfaces, "cortex before and after")->expected(2)->type_name("FILE");
-  for (const char* name : {"basis", "derivatives", "dilatation", "penalty", "volumetric", "points_per_cell",
-                           "tolerance", "load_steps", "max_steps", "snapshot_every"}) {
+  for (const char* name :
+       {"basis",      "derivatives",     "dilatation", "penalty",   "volumetric", "nodes_per_patch", "integration",
+        "imposition", "points_per_cell", "dynamics",   "tolerance", "load_steps", "time_step",       "damping",
+        "duration",   "curve",           "curve_join", "gravity",   "max_steps",  "snapshot_every"}) {
     add_scene_option(*command, arguments->scene, "solve", name);
   }
   for (const char* name : {"margin", "depth", "farthest"}) {

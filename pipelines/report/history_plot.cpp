@@ -26,12 +26,13 @@ using Value = std::function<double(const Row&)>;
 
 // The plot's frame: values to pixels.
 struct Axes {
+  std::string x_name;
   double x_high;
   double y_low;
   double y_high;
   bool logarithmic;
 
-  double x(double step) const { return left + (width - left - right) * step / x_high; }
+  double x(double value) const { return left + (width - left - right) * value / x_high; }
   double y(double value) const {
     const auto scaled = [&](double v) { return logarithmic ? std::log10(v) : v; };
     const double relative = (scaled(value) - scaled(y_low)) / (scaled(y_high) - scaled(y_low));
@@ -62,17 +63,21 @@ void draw_frame(std::ostream& svg, const Axes& axes, const std::string& title) {
   for (int tick = 0; tick <= 4; ++tick) {
     text(svg, axes.x(axes.x_high * tick / 4), height - bottom + 20, "middle", readable(axes.x_high * tick / 4));
   }
-  text(svg, (left + width - right) / 2, height - 6, "middle", "step");
+  text(svg, (left + width - right) / 2, height - 6, "middle", axes.x_name);
   text(svg, left - 50, 18, "start", title);
 }
 
-void draw_curve(std::ostream& svg, const Axes& axes, const std::vector<Row>& history, const Value& value,
-                const std::string& stroke) {
+double step_of(const Row& row) {
+  return row.step;
+}
+
+void draw_curve(std::ostream& svg, const Axes& axes, const std::vector<Row>& history, const Value& place,
+                const Value& value, const std::string& stroke) {
   svg << "<polyline fill=\"none\" stroke=\"" << stroke << "\" stroke-width=\"2\" points=\"";
   for (const Row& row : history) {
     const double v = value(row);
     if (std::isfinite(v) && !(axes.logarithmic && v <= 0)) {
-      svg << axes.x(row.step) << ',' << axes.y(std::clamp(v, axes.y_low, axes.y_high)) << ' ';
+      svg << axes.x(place(row)) << ',' << axes.y(std::clamp(v, axes.y_low, axes.y_high)) << ' ';
     }
   }
   svg << "\"/>\n";
@@ -108,7 +113,8 @@ std::string convergence_plot(const std::vector<Row>& history, double tolerance) 
   if (history.size() < 2 || high == 0) {
     return {};
   }
-  const Axes axes{.x_high = static_cast<double>(history.back().step),
+  const Axes axes{.x_name = "step",
+                  .x_high = step_of(history.back()),
                   .y_low = std::pow(10, std::floor(std::log10(low))),
                   .y_high = std::pow(10, std::ceil(std::log10(high * 1.001))),
                   .logarithmic = true};
@@ -127,13 +133,13 @@ std::string convergence_plot(const std::vector<Row>& history, double tolerance) 
         << axes.y(tolerance) << "\" stroke=\"#b3261e\" stroke-dasharray=\"6 4\"/>\n";
     text(svg, left + 8, axes.y(tolerance) - 6, "start", "tolerance, mm");
   }
-  draw_curve(svg, axes, history, &Row::residual, "#c2571a");
-  draw_curve(svg, axes, history, &Row::error_bound, "#1f5fa8");
+  draw_curve(svg, axes, history, step_of, &Row::residual, "#c2571a");
+  draw_curve(svg, axes, history, step_of, &Row::error_bound, "#1f5fa8");
   svg << "</svg>\n";
   return svg.str();
 }
 
-std::string energy_plot(const std::vector<Row>& history) {
+std::string energy_plot(const std::vector<Row>& history, solve::Dynamics dynamics) {
   struct Curve {
     const char* name;
     const char* stroke;
@@ -141,7 +147,10 @@ std::string energy_plot(const std::vector<Row>& history) {
   };
   constexpr Curve curves[] = {{"external work", "#1f5fa8", &Row::external_work},
                               {"strain energy", "#c2571a", &Row::strain_energy},
-                              {"kinetic energy", "#7a7f87", &Row::kinetic_energy}};
+                              {"kinetic energy", "#7a7f87", &Row::kinetic_energy},
+                              {"dissipated", "#3d8a52", &Row::dissipated_energy}};
+  const bool in_time = dynamics == solve::Dynamics::transient;
+  const Value place = in_time ? Value(&Row::time) : Value(step_of);
   double high = 0;
   for (const Row& row : history) {
     for (const Curve& curve : curves) {
@@ -151,15 +160,18 @@ std::string energy_plot(const std::vector<Row>& history) {
   if (history.size() < 2 || high == 0) {
     return {};
   }
-  const Axes axes{
-      .x_high = static_cast<double>(history.back().step), .y_low = 0, .y_high = round_up(high), .logarithmic = false};
-  std::ostringstream svg = begin_svg("energies over the steps");
+  const Axes axes{.x_name = in_time ? "time, s" : "step",
+                  .x_high = place(history.back()),
+                  .y_low = 0,
+                  .y_high = round_up(high),
+                  .logarithmic = false};
+  std::ostringstream svg = begin_svg(in_time ? "energies over time" : "energies over the steps");
   draw_frame(svg, axes, "energy, mJ");
-  double key = left + 60;
+  double key = left + 30;
   for (const Curve& curve : curves) {
-    draw_curve(svg, axes, history, curve.value, curve.stroke);
+    draw_curve(svg, axes, history, place, curve.value, curve.stroke);
     draw_key(svg, key, curve.stroke, curve.name);
-    key += 132;
+    key += 118;
   }
   svg << "</svg>\n";
   return svg.str();

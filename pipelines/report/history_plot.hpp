@@ -13,7 +13,8 @@ namespace brainshift::pipelines {
 /// two rows.
 std::string convergence_plot(const std::vector<solve::HistoryRow>& history, double tolerance);
 
-/// External work, strain energy and kinetic energy (mJ) over the steps.
-std::string energy_plot(const std::vector<solve::HistoryRow>& history);
+/// External work, strain energy, kinetic and dissipated energy (mJ) over the steps or, of a transient run, over time
+/// (s). Empty for fewer than two rows.
+std::string energy_plot(const std::vector<solve::HistoryRow>& history, solve::Dynamics dynamics);
 
 }  // namespace brainshift::pipelines

@@ -119,7 +119,8 @@ std::vector<MeasureRow> quality_measures(const json& record) {
              1, "volume of the surface against that of the brain's voxels");
   add_volume(rows, record, "discretise", "/discretise/measures/cells_inside_volume_mm3",
              "/discretise/measures/surface_volume_mm3", 0.5, "volume that is integrated against that of the surface");
-  add_flag(rows, record, "solve", "/solve/measures/converged", true, "the solver reached its tolerance");
+  add_flag(rows, record, "solve", "/solve/measures/converged", true,
+           "the solver reached its tolerance or, in time, its end");
   for (const Rule& rule : rules) {
     add_rule(rows, record, rule);
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "pipelines/report/run_data.hpp"
+
 namespace brainshift::pipelines {
 
 namespace {
@@ -120,11 +122,15 @@ std::string convergence_section(const PageContent& content) {
   for (const auto& plot : content.plots) {
     html += "<div>" + plot + "</div>\n";
   }
-  return html.empty() ? html
-                      : "<h2>How the solver converged</h2>\n<p>The load is applied smoothly, then the motion is damped "
-                        "until the bound of the remaining error falls below the tolerance.</p>\n<div "
-                        "class=\"plots\">\n" +
-                            html + "</div>\n";
+  if (html.empty()) {
+    return html;
+  }
+  const bool in_time = dynamics_of(content.record) == solve::Dynamics::transient;
+  const std::string words = in_time
+                                ? "<h2>Energies</h2>\n<p>The motion in time, with the tissue's own mass.</p>"
+                                : "<h2>How the solver converged</h2>\n<p>The load is applied smoothly, then the motion "
+                                  "is damped until the bound of the remaining error falls below the tolerance.</p>";
+  return words + "\n<div class=\"plots\">\n" + html + "</div>\n";
 }
 
 }  // namespace

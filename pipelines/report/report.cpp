@@ -85,7 +85,8 @@ void write_report(const fs::path& run_folder, const fs::path& out, const Progres
   if (run.brain && run.solution) {
     draw_pictures(run, out, content, progress);
   }
-  for (const std::string& plot : {convergence_plot(run.history, tolerance_of(run.record)), energy_plot(run.history)}) {
+  for (const std::string& plot :
+       {convergence_plot(run.history, tolerance_of(run.record)), energy_plot(run.history, dynamics_of(run.record))}) {
     if (!plot.empty()) {
       content.plots.push_back(plot);
     }

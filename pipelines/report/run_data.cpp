@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/report/run_data.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
+#include <map>
 #include <nanoflann.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -42,6 +44,35 @@ auto read_if_there(const fs::path& file, const Read& read) {
   return !file.empty() && fs::exists(file) ? std::optional<Value>(read(file)) : std::nullopt;
 }
 
+std::vector<std::string> fields_of(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> fields;
+  for (std::string field; std::getline(stream, field, ',');) {
+    fields.push_back(field);
+  }
+  return fields;
+}
+
+// Columns that are not known are left out.
+void set_column(solve::HistoryRow& row, const std::string& name, double value) {
+  static const std::map<std::string, double solve::HistoryRow::*> columns = {
+      {"time", &solve::HistoryRow::time},
+      {"external_work_mJ", &solve::HistoryRow::external_work},
+      {"strain_energy_mJ", &solve::HistoryRow::strain_energy},
+      {"kinetic_energy_mJ", &solve::HistoryRow::kinetic_energy},
+      {"dissipated_energy_mJ", &solve::HistoryRow::dissipated_energy},
+      {"residual", &solve::HistoryRow::residual},
+      {"error_bound_mm", &solve::HistoryRow::error_bound}};
+  static const std::array<std::string, 3> reactions = {"reaction_x_N", "reaction_y_N", "reaction_z_N"};
+  if (const auto column = columns.find(name); column != columns.end()) {
+    row.*column->second = value;
+  } else if (const auto axis = std::find(reactions.begin(), reactions.end(), name); axis != reactions.end()) {
+    row.reaction[axis - reactions.begin()] = value;
+  } else if (name == "step") {
+    row.step = static_cast<int>(value);
+  }
+}
+
 using Tree = nanoflann::KDTreeEigenMatrixAdaptor<Points, 3, nanoflann::metric_L2_Simple>;
 
 }  // namespace
@@ -68,26 +99,39 @@ RunData read_run(const fs::path& run_folder) {
   return run;
 }
 
+solve::Dynamics dynamics_of(const json& record) {
+  const json::json_pointer place("/options/solve/dynamics");
+  return record.contains(place) && record.at(place) == "transient" ? solve::Dynamics::transient
+                                                                   : solve::Dynamics::relaxation;
+}
+
 std::vector<solve::HistoryRow> read_history(const fs::path& file) {
   std::ifstream stream(file);
   std::string line;
   std::getline(stream, line);
+  const std::vector<std::string> names = fields_of(line);
+  for (const char* needed : {"step", "time"}) {
+    if (std::find(names.begin(), names.end(), needed) == names.end()) {
+      throw std::invalid_argument(file.string() + ", line 1: there is no column '" + needed + "'");
+    }
+  }
   std::vector<solve::HistoryRow> rows;
   for (int number = 2; std::getline(stream, line); ++number) {
-    std::istringstream fields(line);
-    std::array<double, 7> values{};
-    std::string field;
-    std::size_t count = 0;
-    while (count < values.size() && std::getline(fields, field, ',')) {
+    const std::vector<std::string> fields = fields_of(line);
+    if (fields.size() != names.size()) {
+      throw std::invalid_argument(file.string() + ", line " + std::to_string(number) + ": " +
+                                  std::to_string(names.size()) + " numbers expected, found '" + line + "'");
+    }
+    solve::HistoryRow& row = rows.emplace_back();
+    for (std::size_t i = 0; i < fields.size(); ++i) {
       char* end = nullptr;
-      values[count] = std::strtod(field.c_str(), &end);  // reads nan too, which streams do not
-      count += end != field.c_str() ? 1 : values.size() + 1;
+      const double value = std::strtod(fields[i].c_str(), &end);  // reads nan too, which streams do not
+      if (end == fields[i].c_str() || *end != '\0') {
+        throw std::invalid_argument(file.string() + ", line " + std::to_string(number) + ": " + names[i] + " is '" +
+                                    fields[i] + "', but must be a number");
+      }
+      set_column(row, names[i], value);
     }
-    if (count != values.size()) {
-      throw std::invalid_argument(file.string() + ", line " + std::to_string(number) +
-                                  ": seven numbers expected, found '" + line + "'");
-    }
-    rows.push_back({static_cast<int>(values[0]), values[1], values[2], values[3], values[4], values[5], values[6]});
   }
   return rows;
 }

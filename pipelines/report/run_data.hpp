@@ -27,7 +27,11 @@ struct RunData {
 /// Throws std::invalid_argument, naming the file, when the folder holds no run.json or something that cannot be read.
 RunData read_run(const std::filesystem::path& run_folder);
 
-/// The rows of solve/history.csv.
+/// What time stepping was for, from run.json's options; relaxation where they do not say.
+solve::Dynamics dynamics_of(const nlohmann::json& record);
+
+/// The rows of solve/history.csv, whose columns go by name: step and time must be there, others that are not stay 0.
+/// Throws std::invalid_argument, naming file and line.
 std::vector<solve::HistoryRow> read_history(const std::filesystem::path& file);
 
 /// The nodes on which a displacement was imposed (those with a reaction), (n × 3) mm; no row where there are none.

@@ -94,6 +94,9 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
   model.cells = read_background_cells(job.cells);
   model.labels = labels_if(job.labels);
   model.materials = job.materials;
+  model.plane = job.plane;
+  model.gravity = job.loading.gravity;
+  model.curve = load_curve(job.loading);
   if (!job.skull.empty()) {
     model.skull = read_surface(job.skull);
   }
@@ -110,7 +113,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
   if (options.snapshot_every > 0) {
     solve::write_steps(out, result.solution.positions, result.snapshots);
   }
-  return report_of(result);
+  return report_of(result, options.dynamics);
 }
 
 StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress& progress) {

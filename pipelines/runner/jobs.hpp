@@ -32,10 +32,12 @@ struct SolveJob {
   std::filesystem::path labels;
   std::filesystem::path skull;    ///< contact when given
   std::filesystem::path surface;  ///< the brain's, for a simulated load
-  std::optional<Load> load;       ///< absent: what the nodes prescribe
+  std::optional<Load> load;       ///< absent: what the nodes prescribe; the forces of the nodes act in any case
   std::map<std::int32_t, solve::Material> materials;
   solve::SolveOptions options;         ///< but for points_per_cell
   std::optional<int> points_per_cell;  ///< absent: the most that the cells take
+  Loading loading;
+  solve::Plane plane = solve::Plane::none;
 };
 
 struct RegisterJob {

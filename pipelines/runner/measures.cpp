@@ -37,7 +37,7 @@ StageReport report_of(const discretise::DiscretiseMeasures& m) {
   return report;
 }
 
-StageReport report_of(const solve::SolveResult& result) {
+StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics) {
   const solve::SolveMeasures& m = result.measures;
   StageReport report;
   report.failure = result.failure;
@@ -52,6 +52,7 @@ StageReport report_of(const solve::SolveResult& result) {
                      {"mean_support", m.mean_support},
                      {"grown_supports", m.grown_supports},
                      {"outside_label", m.outside_label},
+                     {"consistency_iterations", m.consistency_iterations},
                      {"critical_step_s", m.critical_step},
                      {"largest_displacement_mm", m.largest_displacement},
                      {"constraint_error_mm", m.constraint_error},
@@ -60,6 +61,9 @@ StageReport report_of(const solve::SolveResult& result) {
                      {"largest_stretch", m.largest_stretch},
                      {"seconds_setup", m.seconds_setup},
                      {"seconds_stepping", m.seconds_stepping}};
+  if (dynamics == solve::Dynamics::transient) {
+    report.measures.erase("error_bound_mm");
+  }
   return report;
 }
 

@@ -117,7 +117,9 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
                scene.load,
                {},
                scene.solve,
-               scene.points_per_cell};
+               scene.points_per_cell,
+               scene.loading,
+               solve::Plane::none};
   if (scene.contact) {
     job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;
   }

@@ -6,12 +6,14 @@
 #include <stdexcept>
 
 #include "pipelines/scene/scene_table.hpp"
+#include "solve/material/check_material.hpp"
 
 namespace brainshift::pipelines {
 namespace {
 
+/// Without a scene's file the options are those of a command.
 [[noreturn]] void fail(const Scene& scene, const std::string& path, const std::string& what) {
-  throw std::invalid_argument(place(scene.source, path) + ": " + what);
+  throw std::invalid_argument(scene.source.file.empty() ? what : place(scene.source, path) + ": " + what);
 }
 
 void check_files(const Scene& scene) {
@@ -124,6 +126,13 @@ void check_tissues(const Scene& scene) {
   if (scene.tissues.empty()) {
     fail(scene, "tissues", "the scene has no <tissues>; name a tissue with its material for each label of the brain");
   }
+  for (const Tissue& tissue : scene.tissues) {
+    try {
+      check_material(tissue);
+    } catch (const std::invalid_argument& error) {
+      fail(scene, "tissues." + std::to_string(tissue.label), error.what());
+    }
+  }
   if (!is_ours(scene, StageId::segment)) {
     return;
   }
@@ -160,7 +169,44 @@ void check_scene(const Scene& scene) {
   check_image(scene);
   check_load(scene);
   check_options(scene);
+  check_solve_options(scene);
   check_tissues(scene);
+}
+
+void check_solve_options(const Scene& scene) {
+  const Loading& loading = scene.loading;
+  if (!loading.curve.empty() && loading.duration) {
+    fail(scene, "solve.duration",
+         "there are both a duration and a curve for the load; the curve " + loading.curve.string() +
+             " says how long it takes: give one of them");
+  }
+  if (loading.curve.empty() && loading.curve_join != solve::LoadCurve::Join::smooth) {
+    fail(scene, "solve.curve_join", "curve_join is straight, but there is no curve whose rows it would join");
+  }
+  if (scene.solve.dynamics == solve::Dynamics::relaxation) {
+    const std::pair<const char*, bool> in_time_only[] = {{"time_step", scene.solve.time_step != 0},
+                                                         {"damping", scene.solve.damping != 0},
+                                                         {"duration", loading.duration.has_value()}};
+    for (const auto& [name, given] : in_time_only) {
+      if (given) {
+        fail(scene, std::string("solve.") + name,
+             std::string(name) +
+                 " is given, but dynamics is relaxation, which has no time; leave it out, or set "
+                 "dynamics to transient");
+      }
+    }
+  }
+  load_curve(loading);
+}
+
+void check_material(const Tissue& tissue) {
+  const std::string name = "the material of label " + std::to_string(tissue.label);
+  if (tissue.material.law != solve::Law::ogden && !tissue.material.ogden.empty()) {
+    throw std::invalid_argument(name + " has the Ogden terms " + find_option(tissue_options(), "ogden")->get(tissue) +
+                                " but follows the law " + find_option(tissue_options(), "law")->get(tissue) +
+                                "; set the law to ogden, or ogden to nothing");
+  }
+  solve::check_material(name, tissue.material);
 }
 
 }  // namespace brainshift::pipelines

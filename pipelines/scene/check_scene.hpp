@@ -10,4 +10,11 @@ namespace brainshift::pipelines {
 /// std::invalid_argument naming file and line, what was found and what to do.
 void check_scene(const Scene& scene);
 
+/// The part of it for the options of the solve stage: those that exclude or need each other, and the load's curve.
+void check_solve_options(const Scene& scene);
+
+/// Throws std::invalid_argument, one sentence, when the material has Ogden terms under another law or is one that
+/// solve::check_material refuses.
+void check_material(const Tissue& tissue);
+
 }  // namespace brainshift::pipelines

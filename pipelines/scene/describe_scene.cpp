@@ -49,9 +49,15 @@ std::string optional_part(const Element& element, const Scene& scene) {
 }
 
 std::string tissues_part() {
-  const std::string example = "<tissues><tissue" + attributes(tissue_options(), Tissue{1, {}, {}, {}}) + "/></tissues>";
+  Tissue tissue;
+  tissue.label = 1;
+  // Constants beside a named material override it, so the example of all constants names none.
+  std::vector<Option<Tissue>> constants = tissue_options();
+  std::erase_if(constants, [](const auto& option) { return option.name == "material"; });
+  const std::string example = "<tissues><tissue" + attributes(constants, tissue) + "/></tissues>";
   return comment("The brain's tissues: one element a label.",
-                 help_lines(tissue_options(), "       ") + "       " + example + "\n");
+                 help_lines(tissue_options(), "       ") + "       " + example +
+                     "\n       or <tissues><tissue label=\"1\" material=\"brain_viscoelastic\"/></tissues>\n");
 }
 
 }  // namespace

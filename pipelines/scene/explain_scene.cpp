@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "pipelines/scene/scene_table.hpp"
+#include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -52,9 +53,7 @@ Cost estimate(const Scene& scene) {
   const double cells = cost.nodes * (hexahedra ? discretise.cells_per_node : 6);
   const int points_a_cell = scene.points_per_cell.value_or(hexahedra ? 8 : 4);
   cost.points = cells * points_a_cell;
-  const ShapeOptions& shape = scene.solve.shape;
-  const double dilatation = shape.dilatation > 0 ? shape.dilatation : (shape.basis == Basis::linear ? 1.6 : 2.2);
-  cost.pairs = cost.points * 4 * std::numbers::pi / 3 * std::pow(dilatation, 3);
+  cost.pairs = cost.points * 4 * std::numbers::pi / 3 * std::pow(solve::dilatation(scene.solve.shape), 3);
   return cost;
 }
 
@@ -89,11 +88,48 @@ void explain_parts(const Scene& scene, std::ostringstream& text) {
       text << "  " << element.path << ": " << (element.present(scene) ? "active" : "not built") << "\n";
     }
   }
-  for (const Tissue& tissue : scene.tissues) {
-    text << "  tissue " << tissue.label << (tissue.name.empty() ? "" : " (" + tissue.name + ")") << ": "
-         << find_option(tissue_options(), "law")->get(tissue) << ", E " << write_number(tissue.material.youngs_modulus)
-         << " Pa, nu " << write_number(tissue.material.poisson_ratio) << "\n";
+}
+
+void explain_material(const Tissue& tissue, bool in_time, std::ostringstream& text) {
+  const solve::Material& material = tissue.material;
+  text << "  tissue " << tissue.label << (tissue.name.empty() ? "" : " (" + tissue.name + ")") << ": "
+       << find_option(tissue_options(), "law")->get(tissue);
+  if (material.law == solve::Law::ogden) {
+    text << ", mu, alpha " << find_option(tissue_options(), "ogden")->get(tissue);
+  } else {
+    text << ", E " << write_number(material.youngs_modulus) << " Pa";
   }
+  text << ", nu " << write_number(material.poisson_ratio);
+  if (!material.prony.empty()) {
+    text << ", relaxes to mu " << solve::shear_modulus(solve::long_term(material)) << " Pa"
+         << (in_time ? "" : ", with which the steady state is found");
+  }
+  text << "\n";
+}
+
+void explain_physics(const Scene& scene, std::ostringstream& text) {
+  const auto said = [&](const char* name) { return find_option(find_element("solve")->options, name)->get(scene); };
+  const bool in_time = scene.solve.dynamics == solve::Dynamics::transient;
+  for (const Tissue& tissue : scene.tissues) {
+    explain_material(tissue, in_time, text);
+  }
+  text << "  shape functions: " << said("basis") << ", " << said("derivatives") << " derivatives, dilatation "
+       << solve::dilatation(scene.solve.shape) << "\n  volumetric: " << said("volumetric");
+  if (scene.solve.volumetric == solve::Volumetric::mean_dilatation) {
+    text << ", " << said("nodes_per_patch") << " nodes a patch";
+  }
+  text << "\n  integration: " << said("integration") << "\n  imposition: " << said("imposition")
+       << "\n  dynamics: " << said("dynamics");
+  if (in_time) {
+    text << " over " << load_curve(scene.loading).duration() << " s, time step "
+         << (scene.solve.time_step > 0 ? said("time_step") + " s" : "automatic") << ", damping " << said("damping")
+         << " 1/s";
+  } else {
+    text << " to " << said("tolerance") << " mm";
+  }
+  text << "\n  load's curve: "
+       << (scene.loading.curve.empty() ? "3-4-5" : said("curve") + ", joined " + said("curve_join"))
+       << "\n  gravity: " << (scene.loading.gravity.isZero() ? "not active" : said("gravity") + " m/s2") << "\n";
 }
 
 }  // namespace
@@ -103,6 +139,10 @@ std::string explain_scene(const Scene& scene) {
   std::ostringstream text;
   text << "parts\n";
   explain_parts(scene, text);
+  if (scene.commands[index_of(StageId::solve)].empty()) {
+    text << "physics\n";
+    explain_physics(scene, text);
+  }
   text << "stages (estimates for a brain of " << round_number(cost.volume / 1000) << " ml)\n";
   for (const StageId stage : all_stages) {
     const std::string& command = scene.commands[index_of(stage)];

@@ -149,12 +149,12 @@ Option<T> labels(std::string name, Access access, std::string help) {
           [=](const T& target) { return write_numbers(access(target)); }};
 }
 
-/// A point of the world, three numbers.
+/// A vector of the world, three numbers.
 template <class T, class Access>
-Option<T> point(std::string name, Access access, std::string help) {
+Option<T> vector(std::string name, Access access, std::string unit, std::string help) {
   return {std::move(name),
           "three numbers",
-          "mm, LPS",
+          std::move(unit),
           std::move(help),
           false,
           false,
@@ -167,6 +167,35 @@ Option<T> point(std::string name, Access access, std::string help) {
             return true;
           },
           [=](const T& target) { return write_numbers(access(target)); }};
+}
+
+/// A list of pairs of numbers, kept as structs of two: "a,b; a,b".
+template <class T, class Access>
+Option<T> pairs(std::string name, Access access, std::string allowed, std::string unit, std::string help) {
+  using Pair = typename std::remove_cvref_t<decltype(access(std::declval<T&>()))>::value_type;
+  return {std::move(name),
+          std::move(allowed),
+          std::move(unit),
+          std::move(help),
+          false,
+          false,
+          [=](T& target, const std::string& words) {
+            const auto values = read_number_pairs(words);
+            if (values) {
+              access(target).clear();
+              for (const auto& [first, second] : *values) {
+                access(target).push_back(Pair{first, second});
+              }
+            }
+            return values.has_value();
+          },
+          [=](const T& target) {
+            std::string words;
+            for (const auto& [first, second] : access(target)) {
+              words += (words.empty() ? "" : "; ") + write_number(first) + "," + write_number(second);
+            }
+            return words;
+          }};
 }
 
 template <class T>

@@ -4,7 +4,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <stdexcept>
 
 #include "pipelines/scene/scene_table.hpp"
@@ -45,27 +45,29 @@ const Option<T>& known_option(const std::vector<Option<T>>& options, const std::
   return *option;
 }
 
-/// Reads the attributes of an element into the target, and where they were written into the source.
+/// Reads the attributes of an element into the target, and where they were written into the source. They are applied
+/// in the order of the options, so that a named material comes before the constants that differ from it.
 template <class T>
 void read_attributes(const tinyxml2::XMLElement& xml, const std::vector<Option<T>>& options, T& target,
                      const std::string& path, SceneSource& source) {
   const std::string name = "<" + std::string(xml.Name()) + ">";
-  std::set<std::string> seen;
+  std::map<std::string, const tinyxml2::XMLAttribute*> given;
   for (const auto* attribute = xml.FirstAttribute(); attribute != nullptr; attribute = attribute->Next()) {
     const std::string attribute_name = attribute->Name();
     if (attribute_name == "name" && std::string(xml.Name()) == "stage") {
       continue;
     }
     const Where where{source, attribute->GetLineNum(), name};
-    const Option<T>& option = known_option(options, attribute_name, where);
-    if (!seen.insert(attribute_name).second) {
+    known_option(options, attribute_name, where);
+    if (!given.emplace(attribute_name, attribute).second) {
       where.fail(name + " names " + attribute_name + " twice");
     }
-    set_option(option, target, attribute->Value(), where);
     source.lines[path + "." + attribute_name] = attribute->GetLineNum();
   }
   for (const auto& option : options) {
-    if (option.required && !seen.contains(option.name)) {
+    if (const auto found = given.find(option.name); found != given.end()) {
+      set_option(option, target, found->second->Value(), {source, found->second->GetLineNum(), name});
+    } else if (option.required) {
       Where{source, xml.GetLineNum(), name}.fail(name + " needs the attribute '" + option.name + "' (" + option.help +
                                                  ")");
     }

@@ -22,6 +22,13 @@ StageId stage_from_name(std::string_view name) {
   throw std::invalid_argument("there is no stage '" + std::string(name) + "'; the stages are " + names);
 }
 
+solve::LoadCurve load_curve(const Loading& loading) {
+  if (!loading.curve.empty()) {
+    return solve::read_load_curve(loading.curve, loading.curve_join);
+  }
+  return {{0, loading.duration.value_or(1)}, {0, 1}, solve::LoadCurve::Join::smooth};
+}
+
 std::string place(const SceneSource& source, const std::string& path) {
   const auto found = source.lines.find(path);
   if (found == source.lines.end()) {

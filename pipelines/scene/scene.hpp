@@ -41,13 +41,10 @@ struct ImageInputs {
   std::optional<std::int16_t> skull_label;
 };
 
-/// Material laws; one more joins here and in the table of options.
-enum class Law : std::uint8_t { neo_hookean };
-
 struct Tissue {
   std::int16_t label = 0;
   std::string name;
-  Law law = Law::neo_hookean;
+  std::string named_material;  ///< the constants were those of solve::named_material before others were set; or empty
   solve::Material material;
 };
 
@@ -77,6 +74,17 @@ struct CraniotomyRefinement {
   double radius = 20;  ///< mm
 };
 
+/// How the load and all forces come over time, and the weight.
+struct Loading {
+  std::optional<double> duration;  ///< of the 3-4-5 curve in a transient run, s; absent: 1
+  std::filesystem::path curve;     ///< CSV time,factor in place of it; empty: none
+  solve::LoadCurve::Join curve_join = solve::LoadCurve::Join::smooth;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s², LPS
+};
+
+/// The curve that the loading asks for. Throws std::invalid_argument, naming file and line, when its file is at fault.
+solve::LoadCurve load_curve(const Loading& loading);
+
 /// A whole-number index for arrays with one entry a stage.
 constexpr std::size_t index_of(StageId stage) {
   return static_cast<std::size_t>(stage);
@@ -102,6 +110,7 @@ struct Scene {
   CraniotomyRefinement refinement;
   solve::SolveOptions solve;           ///< but for points_per_cell
   std::optional<int> points_per_cell;  ///< absent: the most that the cells take
+  Loading loading;
   registration::RegisterOptions registration;
   std::array<std::string, all_stages.size()> commands;  ///< external commands that replace stages; empty: our own stage
   SceneSource source;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/scene/scene_table.hpp"
 
+#include "solve/material/named_materials.hpp"
+
 namespace brainshift::pipelines {
 namespace {
 
@@ -95,8 +97,8 @@ std::vector<Element> load_elements() {
                  required(file<Scene>("after", MEMBER(load->surfaces->after), "intraop surface"))}),
       load_part("simulated", "A craniotomy made up on the brain's surface: say so when you show the result.",
                 &Load::simulated,
-                {required(point<Scene>("centre", MEMBER(load->simulated->centre),
-                                       "near the middle of the opening; the nearest point of the surface is taken")),
+                {required(vector<Scene>("centre", MEMBER(load->simulated->centre), "mm, LPS",
+                                        "near the middle of the opening; the nearest point of the surface is taken")),
                  number<Scene>("radius", MEMBER(load->simulated->radius), above_zero, "mm", "of the opening"),
                  number<Scene>("depth", MEMBER(load->simulated->depth), above_zero, "mm",
                                "inward displacement at the centre")})};
@@ -149,40 +151,76 @@ Element discretise_element() {
 }
 
 Element solve_element() {
-  return {"solve",
-          "MTLED with adaptive dynamic relaxation.",
-          false,
-          always,
-          nothing,
-          {choice<Scene>("basis", MEMBER(solve.shape.basis),
-                         std::vector<std::pair<std::string, Basis>>{{"linear", Basis::linear},
-                                                                    {"quadratic", Basis::quadratic},
-                                                                    {"modified_quadratic", Basis::modified_quadratic}},
-                         "of the shape functions: MLS, or MMLS (modified_quadratic)"),
-           choice<Scene>("derivatives", MEMBER(solve.shape.derivatives),
-                         std::vector<std::pair<std::string, Derivatives>>{{"full", Derivatives::full},
-                                                                          {"diffuse", Derivatives::diffuse}},
-                         "of the shape functions; diffuse is cheaper and inexact"),
-           number<Scene>("dilatation", MEMBER(solve.shape.dilatation), {.low = 0, .high = 10}, "",
-                         "support radius / local spacing; 0: what suits the basis"),
-           number<Scene>("penalty", MEMBER(solve.shape.penalty), {.low = 0, .high = 1}, "",
-                         "on the quadratic terms of MMLS"),
-           choice<Scene>("volumetric", MEMBER(solve.volumetric),
-                         std::vector<std::pair<std::string, solve::Volumetric>>{
-                             {"mean_dilatation", solve::Volumetric::mean_dilatation},
-                             {"pointwise", solve::Volumetric::pointwise}},
-                         "volumetric strain energy: one pressure a cell, or the plain method, which locks"),
-           choice<Scene>("points_per_cell", MEMBER(points_per_cell),
-                         std::vector<std::pair<std::string, std::optional<int>>>{
-                             {"auto", std::nullopt}, {"1", 1}, {"4", 4}, {"8", 8}},
-                         "integration points a cell: hexahedra 1 or 8 (auto), tetrahedra 1 or 4 (auto)"),
-           number<Scene>("tolerance", MEMBER(solve.tolerance), above_zero, "mm",
-                         "stop when the bound of the remaining error is below this"),
-           number<Scene>("load_steps", MEMBER(solve.load_steps), {.low = 1}, "", "steps of the 3-4-5 loading"),
-           number<Scene>("max_steps", MEMBER(solve.max_steps), {.low = 1}, "", "give up after so many steps"),
-           number<Scene>("snapshot_every", MEMBER(solve.snapshot_every), not_negative, "",
-                         "steps between displacements kept for steps.pvd, each 20th at the most; 0: none"),
-           command(StageId::solve)}};
+  return {
+      "solve",
+      "MTLED: to the steady state by adaptive dynamic relaxation, or the motion in time.",
+      false,
+      always,
+      nothing,
+      {choice<Scene>("basis", MEMBER(solve.shape.basis),
+                     std::vector<std::pair<std::string, Basis>>{{"linear", Basis::linear},
+                                                                {"quadratic", Basis::quadratic},
+                                                                {"modified_quadratic", Basis::modified_quadratic}},
+                     "of the shape functions: MLS, or MMLS (modified_quadratic)"),
+       choice<Scene>("derivatives", MEMBER(solve.shape.derivatives),
+                     std::vector<std::pair<std::string, Derivatives>>{{"full", Derivatives::full},
+                                                                      {"diffuse", Derivatives::diffuse}},
+                     "of the shape functions; diffuse is cheaper and inexact"),
+       number<Scene>(
+           "dilatation", MEMBER(solve.shape.dilatation), {.low = 0, .high = 10}, "",
+           "support radius / local spacing; 0: what suits the basis, 1.6 (linear) or 2.2, in a plane 1.8 or 2.4"),
+       number<Scene>("penalty", MEMBER(solve.shape.penalty), {.low = 0, .high = 1}, "",
+                     "on the quadratic terms of MMLS"),
+       choice<Scene>(
+           "volumetric", MEMBER(solve.volumetric),
+           std::vector<std::pair<std::string, solve::Volumetric>>{
+               {"mean_dilatation", solve::Volumetric::mean_dilatation}, {"pointwise", solve::Volumetric::pointwise}},
+           "volumetric strain energy: pressures linear over patches of a few nodes, or pointwise, the plain "
+           "method, which locks"),
+       number<Scene>("nodes_per_patch", MEMBER(solve.nodes_per_patch), above_zero, "",
+                     "of mean_dilatation: nodes to a patch, on average"),
+       choice<Scene>("integration", MEMBER(solve.integration),
+                     std::vector<std::pair<std::string, solve::Integration>>{
+                         {"plain", solve::Integration::plain}, {"consistent", solve::Integration::consistent}},
+                     "derivatives as they are, or corrected for cells that do not conform to the body, so that "
+                     "the linear patch test holds"),
+       choice<Scene>("imposition", MEMBER(solve.imposition),
+                     std::vector<std::pair<std::string, solve::Imposition>>{
+                         {"exact", solve::Imposition::exact}, {"simplified", solve::Imposition::simplified}},
+                     "of prescribed displacements: factorised, or lumped, which is cheaper and off by what the "
+                     "next step takes back"),
+       choice<Scene>("points_per_cell", MEMBER(points_per_cell),
+                     std::vector<std::pair<std::string, std::optional<int>>>{
+                         {"auto", std::nullopt}, {"1", 1}, {"3", 3}, {"4", 4}, {"8", 8}},
+                     "integration points a cell: hexahedra 1 or 8 (auto), tetrahedra 1 or 4 (auto); planar cells: "
+                     "quadrilaterals 1 or 4 (auto), triangles 1 or 3 (auto)"),
+       choice<Scene>("dynamics", MEMBER(solve.dynamics),
+                     std::vector<std::pair<std::string, solve::Dynamics>>{{"relaxation", solve::Dynamics::relaxation},
+                                                                          {"transient", solve::Dynamics::transient}},
+                     "the steady state under the full load, where relaxing materials have relaxed; or the motion "
+                     "in time, with the physical mass"),
+       number<Scene>("tolerance", MEMBER(solve.tolerance), above_zero, "mm",
+                     "relaxation: stop when the bound of the remaining error is below this"),
+       number<Scene>("load_steps", MEMBER(solve.load_steps), {.low = 1}, "", "relaxation: steps over the load's curve"),
+       number<Scene>("time_step", MEMBER(solve.time_step), not_negative, "s",
+                     "transient: at most the critical one; 0: nine tenths of that"),
+       number<Scene>("damping", MEMBER(solve.damping), not_negative, "1/s", "transient: proportional to mass; 0: none"),
+       number<Scene>("duration", MEMBER(loading.duration), above_zero, "s",
+                     "transient: of the 3-4-5 curve by which load and forces come, and of the run; 1 when absent"),
+       file<Scene>("curve", MEMBER(loading.curve),
+                   "CSV time,factor from 0,0 on, by which load and forces come, in place of the 3-4-5 curve; its "
+                   "times are seconds in a transient run, which ends with it"),
+       choice<Scene>("curve_join", MEMBER(loading.curve_join),
+                     std::vector<std::pair<std::string, solve::LoadCurve::Join>>{
+                         {"smooth", solve::LoadCurve::Join::smooth}, {"straight", solve::LoadCurve::Join::straight}},
+                     "of the curve's rows: by 3-4-5 polynomials or straight lines"),
+       vector<Scene>("gravity", MEMBER(loading.gravity), "m/s2, LPS",
+                     "on a patient who sits 0,0,-9.81, who lies on the back 0,9.81,0; it comes with the load's curve"),
+       number<Scene>("max_steps", MEMBER(solve.max_steps), {.low = 1}, "", "give up after so many steps"),
+       number<Scene>(
+           "snapshot_every", MEMBER(solve.snapshot_every), not_negative, "",
+           "steps between displacements kept for steps.pvd, each 20th at the most, in time each 50th; 0: none"),
+       command(StageId::solve)}};
 }
 
 Element register_element() {
@@ -237,16 +275,49 @@ std::vector<Element> make_elements() {
   return elements;
 }
 
+/// Sets law and all constants; those that come after it override them.
+Option<Tissue> material_option() {
+  Option<Tissue> option{"material", "",    "", "law and constants from the literature; others beside it override them",
+                        false,      false, {}, {}};
+  for (const std::string& name : solve::material_names()) {
+    option.allowed += name + " | ";
+  }
+  option.allowed += "nothing";
+  option.set = [](Tissue& tissue, const std::string& name) {
+    const auto material = solve::named_material(name);
+    if (material) {
+      tissue.material = *material;
+    }
+    if (material || name.empty()) {
+      tissue.named_material = name;
+    }
+    return material || name.empty();
+  };
+  option.get = [](const Tissue& tissue) { return tissue.named_material; };
+  return option;
+}
+
 std::vector<Option<Tissue>> make_tissue_options() {
   return {required(number<Tissue>("label", MEMBER(label), {.low = 1, .high = 32767}, "", "in the label map")),
           text<Tissue>("name", MEMBER(name), "for people"),
-          choice<Tissue>("law", MEMBER(law),
-                         std::vector<std::pair<std::string, Law>>{{"neo_hookean", Law::neo_hookean}}, "material law"),
-          number<Tissue>("youngs_modulus", MEMBER(material.youngs_modulus), above_zero, "Pa", "stiffness"),
+          material_option(),
+          choice<Tissue>("law", MEMBER(material.law),
+                         std::vector<std::pair<std::string, solve::Law>>{
+                             {"neo_hookean", solve::Law::neo_hookean},
+                             {"ogden", solve::Law::ogden},
+                             {"saint_venant_kirchhoff", solve::Law::saint_venant_kirchhoff},
+                             {"linear_elastic", solve::Law::linear_elastic}},
+                         "material law"),
+          number<Tissue>("youngs_modulus", MEMBER(material.youngs_modulus), above_zero, "Pa",
+                         "stiffness at rest; the law ogden takes its terms instead"),
           number<Tissue>("poisson_ratio", MEMBER(material.poisson_ratio),
                          {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false}, "",
                          "0.5 would be incompressible"),
-          number<Tissue>("density", MEMBER(material.density), above_zero, "kg/m3", "mass")};
+          number<Tissue>("density", MEMBER(material.density), above_zero, "kg/m3", "mass"),
+          pairs<Tissue>("ogden", MEMBER(material.ogden), "pairs mu,alpha separated by semicolons, or nothing",
+                        "Pa and 1", "terms of the law ogden, as 842,-4.7"),
+          pairs<Tissue>("prony", MEMBER(material.prony), "pairs share,time separated by semicolons, or nothing",
+                        "1 and s", "how the isochoric stress relaxes, as 0.450,0.50; 0.365,50")};
 }
 
 #undef MEMBER

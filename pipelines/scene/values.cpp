@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/scene/values.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace brainshift::pipelines {
@@ -9,6 +10,23 @@ bool Range::holds(double value) const {
   const bool above = low_allowed ? value >= low : value > low;
   const bool below = high_allowed ? value <= high : value < high;
   return std::isfinite(value) && above && below;
+}
+
+std::optional<std::vector<std::pair<double, double>>> read_number_pairs(std::string_view text) {
+  std::vector<std::pair<double, double>> pairs;
+  if (text.find_first_not_of(" \t\n") == std::string_view::npos) {
+    return pairs;
+  }
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    const auto numbers = read_numbers<double>(text.substr(begin, end - begin), {});
+    if (!numbers || numbers->size() != 2) {
+      return std::nullopt;
+    }
+    pairs.emplace_back((*numbers)[0], (*numbers)[1]);
+    begin = end + 1;
+  }
+  return pairs;
 }
 
 std::string describe(const Range& range, bool whole) {

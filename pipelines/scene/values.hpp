@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace brainshift::pipelines {
@@ -61,6 +62,9 @@ std::optional<std::vector<T>> read_numbers(std::string_view text, const Range& r
   }
   return values;
 }
+
+/// Pairs of numbers separated by semicolons, "a,b; a,b"; none in an empty text. Empty on failure.
+std::optional<std::vector<std::pair<double, double>>> read_number_pairs(std::string_view text);
 
 template <class Numbers>
 std::string write_numbers(const Numbers& values) {

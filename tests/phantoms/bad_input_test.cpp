@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "segmentation/image/image.hpp"
 #include "segmentation/surface/surface.hpp"
 #include "tests/phantoms/program.hpp"
+#include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift {
 namespace {
@@ -89,6 +91,23 @@ class BadInput : public testing::Test {
   static std::string solve_ball(const std::string& more) {
     return "brainshift solve --quiet --nodes " + at("ball/nodes.vtu") + " --cells " + at("ball/cells.vtu") +
            " --material 1:3000,0.45 --skull " + at("ball/skull.vtp") + " --out " + at("out") + " " + more;
+  }
+
+  /// Solves a box whose bottom is held, or what `change` makes of it.
+  static std::string solve_box(const std::string& more, const std::function<void(NodeCloud&)>& change = {}) {
+    NodeCloud cloud = test::irregular_box(4, 30);
+    for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+      if (cloud.positions(a, 2) < 1e-6) {
+        cloud.prescribed_displacement.row(a).setZero();
+      }
+    }
+    if (change) {
+      change(cloud);
+    }
+    write_node_cloud(at("box_nodes.vtu"), cloud);
+    write_background_cells(at("box_cells.vtu"), test::box_cells(3, 30));
+    return "brainshift solve --quiet --nodes " + at("box_nodes.vtu") + " --cells " + at("box_cells.vtu") + " --out " +
+           at("out") + " " + more;
   }
 
   /// One sentence on standard error that holds the parts, the exit code, and nothing in `out` but finished stages.
@@ -238,6 +257,99 @@ TEST_F(BadInput, ALineThatDoesNotParse) {
   expect_refused(run_scene("bad.xml"), {"bad.fcsv", "4"});
   write_text(at("bad.xml"), "<scene>\n<image t1=\"t1.nii.gz\"\n</scene>");
   expect_refused(run_scene("bad.xml"), {"bad.xml:", "XML"});
+}
+
+TEST_F(BadInput, AMaterialThatCannotBe) {
+  const std::pair<const char*, std::vector<std::string>> cases[] = {
+      {"1:3000,0.5", {"poisson_ratio", "'0.5'", "< 0.5"}},
+      {"1:0,0.49", {"youngs_modulus", "'0'", "> 0", "Pa"}},
+      {"1:-3000,0.49", {"youngs_modulus", "'-3000'"}},
+      {"1:3000,0.49,0", {"density", "'0'", "> 0", "kg/m3"}},
+      {"1:brain,density=0", {"density", "'0'", "> 0"}},
+      {"1:brane", {"material", "'brane'", "brain | brain_ogden"}},
+      {"1:law=rubber", {"law", "'rubber'", "neo_hookean | ogden"}},
+      {"1:law=ogden", {"label 1", "no terms"}},
+      {"1:ogden=842,-4.7", {"842,-4.7", "neo_hookean", "set the law to ogden"}},
+      {"1:law=ogden,ogden=842", {"ogden", "'842'", "pairs mu,alpha"}},
+      {"1:law=ogden,ogden=842,0", {"alpha = 0"}},
+      {"'1:law=ogden,ogden=842,-4.7;-900,2'", {"unstable at rest", "-58 Pa"}},
+      {"1:brain,prony=1.2,1", {"1.2", "below 1"}},
+      {"1:brain,prony=0.2,0", {"time 0 s", "positive"}},
+      {"1:brain,stiffness=3", {"no attribute 'stiffness'", "youngs_modulus"}},
+      {"1:brain,law=ogden,law=ogden", {"law twice"}},
+      {"1:brain --material 1:brain", {"label 1 twice"}},
+  };
+  for (const auto& [material, parts] : cases) {
+    expect_refused(solve_box(std::string("--material ") + material), parts);
+  }
+}
+
+TEST_F(BadInput, ATissueThatCannotBe) {
+  const std::pair<const char*, std::vector<std::string>> cases[] = {
+      {"law=\"ogden\"", {"bad.xml:3", "no terms"}},
+      {"ogden=\"842,-4.7\"", {"bad.xml:3", "842,-4.7", "law neo_hookean"}},
+      {"law=\"ogden\" ogden=\"842,-4.7; -900,2\"", {"bad.xml:3", "unstable at rest"}},
+      {"material=\"brian\"", {"bad.xml:3", "'brian'", "brain | brain_ogden"}},
+      {"prony=\"0.5\"", {"bad.xml:3", "'0.5'", "pairs share,time"}},
+  };
+  for (const auto& [attributes, parts] : cases) {
+    write_scene("bad.xml", "t1.nii.gz", "labels.nii.gz", "<craniotomy file=\"load.csv\"/>",
+                std::string("<tissue label=\"1\" ") + attributes + "/>");
+    expect_refused(run_scene("bad.xml"), parts);
+  }
+}
+
+TEST_F(BadInput, OptionsInTimeThatMakeNoSense) {
+  const std::string brain = "--material 1:brain ";
+  expect_refused(solve_box(brain + "--dynamics transient --time-step 0.1"), {"0.1 s", "critical"});
+  expect_refused(solve_box(brain + "--damping 3"), {"damping", "relaxation", "transient"});
+  expect_refused(solve_box(brain + "--time-step 1e-4"), {"time_step", "relaxation"});
+  expect_refused(solve_box(brain + "--duration 1"), {"duration", "relaxation"});
+  expect_refused(solve_box(brain + "--curve-join straight"), {"curve_join", "no curve"});
+  expect_refused(solve_box(brain + "--gravity 1,2"), {"--gravity", "'1,2'", "three numbers", "m/s2"});
+  write_text(at("curve.csv"), "time,factor\n0,0\n1,1\n");
+  expect_refused(solve_box(brain + "--dynamics transient --duration 2 --curve " + at("curve.csv")),
+                 {"duration", "curve", "one of them"});
+  expect_refused(run_scene("scene.xml") + " --set solve.damping=3", {"--set", "damping", "relaxation"});
+  expect_refused(run_scene("scene.xml") + " --set solve.curve=none.csv", {"--set", "none.csv", "does not exist"});
+}
+
+TEST_F(BadInput, ACurveThatIsNone) {
+  const std::pair<const char*, std::vector<std::string>> cases[] = {
+      {"t,f\n0,0\n1,1\n", {"line 1", "time,factor"}},   {"time,factor\n0,0\n2,1\n1,1\n", {"row 3", "not later"}},
+      {"time,factor\n1,0\n2,1\n", {"start at time 0"}}, {"time,factor\n0,1\n2,1\n", {"factor 0"}},
+      {"time,factor\n0,0\n1,one\n", {"line 3", "one"}},
+  };
+  for (const auto& [text, parts] : cases) {
+    write_text(at("curve.csv"), text);
+    std::vector<std::string> said = parts;
+    said.push_back("curve.csv");
+    expect_refused(solve_box("--material 1:brain --curve " + at("curve.csv")), said);
+    expect_refused(run_scene("scene.xml") + " --set solve.curve=curve.csv", said);
+  }
+}
+
+TEST_F(BadInput, NodesThatSayTheSame) {
+  expect_refused(solve_box("--material 1:brain",
+                           [](NodeCloud& cloud) {
+                             cloud.positions.row(5) = cloud.positions.row(4) + Eigen::RowVector3d(5e-5, 0, 0);
+                           }),
+                 {"contradict or repeat each other", "node"});
+}
+
+TEST_F(BadInput, PlanesOfTheWrongCells) {
+  expect_refused(solve_box("--material 1:brain --plane stress"), {"quadrilaterals or triangles"});
+  expect_refused(solve_box("--material 1:brain --plane bent"), {"--plane", "bent", "strain", "stress"});
+  NodeCloud cloud = test::irregular_rectangle(6, 4, 50, 30);
+  cloud.prescribed_displacement.row(0).setZero();
+  cloud.prescribed_displacement.row(1).setZero();
+  write_node_cloud(at("flat_nodes.vtu"), cloud);
+  write_background_cells(at("flat_cells.vtu"), test::rectangle_cells(5, 3, 50, 30));
+  const std::string flat = "brainshift solve --quiet --nodes " + at("flat_nodes.vtu") + " --cells " +
+                           at("flat_cells.vtu") + " --out " + at("out") + " --material ";
+  expect_refused(flat + "1:brain", {"planar", "plane strain or plane stress"});
+  expect_refused(flat + "1:brain_viscoelastic --plane stress", {"label 1", "relaxes", "plane strain"});
+  expect_refused(flat + "1:brain --plane strain --points-per-cell 3", {"3"});
 }
 
 TEST_F(BadInput, OutputThatCannotBeWritten) {

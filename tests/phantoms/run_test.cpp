@@ -113,6 +113,19 @@ TEST_F(Run, RunsFromTheChangedStageOn) {
   EXPECT_EQ(statuses(out), "kept kept kept done done");
 }
 
+TEST_F(Run, SolvesWithThePhysicsThatTheSceneNames) {
+  const fs::path out = copy_of_finished("physics");
+  ASSERT_EQ(run(out,
+                "--set tissues.1.material=brain_viscoelastic --set solve.volumetric=pointwise "
+                "--set solve.dynamics=transient --set solve.duration=0.2 --set solve.damping=100")
+                .code,
+            0);
+  EXPECT_EQ(statuses(out), "kept kept done done done");
+  EXPECT_FALSE(record(out)["stages"]["solve"]["measures"].contains("error_bound_mm"));
+  EXPECT_EQ(record(out)["options"]["tissues"]["1"]["ogden"], "842,-4.7");
+  EXPECT_NE(read_text(out / "report/index.html").find("energies over time"), std::string::npos);
+}
+
 TEST_F(Run, UntilStopsAndTellsWhatIsOutdated) {
   const fs::path out = copy_of_finished("until");
   ASSERT_EQ(run(out, "--until discretise").code, 0);

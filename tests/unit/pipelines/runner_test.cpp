@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
+#include "pipelines/report/run_data.hpp"
 #include "pipelines/runner/external_command.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run_record.hpp"
@@ -70,7 +72,7 @@ class Stamps : public Runner {
     write("run/discretise/cells.vtu", "cells");
     scene_.image.t1 = write("t1.nii", "t1");
     scene_.image.labels = write("labels.nii", "map");
-    scene_.tissues.push_back({1, "parenchyma", Law::neo_hookean, {}});
+    scene_.tissues.push_back({1, "parenchyma", "", {}});
     scene_.load.emplace().craniotomy = write("load.csv", "load");
     scene_.source.file = folder_ / "scene.xml";
   }
@@ -100,9 +102,11 @@ TEST_F(Stamps, ChangeForTheStagesThatDependOnAnOptionAlone) {
   EXPECT_EQ(changed_by([&] { scene_.discretise.seed = 2; }), "-d--");
   EXPECT_EQ(changed_by([&] { scene_.solve.tolerance = 0.1; }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.youngs_modulus = 1; }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.prony.push_back({0.5, 1}); }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.loading.gravity.z() = -9.81; }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.contact.emplace(); }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.registration.fade = 3; }), "---r");
-  EXPECT_EQ(changed_by([&] { scene_.tissues.push_back({3, "", Law::neo_hookean, {}}); }), "sdv-");
+  EXPECT_EQ(changed_by([&] { scene_.tissues.push_back({3, "", "", {}}); }), "sdv-");
 }
 
 TEST_F(Stamps, ChangeWithTheContentsOfFilesNotTheirNames) {
@@ -111,6 +115,8 @@ TEST_F(Stamps, ChangeWithTheContentsOfFilesNotTheirNames) {
   EXPECT_EQ(changed_by([&] { write("run/segment/brain.vtp", "another"); }), "-d-r");
   EXPECT_EQ(changed_by([&] { write("run/discretise/nodes.vtu", "another"); }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.load->craniotomy = write("moved.csv", "another"); }), "----");
+  EXPECT_EQ(changed_by([&] { scene_.loading.curve = write("curve.csv", "one"); }), "--v-");
+  EXPECT_EQ(changed_by([&] { write("curve.csv", "two"); }), "--v-");
 }
 
 TEST_F(Stamps, ACommandCountsWithTheScriptThatItNames) {
@@ -159,6 +165,27 @@ TEST_F(Runner, ACommandSeesItsFoldersWhateverTheirNames) {
   fs::create_directories(out);
   run_external_command({"echo {in} > {out}/said", folder_ / "in here", out, folder_}, interruption_);
   EXPECT_EQ(read(out / "said"), (folder_ / "in here").string() + "\n");
+}
+
+TEST_F(Runner, AHistoryIsReadByTheNamesOfItsColumns) {
+  const auto rows = read_history(write("h.csv", "time,step,mine,reaction_z_N,error_bound_mm\n0.5,20,7,-3,inf\n"));
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].time, 0.5);
+  EXPECT_EQ(rows[0].step, 20);
+  EXPECT_EQ(rows[0].reaction, Eigen::Vector3d(0, 0, -3));
+  EXPECT_TRUE(std::isinf(rows[0].error_bound));
+  EXPECT_EQ(rows[0].dissipated_energy, 0) << "a column that is not there";
+  const std::pair<const char*, const char*> faults[] = {{"step\n1\n", "no column 'time'"},
+                                                        {"step,time\n1\n", "line 2: 2 numbers"},
+                                                        {"step,time\n1,2\n3,x\n", "line 3: time is 'x'"}};
+  for (const auto& [text, said] : faults) {
+    try {
+      read_history(write("h.csv", text));
+      FAIL() << text;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST_F(Runner, AFailedCommandIsAFaultWithItsCodeAndLastWords) {

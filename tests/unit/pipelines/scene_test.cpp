@@ -10,6 +10,7 @@
 #include "pipelines/scene/explain_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
 #include "pipelines/scene/scene_table.hpp"
+#include "solve/material/named_materials.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -83,6 +84,16 @@ TEST_F(SceneFile, PartsInTheCommentsOfTheDefaultsParseToo) {
   EXPECT_EQ(scene.tissues[0].material.youngs_modulus, solve::Material{}.youngs_modulus);
 }
 
+TEST_F(SceneFile, DefaultsExplainEveryOptionOfATissue) {
+  const std::string text = default_scene();
+  for (const auto& option : tissue_options()) {
+    expect_parts(text, {" " + option.name + "=\"", option.name + ": " + option.help});
+  }
+  const std::string by_name = "<tissues><tissue label=\"1\" material=\"brain_viscoelastic\"/></tissues>";
+  expect_parts(text, {by_name});
+  EXPECT_EQ(parse("<scene>" + by_name + "</scene>").tissues.at(0).material.prony.size(), 2U);
+}
+
 TEST_F(SceneFile, EveryOptionReadsBackWhatItWrites) {
   Scene scene;
   for (const Element& element : scene_elements()) {
@@ -119,6 +130,59 @@ TEST_F(SceneFile, ValuesArriveWhereTheyBelong) {
   EXPECT_EQ(scene.points_per_cell, 4);
   EXPECT_EQ(scene.commands[index_of(StageId::solve)], "my_solver {in} {out}");
   EXPECT_EQ(scene.registration.interpolation, registration::Interpolation::bspline);
+}
+
+TEST_F(SceneFile, MaterialsComeByNameThenByTheConstantsBesideIt) {
+  const Scene scene = parse(R"(<scene>
+  <tissues>
+    <tissue label="1" poisson_ratio="0.45" material="brain_viscoelastic"/>
+    <tissue label="2" law="ogden" ogden="842,-4.7; 10,2" prony="0.2,0.5"/>
+    <tissue label="3" law="saint_venant_kirchhoff" youngs_modulus="500"/>
+    <tissue label="4" material="brain_ogden"/>
+  </tissues></scene>)",
+                            {"tissues.4.material=tumour", "tissues.4.density=1100"});
+  const solve::Material& named = scene.tissues.at(0).material;
+  EXPECT_EQ(named.law, solve::Law::ogden);
+  EXPECT_EQ(named.poisson_ratio, 0.45) << "whatever the order of the attributes";
+  EXPECT_EQ(named.prony.size(), 2U);
+  const solve::Material& terms = scene.tissues.at(1).material;
+  ASSERT_EQ(terms.ogden.size(), 2U);
+  EXPECT_EQ(terms.ogden[0].exponent, -4.7);
+  EXPECT_EQ(terms.ogden[1].shear_modulus, 10);
+  EXPECT_EQ(terms.prony.at(0).time, 0.5);
+  EXPECT_EQ(scene.tissues.at(2).material.law, solve::Law::saint_venant_kirchhoff);
+  EXPECT_EQ(scene.tissues.at(3).material.youngs_modulus, 9000);
+  EXPECT_EQ(scene.tissues.at(3).material.density, 1100);
+}
+
+TEST_F(SceneFile, EveryTissueOptionReadsBackWhatItWrites) {
+  for (const std::string& name : solve::material_names()) {
+    Tissue tissue{1, "a name", name, *solve::named_material(name)};
+    Tissue copy;
+    for (const auto& option : tissue_options()) {
+      EXPECT_TRUE(option.set(copy, option.get(tissue))) << option.name;
+    }
+    for (const auto& option : tissue_options()) {
+      EXPECT_EQ(option.get(copy), option.get(tissue));
+    }
+  }
+}
+
+TEST_F(SceneFile, ThePhysicsOfTheSolveStageArrives) {
+  const Scene scene = parse(R"(<scene>
+  <stage name="solve" integration="consistent" nodes_per_patch="8" imposition="simplified" dynamics="transient"
+         time_step="0.001" damping="2" duration="3" curve_join="straight" gravity="0,0,-9.81" points_per_cell="3"/>
+  </scene>)");
+  EXPECT_EQ(scene.solve.integration, solve::Integration::consistent);
+  EXPECT_EQ(scene.solve.nodes_per_patch, 8);
+  EXPECT_EQ(scene.solve.imposition, solve::Imposition::simplified);
+  EXPECT_EQ(scene.solve.dynamics, solve::Dynamics::transient);
+  EXPECT_EQ(scene.solve.time_step, 0.001);
+  EXPECT_EQ(scene.solve.damping, 2);
+  EXPECT_EQ(load_curve(scene.loading).duration(), 3);
+  EXPECT_EQ(scene.loading.curve_join, solve::LoadCurve::Join::straight);
+  EXPECT_EQ(scene.loading.gravity, Eigen::Vector3d(0, 0, -9.81));
+  EXPECT_EQ(scene.points_per_cell, 3);
 }
 
 TEST_F(SceneFile, PartsThatAreNotNamedAreNotThere) {
@@ -158,6 +222,12 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
       {"<stage name=\"segment\" classes=\"2.5\"/>", {at + "2", "'2.5'", "whole number from 2 to 10"}},
       {"<stage name=\"solve\" basis=\"cubic\"/>", {at + "2", "'cubic'", "linear | quadratic | modified_quadratic"}},
       {"<tissues><tissue label=\"1\" poisson_ratio=\"0.5\"/></tissues>", {at + "2", "'0.5'", "< 0.5"}},
+      {"<tissues><tissue label=\"1\" ogden=\"842\"/></tissues>", {at + "2", "'842'", "pairs mu,alpha", "Pa"}},
+      {"<tissues><tissue label=\"1\" prony=\"1;2\"/></tissues>", {at + "2", "'1;2'", "pairs share,time"}},
+      {"<tissues><tissue label=\"1\" material=\"bran\"/></tissues>", {at + "2", "'bran'", "brain | brain_ogden"}},
+      {"<stage name=\"solve\" gravity=\"1,2\"/>", {at + "2", "'1,2'", "three numbers", "m/s2"}},
+      {"<stage name=\"solve\" nodes_per_patch=\"0\"/>", {at + "2", "'0'", "> 0"}},
+      {"<stage name=\"solve\" duration=\"0\"/>", {at + "2", "'0'", "> 0"}},
       {"<tissues><tissue name=\"a\"/></tissues>", {at + "2", "needs the attribute 'label'"}},
       {"<tissues>\n<tissue label=\"1\"/>\n<tissue label=\"1\"/></tissues>", {at + "4", "two tissues of label 1"}},
       {"<tissues><organ/></tissues>", {at + "2", "organ", "tissue"}},
@@ -218,6 +288,15 @@ TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
   expect_parts(fault(scene(image + two + load), {"discretise.nodes=100", "discretise.spacing=3"}), {"both"});
   expect_parts(fault(scene(image + two + load), {"solve.points_per_cell=4"}), {"--set", "hexahedra take 1 or 8"});
   expect_parts(fault(scene(image + two + load), {"image.skull_label=5"}), {"--set", "skull_label 5"});
+  expect_parts(fault(scene(image + two + load), {"solve.damping=1"}), {"--set", "damping", "relaxation", "transient"});
+  expect_parts(fault(scene(image + two + load), {"solve.curve_join=straight"}), {"--set", "no curve"});
+  expect_parts(fault(scene(image + two + load), {"tissues.3.law=ogden"}), {"scene.xml:2", "label 3", "no terms"});
+  expect_parts(fault(scene(image + two + load), {"tissues.3.ogden=1,2"}), {"scene.xml:2", "1,2", "law neo_hookean"});
+  std::ofstream(folder_ / "curve.csv") << "time,factor\n0,0\n2,1\n";
+  EXPECT_EQ(fault(scene(image + two + load), {"solve.curve=curve.csv"}), "");
+  expect_parts(
+      fault(scene(image + two + load), {"solve.curve=curve.csv", "solve.dynamics=transient", "solve.duration=2"}),
+      {"--set", "duration", "curve.csv"});
 }
 
 TEST_F(SceneFile, ExplainTellsActivePartsFromThoseNotBuilt) {
@@ -229,7 +308,18 @@ TEST_F(SceneFile, ExplainTellsActivePartsFromThoseNotBuilt) {
   <stage name="discretise" nodes="1000" command="mesher {in} {out}"/></scene>)");
   const std::string text = explain_scene(scene);
   expect_parts(text, {"load.craniotomy: active", "load.simulated: not built", "contact: not built", "mesher {in} {out}",
-                      "register: not built", "integration points", "MB"});
+                      "register: not built", "integration points", "MB", "tissue 1: neo_hookean, E 3000 Pa",
+                      "dilatation 2.2", "dynamics: relaxation to 0.01 mm", "gravity: not active"});
+}
+
+TEST_F(SceneFile, ExplainSaysWhichPhysicsIsActive) {
+  const std::string text = explain_scene(parse(R"(<scene>
+  <tissues><tissue label="1" name="brain" material="brain_viscoelastic"/></tissues>
+  <stage name="solve" basis="linear" volumetric="pointwise" integration="consistent" dynamics="transient" duration="2"
+         gravity="0 -9.81 0"/></scene>)"));
+  expect_parts(text, {"tissue 1 (brain): ogden, mu, alpha 842,-4.7, nu 0.49, relaxes to mu 155.77 Pa", "dilatation 1.6",
+                      "volumetric: pointwise\n", "integration: consistent",
+                      "dynamics: transient over 2 s, time step automatic", "gravity: 0 -9.81 0 m/s2"});
 }
 
 }  // namespace

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The solver's physics through the program, on tiny clouds whose answer is known: what is typed arrives and is in the
+// files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "pipelines/report/run_data.hpp"
+#include "solve/solution.hpp"
+#include "tests/phantoms/program.hpp"
+#include "tests/unit/solve/clouds.hpp"
+
+namespace brainshift {
+namespace {
+
+constexpr double side = 20;  // mm
+
+class Physics : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { scratch = std::make_unique<ScratchFolder>("physics"); }
+  static void TearDownTestSuite() { scratch.reset(); }
+
+  static std::string at(const std::string& name) { return (*scratch / name).string(); }
+
+  static void write_problem(const NodeCloud& cloud, const BackgroundCells& cells) {
+    write_node_cloud(at("nodes.vtu"), cloud);
+    write_background_cells(at("cells.vtu"), cells);
+  }
+  /// Runs the solver on the problem written last.
+  static void solve(const std::string& options) {
+    const ProgramResult result = run_shell("brainshift solve --quiet --nodes " + at("nodes.vtu") + " --cells " +
+                                           at("cells.vtu") + " --out " + at("out") + " " + options);
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+  static std::vector<solve::HistoryRow> history() { return pipelines::read_history(at("out/history.csv")); }
+  static nlohmann::json measures() {
+    return nlohmann::json::parse(read_text(at("out/stage.json")))["entry"]["measures"];
+  }
+
+  /// A box that stands on nodes that do not move.
+  static NodeCloud standing_box() {
+    NodeCloud cloud = test::irregular_box(5, side);
+    for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+      if (cloud.positions(a, 2) < 1e-6) {
+        cloud.prescribed_displacement.row(a).setZero();
+      }
+    }
+    return cloud;
+  }
+
+  static std::unique_ptr<ScratchFolder> scratch;
+};
+std::unique_ptr<ScratchFolder> Physics::scratch;
+
+/// A rectangle pulled along x by one per cent, free across.
+NodeCloud pulled_rectangle() {
+  NodeCloud cloud = test::irregular_rectangle(9, 5, 2 * side, side);
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    const double x = cloud.positions(a, 0);
+    if (x < 1e-6 || x > 2 * side - 1e-6) {
+      cloud.prescribed_displacement(a, 0) = 0.01 * x;
+    }
+  }
+  cloud.prescribed_displacement(0, 1) = 0;
+  return cloud;
+}
+
+TEST_F(Physics, PlaneStressPullsWithYoungsModulusAndPlaneStrainHarder) {
+  write_problem(pulled_rectangle(), test::rectangle_cells(8, 4, 2 * side, side));
+  const std::string material =
+      "--material 1:law=linear_elastic,youngs_modulus=1000,poisson_ratio=0.3 --tolerance 1e-5 ";
+  // Pa mm² = µN: E ε H on one millimetre of thickness.
+  const double force = 1000 * 0.01 * side * 1e-6;
+  solve(material + "--plane stress --integration consistent");
+  EXPECT_NEAR(history().back().reaction.x(), force, 0.003 * force);
+  EXPECT_GT(measures()["consistency_iterations"], 0);
+  solve(material + "--plane strain --integration consistent");
+  EXPECT_NEAR(history().back().reaction.x(), force / (1 - 0.3 * 0.3), 0.003 * force);
+}
+
+TEST_F(Physics, TrianglesTakeThreePoints) {
+  const NodeCloud cloud = pulled_rectangle();
+  write_problem(cloud, test::rectangle_triangles(cloud, 9, 5));
+  solve("--material 1:1000,0.3 --plane strain --points-per-cell 3 --tolerance 1e-4");
+  const auto run = nlohmann::json::parse(read_text(at("out/stage.json")))["entry"];
+  EXPECT_EQ(run["sizes"]["integration_points"], 3 * 64);
+}
+
+TEST_F(Physics, ABoxStandsWithTheWeightAndTheForcesThatItCarries) {
+  NodeCloud cloud = standing_box();
+  cloud.force = Points::Zero(cloud.positions.rows(), 3);
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    if (cloud.positions(a, 2) > side - 1e-6) {
+      cloud.force.row(a) << 4e-4, 0, 1e-4;
+    }
+  }
+  write_problem(cloud, test::box_cells(4, side));
+  solve("--material 1:30000,0.3,1200 --gravity 0,0,-9.81 --tolerance 1e-5");
+  const double weight = 1200 * side * side * side * 1e-9 * 9.81;  // N
+  const Eigen::RowVector3d carried = cloud.force.colwise().sum() - Eigen::RowVector3d(0, 0, weight);
+  const Eigen::RowVector3d reaction = read_solution(at("out/solution.vtu")).reaction_force.colwise().sum();
+  EXPECT_LE((reaction + carried).norm(), 1e-3 * weight) << reaction << " holds " << carried;
+  EXPECT_LT(read_solution(at("out/solution.vtu")).displacement.col(2).minCoeff(), -0.01);
+}
+
+/// What brain_viscoelastic leaves of the shear stress t s after a pull began that took 0.1 s and is held.
+double left_at(double t) {
+  constexpr double pull = 0.1;
+  double left = 1;
+  for (const auto& [share, time] : {std::pair(0.450, 0.50), std::pair(0.365, 50.0)}) {
+    left -= share * (1 - time / pull * (std::exp(-(t - pull) / time) - std::exp(-t / time)));
+  }
+  return left;
+}
+
+TEST_F(Physics, AViscoelasticBoxRelaxesInTime) {
+  NodeCloud cloud = standing_box();
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    if (cloud.positions(a, 2) > side - 1e-6) {
+      cloud.prescribed_displacement.row(a) << 0, 0, -0.05 * side;
+    }
+  }
+  write_problem(cloud, test::box_cells(4, side));
+  write_text(at("curve.csv"), "# pressed at once, then held\ntime,factor\n0,0\n0.1,1\n1,1\n");
+  solve("--material 1:brain_viscoelastic --dynamics transient --curve " + at("curve.csv") +
+        " --curve-join straight --damping 50 --points-per-cell 1 --snapshot-every 500");
+  const auto rows = history();
+  EXPECT_NEAR(rows.back().time, 1, 1e-9);
+  EXPECT_GT(rows.back().dissipated_energy, 0);
+  const auto pressed = std::ranges::find_if(rows, [](const auto& row) { return row.time >= 0.15; });
+  ASSERT_NE(pressed, rows.end());
+  EXPECT_LT(pressed->reaction.z(), 0);
+  EXPECT_NEAR(rows.back().reaction.z() / pressed->reaction.z(), left_at(1) / left_at(pressed->time), 0.02);
+  EXPECT_FALSE(measures().contains("error_bound_mm"));
+  EXPECT_TRUE(std::filesystem::exists(at("out/steps.pvd")));
+}
+
+TEST_F(Physics, MaterialsMeanTheSameHoweverTheyAreTyped) {
+  NodeCloud cloud = standing_box();
+  cloud.prescribed_displacement.row(cloud.positions.rows() - 1) << 0, 0, 1;
+  write_problem(cloud, test::box_cells(4, side));
+  const auto solution_of = [&](const std::string& material) {
+    solve("--tolerance 0.01 --material " + material);
+    return read_text(at("out/solution.vtu"));
+  };
+  EXPECT_EQ(solution_of("1:3000,0.49,1000"), solution_of("1:brain"));
+  EXPECT_EQ(solution_of("1:brain"), solution_of("1:poisson_ratio=0.49,youngs_modulus=3000,law=neo_hookean"));
+  EXPECT_EQ(solution_of("1:brain_ogden"), solution_of("1:law=ogden,ogden=842,-4.7"));
+  EXPECT_EQ(solution_of("1:brain_viscoelastic"),
+            solution_of("'1:law=ogden,ogden=842,-4.7,prony=0.450,0.50; 0.365,50,poisson_ratio=0.49'"));
+  EXPECT_NE(solution_of("1:brain_ogden"), solution_of("1:brain_ogden,poisson_ratio=0.45"));
+}
+
+}  // namespace
+}  // namespace brainshift
