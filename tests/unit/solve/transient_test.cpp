@@ -51,26 +51,30 @@ TEST(Transient, ABarSwingsWithItsFirstLongitudinalFrequency) {
 }
 
 TEST(Transient, NothingHoldsABodyInFreeFall) {
-  constexpr double end = 0.2;
-  for (const Plane plane : {Plane::none, Plane::strain}) {
+  constexpr double end = 0.3;
+  const auto fall = [&](Plane plane, double jitter, double modulus) {
     Model model;
     model.plane = plane;
-    model.cloud = plane == Plane::none ? test::irregular_box(4, side) : test::irregular_rectangle(6, 5, side, 50);
-    model.cells = plane == Plane::none ? test::box_cells(3, side) : test::rectangle_cells(6, 5, side, 50);
-    model.materials[1] = {.youngs_modulus = 3000, .poisson_ratio = 0.45};
+    model.cloud =
+        plane == Plane::none ? test::irregular_box(4, side, jitter) : test::irregular_rectangle(6, 5, side, 50, jitter);
+    model.cells = plane == Plane::none ? test::box_cells(3, side) : test::rectangle_cells(5, 4, side, 50);
+    model.materials[1] = {.youngs_modulus = modulus, .poisson_ratio = 0.3};
     model.gravity = {3, -9.81, 0};
-    model.curve = LoadCurve({0, 1e-6, end}, {0, 1, 1}, Join::straight);
+    model.curve = LoadCurve({0, end}, {0, 1}, Join::straight);
     SolveOptions options = in_time();
     options.points_per_cell = plane == Plane::none ? 8 : 4;
     const SolveResult result = solve(model, options);
-    ASSERT_TRUE(result.measures.converged) << result.failure;
-    const Eigen::RowVector3d fall = 1000 * model.gravity * end * end / 2;  // mm
-    const Eigen::RowVector3d mean = result.solution.displacement.colwise().mean();
-    const double spread = (result.solution.displacement.rowwise() - fall).rowwise().norm().maxCoeff();
-    RecordProperty(plane == Plane::none ? "spread" : "planar_spread", std::to_string(spread / fall.norm()));
-    EXPECT_LE((mean - fall).norm(), 0.01 * fall.norm());
-    EXPECT_LE(spread, 0.02 * fall.norm());
-    EXPECT_LE(result.history.back().reaction.norm(), 0);
+    EXPECT_TRUE(result.measures.converged) << result.failure;
+    EXPECT_EQ(result.solution.reaction_force.norm(), 0);
+    const Eigen::RowVector3d fallen = 1000 * model.gravity * end * end / 6;  // ∬ g t/T, mm
+    return (result.solution.displacement.rowwise() - fallen).rowwise().norm().maxCoeff() / fallen.norm();
+  };
+  for (const Plane plane : {Plane::none, Plane::strain}) {
+    EXPECT_LE(fall(plane, 0, 1e6), 1e-3);
+    // Each point's mass goes evenly to its nodes, its weight by the shape functions. So a soft body strains a little,
+    // and an irregular one, whose two centres differ, turns.
+    EXPECT_LE(fall(plane, 0, 3000), 0.03);
+    EXPECT_LE(fall(plane, 0.25, 1e6), 0.03);
   }
 }
 
