@@ -122,19 +122,21 @@ class Relaxation {
     }
   }
 
-  /// Work of the reactions and the forces by the trapezoidal rule, and what the damping takes: c h mass |Δû|²/h².
+  /// Work of the reactions and the forces by the trapezoidal rule up to û, as the strain energy, and what the damping
+  /// takes: c h mass |Δû|²/h². The multipliers are the reactions at û, not at the end of the step.
   void add_energies(double fraction, double beta) {
     const double rate = system_.essential.multiplier_work() / alpha;
-    external_work_ += (fraction - fraction_) * (rate + work_rate_) / 2;
+    external_work_ += (fraction_ - fraction_before_) * (rate + work_rate_) / 2 + force_work_;
     work_rate_ = rate;
     if (!system_.external.empty()) {
-      external_work_ += (fraction + fraction_) / 2 * sum_over_nodes(nodes_, [this](std::size_t a) {
-                          return at(system_.external, a).dot(at(next_, a) - at(now_, a));
-                        });
+      force_work_ = (fraction + fraction_) / 2 * sum_over_nodes(nodes_, [this](std::size_t a) {
+                      return at(system_.external, a).dot(at(next_, a) - at(now_, a));
+                    });
     }
     dissipated_ += (1 - beta) / alpha * sum_over_nodes(nodes_, [this](std::size_t a) {
                      return mass_[a] * (at(next_, a) - at(now_, a)).squaredNorm();
                    });
+    fraction_before_ = fraction_;
     fraction_ = fraction;
   }
 
@@ -262,7 +264,9 @@ class Relaxation {
   double lowest_ = 1e-4;  // A_0: a guess until there are increments
   double time_ = 0;       // 0 to 1 while the load's curve is run through, then 1
   double fraction_ = 0;   // of the load
+  double fraction_before_ = 0;
   double work_rate_ = 0;
+  double force_work_ = 0;  // of the forces over the last step
   double external_work_ = 0;
   double dissipated_ = 0;
   double bound_ = std::numeric_limits<double>::infinity();

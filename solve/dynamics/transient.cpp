@@ -115,21 +115,24 @@ class Transient {
     ++result_.steps;
   }
 
-  /// Work of the reactions and the forces by the trapezoidal rule, and what the damping takes: c m |v|² h.
+  /// Work of the reactions and the forces by the trapezoidal rule, and what the damping takes, c m |v|² h: up to û, as
+  /// the strain energy. The multipliers are the reactions at û, not at the end of the step.
   void add_energies(double fraction, double alpha) {
     const double rate = system_.essential.multiplier_work() / alpha;
-    external_work_ += (fraction - fraction_) * (rate + work_rate_) / 2;
+    external_work_ += (fraction_ - fraction_before_) * (rate + work_rate_) / 2 + force_work_;
     work_rate_ = rate;
     if (!system_.external.empty()) {
-      external_work_ += (fraction + fraction_) / 2 * sum_over_nodes(nodes_, [this](std::size_t a) {
-                          return at(system_.external, a).dot(at(next_, a) - at(now_, a));
-                        });
+      force_work_ = (fraction + fraction_) / 2 * sum_over_nodes(nodes_, [this](std::size_t a) {
+                      return at(system_.external, a).dot(at(next_, a) - at(now_, a));
+                    });
     }
     if (options_.damping > 0) {
-      dissipated_ += options_.damping / step_ * sum_over_nodes(nodes_, [this](std::size_t a) {
-                       return mass_[a] * (at(next_, a) - at(now_, a)).squaredNorm();
-                     });
+      dissipated_ += damping_work_;
+      damping_work_ = options_.damping / step_ * sum_over_nodes(nodes_, [this](std::size_t a) {
+                        return mass_[a] * (at(next_, a) - at(now_, a)).squaredNorm();
+                      });
     }
+    fraction_before_ = fraction_;
     fraction_ = fraction;
   }
 
@@ -148,7 +151,8 @@ class Transient {
     follow_stiffness();
   }
 
-  /// The strain energy is that of the last force, one step ago; so is the velocity, over the steps on its two sides.
+  /// All energies are those at the last force, one step ago; the velocity there is that over the steps on its two
+  /// sides.
   void record() {
     const double inertia = sum_over_nodes(nodes_, [this](std::size_t a) {
       return mass_[a] * (at(now_, a) - at(next_, a)).squaredNorm();  // next_ holds the state before before_
@@ -196,8 +200,11 @@ class Transient {
   double alpha_ = 1;  // of the last step, s²
   double time_ = 0;   // s
   double fraction_ = 0;
+  double fraction_before_ = 0;
   double work_rate_ = 0;
+  double force_work_ = 0;  // of the forces over the last step
   double external_work_ = 0;
+  double damping_work_ = 0;  // over the last step
   double dissipated_ = 0;
   int next_snapshot_;
   ForceScratch scratch_;

@@ -6,58 +6,32 @@
 
 #include <Eigen/Geometry>
 
-#include "solve/material/neo_hookean.hpp"
-#include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve {
 namespace {
 
 using test::box_cells;
 using test::box_tetrahedra;
-using test::irregular_box;
 
-constexpr double side = 60;
+constexpr double side = model_side;
 constexpr int n = 7;
-
-Model box_model(BackgroundCells cells) {
-  Model model;
-  model.cloud = irregular_box(n, side);
-  model.cells = std::move(cells);
-  model.materials[1] = {3000, 0.49, 1000};
-  return model;
-}
-
-/// Largest difference of the displacement from the linear field H·x over all nodes, mm.
-double difference_from(const Solution& solution, const Eigen::Matrix3d& h) {
-  return (solution.displacement - solution.positions * h.transpose()).rowwise().norm().maxCoeff();
-}
-
-/// Imposes H·x on the whole surface; the inner nodes should follow.
-SolveResult patch_test(Model model, const SolveOptions& options, const Eigen::Matrix3d& h) {
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.cloud.prescribed_displacement.row(a) = model.cloud.positions.row(a) * h.transpose();
-    }
-  }
-  return solve(model, options);
-}
 
 const Eigen::Matrix3d strain{{0.01, 0.004, 0}, {0.004, -0.006, 0.002}, {0, 0.002, -0.004}};
 
 TEST(PatchTest, OnConformingTetrahedraIsPassedToThePrecisionOfTheIntegration) {
-  Model model = box_model({});
-  model.cells = box_tetrahedra(model.cloud, n);
+  Model model = box_model({}, 6);
+  model.cells = box_tetrahedra(model.cloud, 6);
   SolveOptions options;
   options.points_per_cell = 4;
-  options.tolerance = 1e-6;
+  options.tolerance = 1e-4;
   for (const Basis basis : {Basis::linear, Basis::modified_quadratic}) {
     options.shape.basis = basis;
     const SolveResult result = patch_test(model, options, strain);
     ASSERT_TRUE(result.measures.converged) << result.failure;
     // The imposed displacement is up to 0.6 mm over this box. Meshless shape functions are no polynomials, so Gauss
     // points do not integrate them exactly: what is left is the integration error.
-    RecordProperty("error", std::to_string(difference_from(result.solution, strain)));
-    EXPECT_LE(difference_from(result.solution, strain), 0.015);  // 0.007 as measured
+    EXPECT_LE(difference_from(result.solution, strain), 0.025);  // 0.015 as measured
   }
 }
 
@@ -70,43 +44,6 @@ TEST(Solve, CarriesARigidRotationThroughWithoutStress) {
   EXPECT_NEAR(result.measures.largest_stretch, 1, 0.01);
 }
 
-/// A cube stretched between frictionless plates, its sides free: the stretches are uniform.
-Model uniaxial(double stretch) {
-  Model model = box_model(box_cells(n - 1, side));
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    const Eigen::RowVector3d x = model.cloud.positions.row(a);
-    auto prescribed = model.cloud.prescribed_displacement.row(a);
-    if (x[2] < 1e-9) {
-      prescribed[2] = 0;
-    }
-    if (x[2] > side - 1e-9) {
-      prescribed[2] = (stretch - 1) * side;
-    }
-    if (x[0] < 1e-9) {
-      prescribed[0] = 0;
-    }
-    if (x[1] < 1e-9) {
-      prescribed[1] = 0;
-    }
-  }
-  return model;
-}
-
-/// Axial nominal stress and lateral stretch of uniaxial neo-Hookean tension: lateral stress zero, by bisection.
-std::pair<double, double> uniaxial_answer(const Material& material, double stretch) {
-  const NeoHookean law(material);
-  const auto stress = [&](double lateral) {
-    const Deformation d(Eigen::Vector3d(lateral, lateral, stretch).asDiagonal().toDenseMatrix());
-    return Eigen::Matrix3d(law.isochoric_stress(d) + law.pressure(d.jacobian) * d.cofactor);
-  };
-  double low = 0.5, high = 1.5;
-  while (high - low > 1e-12) {
-    const double middle = (low + high) / 2;
-    (stress(middle)(0, 0) > 0 ? high : low) = middle;
-  }
-  return {stress(low)(2, 2), low};
-}
-
 TEST(Solve, StretchesACubeAsTheAnalyticSolutionSays) {
   for (const double stretch : {1.3, 0.8}) {
     SolveOptions options;
@@ -117,13 +54,14 @@ TEST(Solve, StretchesACubeAsTheAnalyticSolutionSays) {
     ASSERT_TRUE(result.measures.converged) << result.failure;
     const auto [stress, lateral] = uniaxial_answer(model.materials.at(1), stretch);
     const Eigen::Matrix3d h = Eigen::Vector3d(lateral - 1, lateral - 1, stretch - 1).asDiagonal();
-    EXPECT_LE(difference_from(result.solution, h), 0.02 * side * std::abs(stretch - 1));
+    EXPECT_LE(difference_from(result.solution, h), 0.025 * side * std::abs(stretch - 1));
     double force = 0;
     for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
       force += model.cloud.positions(a, 2) > side - 1e-9 ? result.solution.reaction_force(a, 2) : 0;
     }
     const double expected = stress * side * side * 1e-6;  // N
     EXPECT_NEAR(force, expected, 0.01 * std::abs(expected));
+    EXPECT_NEAR(result.history.back().reaction.z(), force, 1e-12);  // the loaded nodes are those of the moved plate
   }
 }
 
@@ -131,7 +69,7 @@ TEST(Solve, WorkExceedsTheStrainEnergyByWhatDampingTakesWhichHalvesWithTheRateOf
   const auto excess = [](int load_steps) {
     SolveOptions options;
     options.load_steps = load_steps;
-    const HistoryRow last = solve(uniaxial(1.2), options).history.back();
+    const HistoryRow last = solve(uniaxial(1.2, 5), options).history.back();
     return last.external_work - last.strain_energy;
   };
   const double fast = excess(800);
@@ -140,7 +78,7 @@ TEST(Solve, WorkExceedsTheStrainEnergyByWhatDampingTakesWhichHalvesWithTheRateOf
 }
 
 TEST(Solve, ErrorBoundBoundsTheError) {
-  const Model model = uniaxial(1.2);
+  const Model model = uniaxial(1.2, 5);
   SolveOptions tight, loose;
   tight.tolerance = 1e-5;
   loose.tolerance = 0.05;
@@ -166,10 +104,10 @@ TEST(Solve, GivesTheSameBitsForAnyNumberOfThreads) {
 TEST(Solve, KeepsSnapshotsOnRequest) {
   SolveOptions options;
   options.snapshot_every = 100;
-  const SolveResult result = solve(uniaxial(1.1), options);
+  const SolveResult result = solve(uniaxial(1.1, 5), options);
   ASSERT_GE(result.snapshots.size(), 4u);
   EXPECT_LT(result.snapshots[0].displacement.norm(), result.snapshots[2].displacement.norm());
-  EXPECT_TRUE(solve(uniaxial(1.1), {}).snapshots.empty());
+  EXPECT_TRUE(solve(uniaxial(1.1, 5), {}).snapshots.empty());
 
   const auto folder = std::filesystem::temp_directory_path() / "brainshift_steps_test";
   std::filesystem::remove_all(folder);
@@ -181,7 +119,7 @@ TEST(Solve, KeepsSnapshotsOnRequest) {
 }
 
 TEST(Solve, KeepsTheOrderOfTheNodes) {
-  const Model model = uniaxial(1.1);
+  const Model model = uniaxial(1.1, 5);
   const SolveResult result = solve(model, {});
   EXPECT_EQ(result.solution.positions, model.cloud.positions);
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
@@ -192,7 +130,7 @@ TEST(Solve, KeepsTheOrderOfTheNodes) {
 }
 
 TEST(Solve, SaysWhyALoadThatTurnsTheBodyInsideOutFailed) {
-  const SolveResult result = solve(uniaxial(-0.5), {});
+  const SolveResult result = solve(uniaxial(-0.5, 5), {});
   EXPECT_FALSE(result.measures.converged);
   EXPECT_NE(result.failure.find("unstable at step"), std::string::npos) << result.failure;
   EXPECT_TRUE(result.solution.displacement.allFinite());
@@ -218,7 +156,7 @@ TEST(Solve, RefusesWhatCannotBeSolved) {
 }
 
 TEST(Solution, SurvivesWritingAndReading) {
-  const SolveResult result = solve(uniaxial(1.1), {});
+  const SolveResult result = solve(uniaxial(1.1, 5), {});
   const auto file = std::filesystem::temp_directory_path() / "brainshift_solution_test.vtu";
   write_solution(file, result.solution);
   const Solution read = read_solution(file);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "tests/unit/solve/models.hpp"
+
+namespace brainshift::solve {
+namespace {
+
+/// Largest |work − strain − kinetic − dissipated energy| on the way, of the largest work.
+double energy_error(const SolveResult& result) {
+  double worst = 0, largest = 0;
+  for (const HistoryRow& row : result.history) {
+    largest = std::max(largest, row.external_work);
+    worst =
+        std::max(worst, std::abs(row.external_work - row.strain_energy - row.kinetic_energy - row.dissipated_energy));
+  }
+  return worst / largest;
+}
+
+TEST(Transient, WorkIsStrainAndKineticAndDissipatedEnergy) {
+  for (const double damping : {0.0, 10.0}) {
+    SolveOptions options = in_time(damping);
+    options.time_step = 5e-4;
+    const SolveResult result = solve(stretched(1.2, 0.15, 0.5), options);
+    ASSERT_TRUE(result.measures.converged) << result.failure;
+    const HistoryRow& last = result.history.back();
+    EXPECT_GT(last.strain_energy, 0.3 * last.external_work);
+    EXPECT_GE(last.dissipated_energy, damping > 0 ? 0.05 * last.external_work : 0);
+    EXPECT_LE(last.dissipated_energy, damping > 0 ? last.external_work : 0);
+    RecordProperty(damping > 0 ? "damped" : "undamped", std::to_string(energy_error(result)));
+    EXPECT_LE(energy_error(result), 0.01) << damping;
+  }
+}
+
+TEST(Transient, WorkOfForcesIsStrainAndKineticAndDissipatedEnergy) {
+  Model model = stretched(1, 0.15, 0.5);
+  model.gravity = {0, 0, -5};
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    if (model.cloud.positions(a, 2) > model_side - 1e-9) {
+      model.cloud.prescribed_displacement(a, 2) = std::nan("");
+    }
+  }
+  for (const double damping : {0.0, 10.0}) {
+    SolveOptions options = in_time(damping);
+    options.time_step = 5e-4;
+    const SolveResult result = solve(model, options);
+    ASSERT_TRUE(result.measures.converged) << result.failure;
+    RecordProperty(damping > 0 ? "damped" : "undamped", std::to_string(energy_error(result)));
+    EXPECT_LE(energy_error(result), 0.01) << damping;
+  }
+}
+
+}  // namespace
+}  // namespace brainshift::solve
