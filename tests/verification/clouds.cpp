@@ -161,7 +161,9 @@ NodeCloud hollow_ball_cloud(double inner, double outer, double least_distance, u
     const double z = darts.uniform(), angle = pi / 2 * darts.uniform(), flat = std::sqrt(1 - z * z);
     return Eigen::Vector3d(flat * std::cos(angle), flat * std::sin(angle), z);
   };
-  const auto radius = [&] { return std::cbrt(std::pow(inner, 3) + darts.uniform() * (std::pow(outer, 3) - std::pow(inner, 3))); };
+  const auto radius = [&] {
+    return std::cbrt(std::pow(inner, 3) + darts.uniform() * (std::pow(outer, 3) - std::pow(inner, 3)));
+  };
   const auto in_plane = [&](int axis) {
     Eigen::Vector3d x = direction();
     x[axis] = 0;
@@ -176,8 +178,9 @@ NodeCloud hollow_ball_cloud(double inner, double outer, double least_distance, u
     }
   }
   for (int axis = 0; axis < 3; ++axis) {
-    darts.fill([&] { return Eigen::Vector3d((inner + darts.uniform() * (outer - inner)) * Eigen::Vector3d::Unit(axis)); },
-               true);
+    darts.fill(
+        [&] { return Eigen::Vector3d((inner + darts.uniform() * (outer - inner)) * Eigen::Vector3d::Unit(axis)); },
+        true);
   }
   for (int axis = 0; axis < 3; ++axis) {
     darts.fill([&] { return Eigen::Vector3d(radius() * in_plane(axis)); }, true);

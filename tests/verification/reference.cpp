@@ -76,8 +76,7 @@ Reference read_reference(const std::string& name, const std::string& force_name)
 
 Differences differences(const Solution& solution, const Points& positions, const Points& displacement) {
   const solve::ShapeFunctions shape(solution.positions, solution.spacing, solution.shape);
-  const Points parameters =
-      solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
+  const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
   const Eigen::VectorXd norms = (shape.interpolate(positions, parameters) - displacement).rowwise().norm();
   std::vector<double> sorted(norms.begin(), norms.end());
   std::sort(sorted.begin(), sorted.end());

@@ -4,8 +4,8 @@
 //
 //   verify [--small] [--out DIR] [CASE ...]
 //
-// Writes DIR/verification.md, DIR/verification.csv and the plots when --out is given. Exit 1 when a figure does not keep
-// its bound.
+// Writes DIR/verification.md, DIR/verification.csv and the plots when --out is given. Exit 1 when a figure does not
+// keep its bound.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -76,7 +76,8 @@ int run(const Arguments& arguments) {
   std::printf("%s", markdown_table(rows).c_str());
   const auto broken = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.figure.holds(); });
   if (broken > 0) {
-    std::printf("\n%d of %d figures do not keep their bound\n", static_cast<int>(broken), static_cast<int>(rows.size()));
+    std::printf("\n%d of %d figures do not keep their bound\n", static_cast<int>(broken),
+                static_cast<int>(rows.size()));
   }
   return broken > 0 ? 1 : 0;
 }

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Section 6.1 of the source: 20 % compression and shear of a soft cylinder between bonded faces.
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/verification/cases/cases.hpp"
+#include "tests/verification/cases/cylinder_model.hpp"
+#include "tests/verification/reference.hpp"
+
+namespace brainshift::verification {
+
+namespace {
+
+constexpr double least_distance = 4.9;        // mm: 4,900 nodes
+constexpr double small_least_distance = 8.0;  // mm: 1,200 nodes
+constexpr double imposed = 20;                // mm
+
+/// The samples of the references, in their order: evenly in the volume, on the free surface, within 5 mm of the rims.
+constexpr Eigen::Index even_samples = 480 + 140;
+
+struct Bounds {
+  double force, largest, percentile95, mean;  ///< %
+};
+
+double percent(double value, double of) {
+  return 100 * std::abs(value) / of;
+}
+
+std::vector<Figure> displacement_figures(const solve::SolveResult& result, const Reference& reference,
+                                         const Bounds& bounds, double seconds) {
+  const Differences even = differences(result.solution, reference.positions.topRows(even_samples),
+                                       reference.displacement.topRows(even_samples));
+  const Eigen::Index rims = reference.positions.rows() - even_samples;
+  const Differences rim =
+      differences(result.solution, reference.positions.bottomRows(rims), reference.displacement.bottomRows(rims));
+  const std::string of = "displacement difference / imposed, ";
+  return {
+      {of + "largest", "3.5 %", percent(even.largest, imposed), "%", bounds.largest, {}, reference.error, seconds},
+      {of + "95 %", "", percent(even.percentile95, imposed), "%", bounds.percentile95, {}, reference.error, seconds},
+      {of + "mean", "", percent(even.mean, imposed), "%", bounds.mean, {}, reference.error, seconds},
+      {of + "largest within 5 mm of the singular rims",
+       "",
+       percent(rim.largest, imposed),
+       "%",
+       {},
+       {},
+       reference.error,
+       seconds}};
+}
+
+Outcome cylinder(const std::string& name, double poisson_ratio, const Eigen::RowVector3d& travel, int axis,
+                 const Bounds& bounds, bool small) {
+  const Reference reference = read_reference(name, name + "_force");
+  const solve::Model model = cylinder_model(small ? small_least_distance : least_distance, 0.75, poisson_ratio, travel);
+  Outcome outcome;
+  Series ours{"brainshift, MMLS, " + std::to_string(model.cloud.size()) + " nodes", {0}, {0}};
+  const int loads = small ? 1 : 4;
+  for (int load = 1; load <= loads; ++load) {
+    solve::Model part = model;
+    part.cloud.prescribed_displacement *= static_cast<double>(load) / loads;
+    const solve::SolveResult result = solved(part, steady_options());
+    ours.x.push_back(imposed * load / loads);
+    ours.y.push_back(std::abs(result.history.back().reaction[axis]));
+    if (load == loads) {
+      const double seconds = result.measures.seconds_setup + result.measures.seconds_stepping;
+      outcome.figures.push_back({"reaction force, " + std::to_string(model.cloud.size()) + " nodes",
+                                 "5 %",
+                                 percent(ours.y.back() - reference.converged_force, reference.converged_force),
+                                 "%",
+                                 bounds.force,
+                                 {},
+                                 reference.error,
+                                 seconds});
+      for (Figure& figure : displacement_figures(result, reference, bounds, seconds)) {
+        outcome.figures.push_back(std::move(figure));
+      }
+    }
+  }
+  outcome.plots.push_back({name,
+                           name + ": force against displacement",
+                           "displacement, mm",
+                           "force, N",
+                           {{"CalculiX", reference.travel, reference.force}, ours}});
+  return outcome;
+}
+
+}  // namespace
+
+solve::SolveResult solved(const solve::Model& model, const solve::SolveOptions& options) {
+  solve::SolveResult result = solve::solve(model, options);
+  if (!result.failure.empty()) {
+    throw std::runtime_error(result.failure);
+  }
+  return result;
+}
+
+Outcome cylinder_compression(bool small) {
+  return cylinder("cylinder_compression", 0.49, {0, 0, -imposed}, 2,
+                  small ? Bounds{4, 7, 3, 1} : Bounds{1, 3.5, 1.5, 0.4}, small);
+}
+
+Outcome cylinder_shear(bool small) {
+  return cylinder("cylinder_shear", 0.49, {imposed, 0, 0}, 0, small ? Bounds{4, 7, 3, 1} : Bounds{1.5, 3.5, 1.5, 0.4},
+                  small);
+}
+
+Outcome cylinder_nearly_incompressible(bool small) {
+  return cylinder("cylinder_compression_nu0499", 0.499, {0, 0, -imposed}, 2,
+                  small ? Bounds{5, 7, 3, 1} : Bounds{1.5, 3.5, 1.5, 0.4}, small);
+}
+
+/// What each treatment of the volumetric term leaves, for the README: no bounds.
+Outcome locking(bool small) {
+  const Reference reference = read_reference("cylinder_compression", "cylinder_compression_force");
+  struct Variant {
+    std::string name;
+    Basis basis;
+    double cells_per_node;
+    int points;
+    double nodes_per_patch;  ///< 0: pointwise
+    solve::Integration integration;
+  };
+  constexpr auto plain = solve::Integration::plain;
+  const std::vector<Variant> variants = {
+      {"linear, pointwise, 2 one-point cells a node", Basis::linear, 2, 1, 0, plain},
+      {"linear, pointwise, 6 points a node", Basis::linear, 0.75, 8, 0, plain},
+      {"MMLS, pointwise, 2 one-point cells a node", Basis::modified_quadratic, 2, 1, 0, plain},
+      {"MMLS, pointwise, 6 points a node", Basis::modified_quadratic, 0.75, 8, 0, plain},
+      {"linear, patches of 4 nodes", Basis::linear, 0.75, 8, 4, plain},
+      {"linear, patches of 8 nodes", Basis::linear, 0.75, 8, 8, plain},
+      {"MMLS, patches of 4 nodes", Basis::modified_quadratic, 0.75, 8, 4, plain},
+      {"MMLS, patches of 8 nodes", Basis::modified_quadratic, 0.75, 8, 8, plain},
+      {"MMLS, patches of 16 nodes", Basis::modified_quadratic, 0.75, 8, 16, plain},
+      {"MMLS, patches of 8 nodes, 16 points a node", Basis::modified_quadratic, 2, 8, 8, plain},
+      {"MMLS, patches of 8 nodes, consistent", Basis::modified_quadratic, 0.75, 8, 8, solve::Integration::consistent}};
+  Outcome outcome;
+  for (const Variant& variant : variants) {
+    const solve::Model model =
+        cylinder_model(small ? small_least_distance : least_distance, variant.cells_per_node, 0.49, {0, 0, -imposed});
+    solve::SolveOptions options;
+    options.shape.basis = variant.basis;
+    options.points_per_cell = variant.points;
+    options.volumetric =
+        variant.nodes_per_patch > 0 ? solve::Volumetric::mean_dilatation : solve::Volumetric::pointwise;
+    options.nodes_per_patch = variant.nodes_per_patch > 0 ? variant.nodes_per_patch : options.nodes_per_patch;
+    options.integration = variant.integration;
+    const solve::SolveResult result = solve::solve(model, options);
+    const double seconds = result.measures.seconds_setup + result.measures.seconds_stepping;
+    const Differences even = differences(result.solution, reference.positions.topRows(even_samples),
+                                         reference.displacement.topRows(even_samples));
+    const double force = std::abs(result.history.back().reaction[2]);
+    outcome.figures.push_back({variant.name + ": force",
+                               "",
+                               100 * (force / reference.converged_force - 1),
+                               "%",
+                               {},
+                               {},
+                               reference.error,
+                               seconds});
+    outcome.figures.push_back(
+        {variant.name + ": mean difference", "", even.mean, "mm", {}, {}, reference.error, seconds});
+    if (small && outcome.figures.size() >= 4) {
+      break;
+    }
+  }
+  return outcome;
+}
+
+}  // namespace brainshift::verification

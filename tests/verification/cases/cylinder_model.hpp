@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solve/solve.hpp"
+#include "tests/verification/clouds.hpp"
+
+namespace brainshift::verification {
+
+/// The cylinder of the references: 100 mm in diameter and height, both faces bonded, the lower held and the upper moved
+/// by `travel`; µ = 1000 Pa, neo-Hookean. Irregular nodes, hexahedra that do not conform.
+inline solve::Model cylinder_model(double least_distance, double cells_per_node, double poisson_ratio,
+                                   const Eigen::RowVector3d& travel) {
+  constexpr double radius = 50, height = 100, shear_modulus = 1000;
+  solve::Model model;
+  model.cloud = cylinder_cloud(radius, height, least_distance, 1);
+  model.cells = cells_over(cylinder_surface(radius, height), model.cloud.size(), cells_per_node);
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    const double z = model.cloud.positions(a, 2);
+    if (z == 0) {
+      model.cloud.prescribed_displacement.row(a).setZero();
+    } else if (z == height) {
+      model.cloud.prescribed_displacement.row(a) = travel;
+    }
+  }
+  model.materials[1] = {2 * shear_modulus * (1 + poisson_ratio), poisson_ratio, 1000};
+  return model;
+}
+
+/// Relaxation to a bound well below the differences to be measured.
+inline solve::SolveOptions steady_options() {
+  solve::SolveOptions options;
+  options.tolerance = 0.003;
+  return options;
+}
+
+/// Throws std::runtime_error with the solver's sentence when it failed.
+solve::SolveResult solved(const solve::Model& model, const solve::SolveOptions& options);
+
+}  // namespace brainshift::verification
