@@ -70,6 +70,8 @@ TEST(Solve, WorkExceedsTheStrainEnergyByWhatDampingTakesWhichHalvesWithTheRateOf
     SolveOptions options;
     options.load_steps = load_steps;
     const HistoryRow last = solve(uniaxial(1.2, 5), options).history.back();
+    EXPECT_NEAR(last.external_work, last.strain_energy + last.kinetic_energy + last.dissipated_energy,
+                1e-3 * last.external_work);
     return last.external_work - last.strain_energy;
   };
   const double fast = excess(800);
