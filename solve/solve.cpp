@@ -287,9 +287,8 @@ SolveResult solve(const Model& model, const SolveOptions& given, const Progress&
   ShapeRows point_rows = shape.evaluate(points.positions, true);
   SolveResult result;
   if (options.integration == Integration::consistent) {
-    constexpr double defect = 1e-10;
     const ConsistencyMeasures done = make_derivatives_consistent(cloud.positions, surface_nodes(cloud), nodal_rows,
-                                                                 points.volume, defect, point_rows);
+                                                                 points.volume, options.consistency_defect, point_rows);
     result.measures.consistency_iterations = done.iterations;
   }
   const bool shared_pressure = options.volumetric == Volumetric::mean_dilatation && model.plane != Plane::stress;

@@ -42,7 +42,8 @@ struct SolveOptions {
   ShapeOptions shape;  ///< planar is set from the model
   Volumetric volumetric = Volumetric::mean_dilatation;
   double nodes_per_patch = 6;  ///< of mean dilatation
-  Integration integration = Integration::plain;
+  Integration integration = Integration::consistent;
+  double consistency_defect = 0.01;  ///< what may be left of the largest defect, make_derivatives_consistent()
   Imposition imposition = Imposition::exact;
   int points_per_cell = 8;  ///< hexahedra 1 or 8, tetrahedra 1 or 4, quadrilaterals 1 or 4, triangles 1 or 3
   Dynamics dynamics = Dynamics::relaxation;

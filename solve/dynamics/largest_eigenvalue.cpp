@@ -33,4 +33,15 @@ double largest_eigenvalue(const PointBlocks& points, const PointLaws& laws, std:
   return eigenvalue;
 }
 
+double bound_tightness(const PointBlocks& points, const PointLaws& laws, std::span<const double> bound,
+                       std::span<const double> mass) {
+  constexpr int iterations = 40;
+  constexpr double margin = 1.25;  // power iteration comes from below, and tangents turn as the body deforms
+  double largest = 0;
+  for (std::size_t a = 0; a < mass.size(); ++a) {
+    largest = std::max(largest, bound[a] / mass[a]);
+  }
+  return std::min(1.0, margin * largest_eigenvalue(points, laws, mass, iterations) / largest);
+}
+
 }  // namespace brainshift::solve

@@ -13,4 +13,10 @@ namespace brainshift::solve {
 double largest_eigenvalue(const PointBlocks& points, const PointLaws& laws, std::span<const double> mass,
                           int iterations);
 
+/// How much of a bound D of the stiffness is real: A_max of the undeformed body by a short power iteration with a
+/// margin of a quarter, over the bound's own max D_a/m_a; at most one. 2 / sqrt(tightness · max D_a/m_a) is then the
+/// critical step, where D is followed as the body deforms.
+double bound_tightness(const PointBlocks& points, const PointLaws& laws, std::span<const double> bound,
+                       std::span<const double> mass);
+
 }  // namespace brainshift::solve

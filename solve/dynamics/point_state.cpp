@@ -22,9 +22,9 @@ void add_patch(const PointBlocks& points, const Patch& patch, const ElasticLaw& 
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const Deformation d(gradient_of(scratch, p));
     const double seen = dilatations.dot(points.modes_of(p)), unseen = law.dilatation(d) - seen;
-    state.strain_energy += points.volume[static_cast<std::size_t>(p)] *
-                           (law.isochoric_energy(d) + law.bulk_modulus / 2 * seen * seen +
-                            unprojected / 2 * unseen * unseen);
+    state.strain_energy +=
+        points.volume[static_cast<std::size_t>(p)] *
+        (law.isochoric_energy(d) + law.bulk_modulus / 2 * seen * seen + unprojected / 2 * unseen * unseen);
     state.smallest_jacobian = least(state.smallest_jacobian, d.jacobian);
     state.largest_stretch = std::max(state.largest_stretch, principal_stretches(d.gradient).maxCoeff());
   }

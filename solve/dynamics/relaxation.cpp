@@ -13,13 +13,11 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int window = 20;         // steps between looks at the state
-constexpr int recent_windows = 4;  // that the error bound looks back on
-constexpr int power_iterations = 40;
-constexpr double eigenvalue_margin = 1.25;  // power iteration comes from below, and tangents turn as the body deforms
-constexpr double mass_margin = 1.1;         // stiffness may grow by this before the masses are made anew
-constexpr double energy_unit = 1e-6;        // g mm²/s² to mJ
-constexpr double newton = 1e-6;             // µN to N
+constexpr int window = 20;            // steps between looks at the state
+constexpr int recent_windows = 4;     // that the error bound looks back on
+constexpr double mass_margin = 1.1;   // stiffness may grow by this before the masses are made anew
+constexpr double energy_unit = 1e-6;  // g mm²/s² to mJ
+constexpr double newton = 1e-6;       // µN to N
 
 /// α of all steps. It stays the same: nodes in contact rest where a step's push and their way back cancel, which moves
 /// with α. Stable up to 2(1 + β) for A_m = 1; the best, 4/(1 + √A_0)², would save an eighth of the steps.
@@ -51,8 +49,7 @@ class Relaxation {
     internal_force(system_.points, system_.laws, now_, scratch_, force_);
     mass_ = stiffness_bound(system_.points, system_.laws, scratch_);
     if (!cautious) {
-      const double largest = largest_eigenvalue(system_.points, system_.laws, mass_, power_iterations);
-      mass_scale_ = std::min(eigenvalue_margin * largest, 1.0);
+      mass_scale_ = bound_tightness(system_.points, system_.laws, mass_, mass_);
     }
     for (double& m : mass_) {
       m *= mass_margin * mass_scale_;

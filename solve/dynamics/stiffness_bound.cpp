@@ -50,12 +50,12 @@ void add_shape_bound(const PointBlocks& points, const Patch& patch, const Elasti
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const auto gradient = gradient_of(scratch, p);
     const double seen = dilatations.dot(points.modes_of(p));
-    const double pressure = law.bulk_modulus * seen +
-                            unprojected.bulk_modulus * (law.dilatation(Deformation(gradient)) - seen);
+    const double pressure =
+        law.bulk_modulus * seen + unprojected.bulk_modulus * (law.dilatation(Deformation(gradient)) - seen);
     const double tangent = largest_tangent(unprojected, gradient, pressure);
     const auto b = derivatives(points, p);
-    const double scale = points.volume[static_cast<std::size_t>(p)] * std::max(tangent, 2 * law.shear_modulus) *
-                         weighted_norm(b);
+    const double scale =
+        points.volume[static_cast<std::size_t>(p)] * std::max(tangent, 2 * law.shear_modulus) * weighted_norm(b);
     Eigen::Index a = 0;
     for (const std::uint16_t slot : points.slots_of(p)) {
       sums.bound[slot] += scale * b.col(a++).norm();
@@ -114,8 +114,8 @@ std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& 
 #pragma omp parallel for schedule(dynamic)
   for (std::int64_t i = 0; i < blocks; ++i) {
     const Block& block = points.blocks[static_cast<std::size_t>(i)];
-    BlockSums sums{slot_bound.data() + block.first_slot, std::vector<double>(3 * static_cast<std::size_t>(block.slots)),
-                   {}};
+    BlockSums sums{
+        slot_bound.data() + block.first_slot, std::vector<double>(3 * static_cast<std::size_t>(block.slots)), {}};
     for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
       const Patch& patch = points.patches[static_cast<std::size_t>(k)];
       std::visit(

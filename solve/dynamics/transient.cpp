@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "solve/dynamics/largest_eigenvalue.hpp"
 #include "solve/dynamics/stiffness_bound.hpp"
 
 namespace brainshift::solve {
@@ -35,6 +36,8 @@ class Transient {
         next_snapshot_(options.snapshot_every),
         scratch_(system.points, PointLaws{{}, {}, system.laws.plane_stress}) {
     internal_force(system_.points, system_.laws, now_, scratch_, force_);
+    tightness_ =
+        bound_tightness(system.points, system.laws, stiffness_bound(system.points, system.laws, scratch_), mass_);
     const double critical = critical_now();
     if (options.time_step > critical) {
       std::ostringstream text;
@@ -196,6 +199,7 @@ class Transient {
   std::size_t nodes_;
   NodalVectors now_, before_, next_, force_, good_;
   Points good_reactions_;
+  double tightness_ = 1;
   double step_ = 0;   // h, s
   double alpha_ = 1;  // of the last step, s²
   double time_ = 0;   // s

@@ -124,7 +124,7 @@ TEST(SharedPressure, NeverStoresMoreThanPointwise) {
     Body shared = make_body(Kind::patches, material), pointwise = make_body(Kind::pointwise, material);
     for (const unsigned seed : {1u, 2u, 3u}) {
       const NodalVectors u = shared.random_parameters(0.8, seed);
-      EXPECT_LT(shared.energy(u), pointwise.energy(u)) << name_of(material);
+      EXPECT_LE(shared.energy(u), pointwise.energy(u) * (1 + 1e-12)) << name_of(material);
     }
     const NodalVectors uniform = shared.linear(Eigen::Matrix3d{{0.1, 0.2, 0}, {0, -0.05, 0.1}, {0.1, 0, 0.2}});
     const double expected = pointwise.energy(uniform);

@@ -17,7 +17,7 @@ constexpr double length = 100, width = 40, pulled = 30;  // mm
 /// An irregular cloud of just so many nodes.
 NodeCloud cloud_of(std::size_t nodes) {
   for (unsigned seed = 1; seed < 2000; ++seed) {
-    const NodeCloud cloud = rectangle_cloud(length, width, 7.4, seed);
+    const NodeCloud cloud = rectangle_cloud(length, width, 8.2, seed);
     if (cloud.size() == nodes) {
       return cloud;
     }
