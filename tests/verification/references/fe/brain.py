@@ -1,8 +1,8 @@
 """Brain shift: a closed surface filled with tetrahedra, displacements prescribed at some of its points, the rest free.
 
 usage: fe/brain.py folder out surface.vtp load.csv
-load.csv: rows x,y,z,ux,uy,uz of every vertex of the surface that is held or moved. Between them the displacement is linear:
-on the triangles with three such corners and the edges with two such ends. Everything else is free.
+load.csv: rows x,y,z,ux,uy,uz of every vertex of the surface that is held or moved. Between them the displacement is linear
+on the triangles with three such corners. Everything else is free.
 """
 import sys
 
@@ -28,14 +28,15 @@ def at_vertices(nodes, load):
 
 
 def with_midnodes(mesh, values):
-    """The quadratic mesh and the prescribed displacement of its nodes: the mean of two ends on edges of the surface."""
+    """The quadratic mesh and the prescribed displacement of its nodes: the mean of two ends on edges of wholly prescribed triangles."""
     fine, edges = tetrahedra.quadratic(mesh)
     faces = tetrahedra.boundary_triangles(mesh.elements)
+    faces = faces[np.isfinite(values[faces, 0]).all(1)]
     outer = np.sort(faces[:, [(0, 1), (1, 2), (0, 2)]].reshape(-1, 2), axis=1)
     key = len(mesh.nodes)
-    on_surface = np.isin(edges[:, 0] * key + edges[:, 1], outer[:, 0] * key + outer[:, 1])
+    prescribed = np.isin(edges[:, 0] * key + edges[:, 1], outer[:, 0] * key + outer[:, 1])
     between = values[edges].mean(1)
-    between[~on_surface] = np.nan
+    between[~prescribed] = np.nan
     return fine, np.vstack([values, between])
 
 
@@ -69,7 +70,7 @@ def sample_points(mesh, surface_points, inside=600, surface=200, seed=22):
 
 def main(folder, out, surface, load):
     points, triangles = vtp.read_surface(surface)
-    load = np.loadtxt(load, delimiter=",", skiprows=1, comments="#")
+    load = np.loadtxt(load, delimiter=",", skiprows=1 + tables.comment_count(load), comments="#")
     material = deck.NeoHookean.from_young(YOUNG, NU)
     mesh = tetrahedra.fill(points, triangles, f"{folder}/brain")
     values = at_vertices(mesh.nodes, load)

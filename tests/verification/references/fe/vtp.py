@@ -61,3 +61,18 @@ def encoded_length(size):
 def decoded(text, size):
     """The first `size` bytes of base64 text."""
     return base64.b64decode(text[:encoded_length(size)])[:size]
+
+
+def write_surface(path, points, triangles, about):
+    """As text, coordinates to 0.01."""
+    rows = "\n".join(f"{x:.2f} {y:.2f} {z:.2f}" for x, y, z in points + 0.0)
+    faces = "\n".join(f"{a} {b} {c}" for a, b, c in triangles)
+    ends = " ".join(str(3 * i + 3) for i in range(len(triangles)))
+    with open(path, "w") as file:
+        file.write(f'<?xml version="1.0"?>\n<!-- {about} -->\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n'
+                   f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" '
+                   f'NumberOfPolys="{len(triangles)}">\n'
+                   f'<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">\n{rows}\n</DataArray></Points>\n'
+                   f'<Polys>\n<DataArray type="Int64" Name="connectivity" format="ascii">\n{faces}\n</DataArray>\n'
+                   f'<DataArray type="Int64" Name="offsets" format="ascii">\n{ends}\n</DataArray>\n</Polys>\n'
+                   "</Piece>\n</PolyData>\n</VTKFile>\n")
