@@ -64,12 +64,13 @@ Reference read_reference(const std::string& name, const std::string& force_name)
     reference.positions.row(i) << row[0], row[1], row[2];
     reference.displacement.row(i) << row[3], row[4], row[5];
   }
-  for (const std::vector<double>& row : read_rows(force_name + ".csv")) {
-    reference.travel.push_back(row[0]);
-    reference.force.push_back(row[1]);
+  if (!force_name.empty()) {
+    for (const std::vector<double>& row : read_rows(force_name + ".csv")) {
+      reference.travel.push_back(row[0]);
+      reference.force.push_back(row[1]);
+    }
   }
-  const std::string converged = comment_of(name + ".csv", "converged_force:");
-  reference.converged_force = converged.empty() ? reference.force.back() : std::stod(converged);
+  reference.converged_force = std::stod(comment_of(name + ".csv", "converged_force:"));
   reference.error = "CalculiX;" + comment_of(name + ".csv", "error:");
   return reference;
 }

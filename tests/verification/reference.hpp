@@ -9,7 +9,7 @@
 
 namespace brainshift::verification {
 
-/// A finite-element reference from references/NAME.csv.
+/// A finite-element reference: references/NAME.csv and, if there is one, its force curve.
 struct Reference {
   Points positions, displacement;  ///< of NAME.csv, mm
   std::vector<double> travel;      ///< of NAME_force.csv, mm

@@ -78,7 +78,7 @@ Figure stretch_figure(const std::string& name, const solve::Material& material, 
           "",
           100 * std::abs(force / exact - 1),
           "%",
-          small ? 1.5 : 1,
+          small ? 8 : 2,
           {},
           "analytic",
           result.measures.seconds_setup + result.measures.seconds_stepping};
@@ -103,7 +103,7 @@ Figure shear_figure(const std::string& name, const solve::Material& material, bo
           "",
           100 * std::abs(energy / (exact * std::pow(side, 3) * joule) - 1),
           "%",
-          small ? 1.5 : 1,
+          small ? 8 : 2,
           {},
           "analytic",
           result.measures.seconds_setup + result.measures.seconds_stepping};

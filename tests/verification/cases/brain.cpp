@@ -71,7 +71,7 @@ solve::Model brain_model(const Surface& surface, const Points& at_vertex, std::s
 Outcome brain(bool small) {
   const Surface surface = read_surface(BRAINSHIFT_REFERENCES "/brain_surface.vtp");
   const Points at_vertex = at_vertices(surface, read_rows("brain_load.csv"));
-  const Reference reference = read_reference("brain", "brain_force");
+  const Reference reference = read_reference("brain", "");
   const std::size_t nodes = small ? 3000 : 19000;
   Outcome outcome;
   for (const auto& [cell_name, kind] :

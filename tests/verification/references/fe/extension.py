@@ -58,6 +58,7 @@ def at_points(mesh, field, points):
 def main(folder, out):
     material = deck.NeoHookean.from_young(3000, 0.49)
     points = sample_points()
+    nodes = np.loadtxt(f"{out}/extension_nodes.csv", delimiter=",", skiprows=2)[:, :2]
     for state, kind in STATES.items():
         samples, forces = [], []
         for cells in LEVELS:
@@ -77,6 +78,8 @@ def main(folder, out):
                  f"graded to the held corner with power {POWER}",
                  *lines, tables.error_line(force, lengths)]
         tables.write_samples(f"{out}/extension_{state}.csv", about, np.column_stack([points, np.zeros(len(points))]), samples[-1])
+        tables.write_samples(f"{out}/extension_{state}_nodes.csv", about + ["at the nodes of extension_nodes.csv"],
+                             np.column_stack([nodes, np.zeros(len(nodes))]), at_points(mesh, solution.fields[1.0], nodes))
         tables.write_curve(f"{out}/extension_{state}_force.csv", about, [[0, 0]] + list(zip(PULL * SHARES, forces[-1])),
                            "displacement_mm,force_N_per_mm")
 
