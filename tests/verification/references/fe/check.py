@@ -3,6 +3,7 @@ import glob
 import os
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from . import evaluate, meshes, tables
 
@@ -38,6 +39,15 @@ def moduli(mu, nu):
     return 2 * mu * (1 + nu), 2 * mu * (1 - nu) / (1 - 2 * nu), 2 * mu * (1 + nu) / (1 - nu ** 2)
 
 
+def prescribed_samples(samples, load):
+    """Samples at prescribed vertices have what is prescribed there."""
+    rows, wanted = (tables.read(os.path.join(HERE, name)) for name in (samples, load))
+    distance, which = cKDTree(wanted[:, :3]).query(rows[:, :3])
+    there = distance < 1e-3
+    error = np.abs(rows[there, 3:] - wanted[which[there], 3:]).max()
+    return check(f"{samples} has the displacements of {load} at {there.sum()} vertices", there.any() and error < 2e-4, f"{error:.1e}")
+
+
 def main():
     random = np.random.default_rng(3)
     square = meshes.rectangle(50 * meshes.graded(4, 1.5), 100 * meshes.graded(5, 1.5, both_ends=True))
@@ -69,6 +79,7 @@ def main():
             good.append(check(f"{name} rises", bool((np.diff(rows, axis=0) > 0).all())))
         else:
             good.append(check(f"{name} is finite, {len(rows)} rows", bool(np.isfinite(rows).all()) and rows.shape[1] == 6))
+    good.append(prescribed_samples("brain.csv", "brain_load.csv"))
     raise SystemExit(not all(good))
 
 
