@@ -41,7 +41,7 @@ enum class Dynamics : std::uint8_t {
 struct SolveOptions {
   ShapeOptions shape;  ///< planar is set from the model
   Volumetric volumetric = Volumetric::mean_dilatation;
-  double nodes_per_patch = 6;  ///< of mean dilatation
+  double nodes_per_patch = 8;  ///< of mean dilatation
   Integration integration = Integration::consistent;
   double consistency_defect = 0.01;  ///< what may be left of the largest defect, make_derivatives_consistent()
   Imposition imposition = Imposition::exact;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "discretise/discretise.hpp"
 #include "discretise/neighbours/neighbour_distance.hpp"
 
 namespace brainshift::verification {
@@ -30,13 +29,14 @@ std::int64_t Darts::key(int i, int j, int k) const {
 }
 
 bool Darts::put(const Eigen::Vector3d& position, bool on_surface) {
+  const double least = fineness_ ? least_ * fineness_(position) : least_;
   const Eigen::Vector3i bucket = (position / least_).array().floor().cast<int>();
   for (int i = -1; i <= 1; ++i) {
     for (int j = -1; j <= 1; ++j) {
       for (int k = -1; k <= 1; ++k) {
         const auto found = buckets_.find(key(bucket[0] + i, bucket[1] + j, bucket[2] + k));
         if (found != buckets_.end() && std::any_of(found->second.begin(), found->second.end(), [&](std::size_t a) {
-              return (nodes_[a] - position).norm() < least_;
+              return (nodes_[a] - position).norm() < least;
             })) {
           return false;
         }
@@ -76,19 +76,17 @@ NodeCloud Darts::cloud(bool planar) const {
   return cloud;
 }
 
-NodeCloud cylinder_cloud(double radius, double height, double least_distance, unsigned seed, double ring) {
-  Darts darts(least_distance, seed);
+namespace {
+
+NodeCloud fill_cylinder(Darts darts, double radius, double height) {
   for (const double z : {0.0, height}) {
     darts.along(2 * pi * radius, true, [&](double turns) { return on_circle(radius, turns, z); });
-  }
-  if (ring > 0) {
-    darts.along(2 * pi * ring, true, [&](double turns) { return on_circle(ring, turns, height); });
   }
   for (const double z : {0.0, height}) {
     darts.fill([&] { return on_circle(radius * std::sqrt(darts.uniform()), darts.uniform(), z); }, true);
   }
   darts.fill([&] { return on_circle(radius, darts.uniform(), height * darts.uniform()); }, true);
-  const double off = from_boundary * least_distance;
+  const double off = from_boundary * darts.least_distance();
   darts.fill(
       [&] {
         return on_circle((radius - off) * std::sqrt(darts.uniform()), darts.uniform(),
@@ -96,6 +94,26 @@ NodeCloud cylinder_cloud(double radius, double height, double least_distance, un
       },
       false);
   return darts.cloud();
+}
+
+}  // namespace
+
+NodeCloud cylinder_cloud(double radius, double height, double least_distance, unsigned seed) {
+  return fill_cylinder(Darts(least_distance, seed), radius, height);
+}
+
+NodeCloud ringed_cylinder_cloud(double radius, double height, double least_distance, unsigned seed, double ring,
+                                double fineness) {
+  const auto near_ring = [=](const Eigen::Vector3d& x) {
+    const double from_ring = std::hypot(ring - x.head<2>().norm(), height - x[2]);
+    return std::clamp(fineness + (1 - fineness) * from_ring / ring, fineness, 1.0);
+  };
+  Darts darts(least_distance, seed, near_ring);
+  const int nodes = static_cast<int>(2 * pi * ring / (1.12 * fineness * least_distance));
+  for (int i = 0; i < nodes; ++i) {
+    darts.put(on_circle(ring, (i + 0.1 * (darts.uniform() - 0.5)) / nodes, height), true);
+  }
+  return fill_cylinder(std::move(darts), radius, height);
 }
 
 NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned seed) {
@@ -218,10 +236,12 @@ Surface cylinder_surface(double radius, double height) {
   return surface;
 }
 
-BackgroundCells cells_over(const Surface& surface, std::size_t nodes, double cells_per_node) {
+BackgroundCells cells_over(const Surface& surface, std::size_t nodes, double cells_per_node,
+                           const std::optional<discretise::Refinement>& refinement) {
   discretise::DiscretiseOptions options;
   options.nodes = nodes;
   options.cells_per_node = cells_per_node;
+  options.craniotomy = refinement;
   return discretise::discretise(surface, nullptr, options).cells;
 }
 

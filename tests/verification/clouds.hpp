@@ -4,11 +4,13 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <random>
 #include <unordered_map>
 #include <vector>
 
 #include "discretise/background_cells.hpp"
+#include "discretise/discretise.hpp"
 #include "discretise/node_cloud.hpp"
 
 namespace brainshift::verification {
@@ -18,7 +20,9 @@ namespace brainshift::verification {
 /// the same cloud.
 class Darts {
  public:
-  Darts(double least_distance, unsigned seed) : least_(least_distance), random_(seed) {}
+  /// fineness: the least distance at a place over least_distance, at most 1; empty: 1 everywhere.
+  Darts(double least_distance, unsigned seed, std::function<double(const Eigen::Vector3d&)> fineness = {})
+      : least_(least_distance), random_(seed), fineness_(std::move(fineness)) {}
 
   double uniform() { return static_cast<double>(random_() >> 11) * 0x1.0p-53; }
 
@@ -41,13 +45,18 @@ class Darts {
 
   double least_;
   std::mt19937_64 random_;
+  std::function<double(const Eigen::Vector3d&)> fineness_;
   std::vector<Eigen::Vector3d> nodes_;
   std::vector<std::uint8_t> on_surface_;
   std::unordered_map<std::int64_t, std::vector<std::size_t>> buckets_;
 };
 
-/// A cylinder along z from 0 to height, with nodes on both rims; ring > 0: also on a circle of that radius on the top.
-NodeCloud cylinder_cloud(double radius, double height, double least_distance, unsigned seed, double ring = 0);
+/// A cylinder along z from 0 to height, with nodes on both rims.
+NodeCloud cylinder_cloud(double radius, double height, double least_distance, unsigned seed);
+
+/// The same with nodes on a circle of radius `ring` on the top, about which they are `fineness` times as far apart.
+NodeCloud ringed_cylinder_cloud(double radius, double height, double least_distance, unsigned seed, double ring,
+                                double fineness);
 
 /// The box from 0 to size.
 NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned seed);
@@ -59,7 +68,9 @@ NodeCloud rectangle_cloud(double width, double height, double least_distance, un
 NodeCloud hollow_ball_cloud(double inner, double outer, double least_distance, unsigned seed);
 
 /// Regular hexahedra over a closed surface that do not conform to it, as `discretise` makes them.
-BackgroundCells cells_over(const Surface& surface, std::size_t nodes, double cells_per_node);
+/// refinement: as there, empty for none.
+BackgroundCells cells_over(const Surface& surface, std::size_t nodes, double cells_per_node,
+                           const std::optional<discretise::Refinement>& refinement = {});
 
 /// Closed surface of a cylinder along z, a prism of many sides.
 Surface cylinder_surface(double radius, double height);

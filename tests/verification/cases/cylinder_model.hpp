@@ -12,7 +12,7 @@ inline solve::Model cylinder_model(double least_distance, double cells_per_node,
                                    const Eigen::RowVector3d& travel) {
   constexpr double radius = 50, height = 100, shear_modulus = 1000;
   solve::Model model;
-  model.cloud = cylinder_cloud(radius, height, least_distance, 1);
+  model.cloud = cylinder_cloud(radius, height, least_distance, 4);
   model.cells = cells_over(cylinder_surface(radius, height), model.cloud.size(), cells_per_node);
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const double z = model.cloud.positions(a, 2);
