@@ -31,8 +31,8 @@ struct DiscretiseOptions {
   std::int32_t tumour_label = 3;
   double tissue_boundary_factor = 1.0;    ///< spacing at boundaries between tissues / uniform spacing
   CellKind cells = CellKind::hexahedron;  ///< or tetrahedron; a body has no planar cells
-  /// Hexahedra: cells a node (inside volume / cell volume / nodes). With eight points a cell and one pressure for them,
-  /// more cells lock and fewer are too soft. Where the nodes are finer the cells are split.
+  /// Hexahedra: cells a node (inside volume / cell volume / nodes). With eight points a cell that is six points a node.
+  /// Where the nodes are finer the cells are split.
   double cells_per_node = 0.75;
   std::vector<std::int32_t> brain_labels = {1, 2, 3};  ///< labels of the label map that are tissue of the brain
   std::uint64_t seed = 1;
