@@ -103,7 +103,7 @@ struct SolveMeasures {
   int steps = 0;
   bool converged = false;
   double error_bound = 0;           ///< mm
-  double critical_step = 0;         ///< with the physical mass, s: a rigorous bound for the undeformed body
+  double critical_step = 0;         ///< transient: as estimated for the undeformed body, s
   int consistency_iterations = 0;   ///< of the correction of the derivatives
   double largest_displacement = 0;  ///< mm
   double constraint_error = 0;      ///< largest |Σφû − prescribed|, mm

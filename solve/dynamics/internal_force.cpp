@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "solve/dynamics/patch_dilatation.hpp"
-#include "solve/material/volumetric.hpp"
 
 namespace brainshift::solve {
 
@@ -69,7 +68,8 @@ double free_thickness(const ElasticLaw& law, Eigen::Matrix3d gradient, double st
   const auto normal_stress = [&](double stretch) {
     gradient(2, 2) = stretch;
     const Deformation d(gradient);
-    return law.isochoric_stress(d)(2, 2) + volumetric_pressure(law, law.dilatation(d)) * law.dilatation_slope(d)(2, 2);
+    return law.isochoric_stress(d)(2, 2) +
+           point_pressure(law, law.dilatation(d), law.dilatation(d)) * law.dilatation_slope(d)(2, 2);
   };
   double before = start * (1 + 1e-4), now = start;
   double stress_before = normal_stress(before), stress = normal_stress(now);
@@ -118,16 +118,18 @@ void patch_gradients(const PointBlocks& points, const Patch& patch, const Elasti
 
 template <class ElasticLaw, class Viscosity>
 void patch_force(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const Viscosity& viscosity,
-                 double* force, const ForceScratch& scratch) {
+                 double* force, ForceScratch& scratch, JacobianRange& range) {
   const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, scratch);
-  const double unprojected = unprojected_modulus(law);
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const Deformation d(gradient_of(scratch, p));
-    const double seen = dilatations.dot(points.modes_of(p));
-    const double pressure = law.bulk_modulus * seen + unprojected * (law.dilatation(d) - seen);
+    const double pressure = point_pressure(law, dilatations.dot(points.modes_of(p)), law.dilatation(d));
     const Eigen::Matrix3d stress =
         points.volume[static_cast<std::size_t>(p)] * (viscosity.stress(law, d, p) + pressure * law.dilatation_slope(d));
     scatter_stress(points.slots_of(p), points.derivatives_of(p), stress.data(), force);
+    double& jacobian = scratch.jacobian[static_cast<std::size_t>(p)];
+    range.smallest = lesser(range.smallest, d.jacobian);
+    range.least_ratio = lesser(range.least_ratio, d.jacobian / jacobian);
+    jacobian = d.jacobian;
   }
 }
 
@@ -142,6 +144,7 @@ void block_force(const PointBlocks& points, const Block& block, const PointLaws&
     std::copy_n(parameters.data() + 4 * node, 4, displacement + 4 * s);
   }
   std::fill_n(force, 4 * slots, 0.0);
+  JacobianRange range;
   for (std::int32_t i = block.first_patch; i < block.last_patch; ++i) {
     const Patch& patch = points.patches[static_cast<std::size_t>(i)];
     const auto row = static_cast<std::size_t>(patch.material);
@@ -149,19 +152,25 @@ void block_force(const PointBlocks& points, const Block& block, const PointLaws&
         [&](const auto& law) {
           patch_gradients(points, patch, law, laws.plane_stress, displacement, scratch);
           if (laws.prony.empty() || laws.prony[row].terms.empty()) {
-            patch_force(points, patch, law, NotRelaxing{}, force, scratch);
+            patch_force(points, patch, law, NotRelaxing{}, force, scratch, range);
           } else {
-            patch_force(points, patch, law, Relaxing{&laws.prony[row], &scratch}, force, scratch);
+            const Relaxing relaxing{&laws.prony[row], &scratch};
+            patch_force(points, patch, law, relaxing, force, scratch, range);
           }
         },
         laws.elastic[row]);
   }
+  scratch.block_jacobian[static_cast<std::size_t>(&block - points.blocks.data())] = range;
 }
 
 }  // namespace
 
 ForceScratch::ForceScratch(const PointBlocks& points, const PointLaws& laws)
-    : slot_displacement(4 * points.slots()), slot_force(4 * points.slots()), gradient(9 * points.points()) {
+    : slot_displacement(4 * points.slots()),
+      slot_force(4 * points.slots()),
+      gradient(9 * points.points()),
+      jacobian(points.points(), 1.0),
+      block_jacobian(points.blocks.size()) {
   if (laws.plane_stress) {
     thickness.assign(points.points(), 1.0);
   }
@@ -176,6 +185,15 @@ ForceScratch::ForceScratch(const PointBlocks& points, const PointLaws& laws)
     }
     viscous_state.assign(size, 0.0);
   }
+}
+
+JacobianRange jacobian_range(const ForceScratch& scratch) {
+  JacobianRange range;
+  for (const JacobianRange& of_block : scratch.block_jacobian) {
+    range.smallest = lesser(range.smallest, of_block.smallest);
+    range.least_ratio = lesser(range.least_ratio, of_block.least_ratio);
+  }
+  return range;
 }
 
 void internal_force(const PointBlocks& points, const PointLaws& laws, const NodalVectors& parameters,

@@ -9,11 +9,19 @@
 
 namespace brainshift::solve {
 
+/// What has become of J at the points; NaN where one is.
+struct JacobianRange {
+  double smallest = 1;
+  double least_ratio = 1;  ///< of J to that of the internal_force() before
+};
+
 /// Scratch of internal_force(), made once and reused in every step, and what points remember between steps.
 struct ForceScratch {
   std::vector<double> slot_displacement;        ///< 4 a slot
   std::vector<double> slot_force;               ///< 4 a slot
   std::vector<double> gradient;                 ///< 9 a point: F, kept between the two passes over a patch
+  std::vector<double> jacobian;                 ///< J of each point
+  std::vector<JacobianRange> block_jacobian;    ///< one a block
   std::vector<double> thickness;                ///< plane stress: F_33 of each point, where the next search starts
   std::vector<std::size_t> viscous_begin = {};  ///< transient with Prony terms: offset of each point's state
   std::vector<double> viscous_state = {};
@@ -27,6 +35,9 @@ struct ForceScratch {
 /// laws.prony is not empty each call is a time step of the viscous states.
 void internal_force(const PointBlocks& points, const PointLaws& laws, const NodalVectors& parameters,
                     ForceScratch& scratch, NodalVectors& force);
+
+/// Over all points, at the last internal_force().
+JacobianRange jacobian_range(const ForceScratch& scratch);
 
 /// State of the points at the parameters of the last internal_force().
 struct PointState {

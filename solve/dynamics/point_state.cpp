@@ -9,23 +9,15 @@ namespace brainshift::solve {
 
 namespace {
 
-/// The lesser, or NaN where one is.
-double least(double a, double b) {
-  return a >= b ? b : (b >= a ? a : std::nan(""));
-}
-
 template <class ElasticLaw>
 void add_patch(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
                PointState& state) {
   const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, scratch);
-  const double unprojected = unprojected_modulus(law);
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const Deformation d(gradient_of(scratch, p));
-    const double seen = dilatations.dot(points.modes_of(p)), unseen = law.dilatation(d) - seen;
-    state.strain_energy +=
-        points.volume[static_cast<std::size_t>(p)] *
-        (law.isochoric_energy(d) + law.bulk_modulus / 2 * seen * seen + unprojected / 2 * unseen * unseen);
-    state.smallest_jacobian = least(state.smallest_jacobian, d.jacobian);
+    const double volumetric = point_energy(law, dilatations.dot(points.modes_of(p)), law.dilatation(d));
+    state.strain_energy += points.volume[static_cast<std::size_t>(p)] * (law.isochoric_energy(d) + volumetric);
+    state.smallest_jacobian = lesser(state.smallest_jacobian, d.jacobian);
     state.largest_stretch = std::max(state.largest_stretch, principal_stretches(d.gradient).maxCoeff());
   }
 }
@@ -47,7 +39,7 @@ PointState point_state(const PointBlocks& points, const PointLaws& laws, const F
   PointState state;
   for (const PointState& part : partial) {
     state.strain_energy += part.strain_energy;
-    state.smallest_jacobian = least(state.smallest_jacobian, part.smallest_jacobian);
+    state.smallest_jacobian = lesser(state.smallest_jacobian, part.smallest_jacobian);
     state.largest_stretch = std::max(state.largest_stretch, part.largest_stretch);
   }
   return state;

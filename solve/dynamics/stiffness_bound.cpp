@@ -44,15 +44,14 @@ struct BlockSums {
 template <class ElasticLaw>
 void add_shape_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
                      BlockSums& sums) {
-  ElasticLaw unprojected = law;
-  unprojected.bulk_modulus = unprojected_modulus(law);
+  ElasticLaw alone = law;  // as its patch leaves it to the point
   const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, scratch);
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const auto gradient = gradient_of(scratch, p);
-    const double seen = dilatations.dot(points.modes_of(p));
-    const double pressure =
-        law.bulk_modulus * seen + unprojected.bulk_modulus * (law.dilatation(Deformation(gradient)) - seen);
-    const double tangent = largest_tangent(unprojected, gradient, pressure);
+    const double dilatation = law.dilatation(Deformation(gradient));
+    alone.bulk_modulus = point_modulus(law, dilatation);
+    const double tangent =
+        largest_tangent(alone, gradient, point_pressure(law, dilatations.dot(points.modes_of(p)), dilatation));
     const auto b = derivatives(points, p);
     const double scale =
         points.volume[static_cast<std::size_t>(p)] * std::max(tangent, 2 * law.shear_modulus) * weighted_norm(b);

@@ -34,14 +34,11 @@ struct SteppingResult {
   std::vector<ParameterSnapshot> snapshots;
   PointState state;
   int steps = 0;
-  double fraction = 0;     ///< of the load, at the last good state
-  double error_bound = 0;  ///< mm; relaxation only
-  bool unstable = false;   ///< failed because it blew up, not for want of steps
-  std::string failure;     ///< empty when all went well
+  double fraction = 0;       ///< of the load, at the last good state
+  double error_bound = 0;    ///< mm; relaxation only
+  double critical_step = 0;  ///< s, of the undeformed body; transient only
+  bool unstable = false;     ///< failed because it blew up, not for want of steps
+  std::string failure;       ///< empty when all went well
 };
-
-/// One sentence when the state is not sound: displacements that are no longer finite, a point that turned inside out;
-/// else empty. motion: largest |û⁺ − û| of the last step.
-std::string unsound(const PointState& state, double motion, int step, double fraction);
 
 }  // namespace brainshift::solve

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <limits>
 
 #include "solve/material/deformation.hpp"
 #include "solve/material/material.hpp"
@@ -12,6 +13,8 @@ namespace brainshift::solve {
 /// Linear elasticity, W = µ dev ε : dev ε + K/2 (tr ε)², ε = sym F − 1. Takes a rotation for a strain, of the order of
 /// the angle's square: for small rotations too.
 struct LinearElastic {
+  static constexpr double least_dilatation = -std::numeric_limits<double>::infinity();  ///< the law does not know J = 0
+
   double shear_modulus;  ///< µ, Pa
   double bulk_modulus;   ///< K, Pa
 

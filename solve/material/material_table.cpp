@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/material/material_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -22,8 +23,13 @@ MaterialTable material_table(const std::map<std::int32_t, Material>& materials, 
       }
       check_material("the material of label " + std::to_string(l), found->second);
       table.material.push_back(found->second);
+      table.density.push_back(density_per_cubic_millimetre(found->second));
+      table.prony.push_back(found->second.prony);
     }
     table.row_of_point.push_back(row->second);
+  }
+  if (std::all_of(table.prony.begin(), table.prony.end(), [](const auto& terms) { return terms.empty(); })) {
+    table.prony.clear();
   }
   return table;
 }

@@ -12,6 +12,8 @@ namespace brainshift::solve {
 /// Neo-Hookean, W = µ/2 (Ī1 − 3) + K/2 (J − 1)², Ī1 = J^(−2/3) tr FᵀF: ABAQUS's and CalculiX's NEO HOOKE with C10 =
 /// µ/2, D1 = 2/K. J must be positive.
 struct NeoHookean {
+  static constexpr double least_dilatation = -1;  ///< θ where J = 0
+
   double shear_modulus;  ///< µ, Pa
   double bulk_modulus;   ///< K, Pa
 

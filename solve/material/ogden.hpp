@@ -15,6 +15,7 @@ namespace brainshift::solve {
 /// OGDEN with D1 = 2/K. One term with α = 2 is neo-Hookean. J must be positive.
 struct Ogden {
   static constexpr std::size_t capacity = 6;
+  static constexpr double least_dilatation = -1;  ///< θ where J = 0
 
   double shear_modulus;  ///< Σ µ_k, Pa
   double bulk_modulus;   ///< K, Pa

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "solve/material/deformation.hpp"
 #include "solve/material/material.hpp"
@@ -11,6 +12,8 @@ namespace brainshift::solve {
 /// St Venant-Kirchhoff, W = µ dev E : dev E + K/2 (tr E)², E the Green-Lagrange strain. For large rotations but strains
 /// of some percent: under compression it softens, and at a stretch of 0.58 it gives way.
 struct SaintVenantKirchhoff {
+  static constexpr double least_dilatation = -std::numeric_limits<double>::infinity();  ///< the law does not know J = 0
+
   double shear_modulus;  ///< µ, Pa
   double bulk_modulus;   ///< K, Pa
 

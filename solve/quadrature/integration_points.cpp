@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "solve/quadrature/merge_slivers.hpp"
+
 namespace brainshift::solve {
 
 namespace {
@@ -147,17 +149,22 @@ void whole_cell(CellKind kind, const Corners& corners, int points, std::vector<W
   }
 }
 
-void append_points(const BackgroundCells& cells, std::size_t cell, int points, std::vector<WeightedPoint>& out) {
+/// full: the mean volume of the points of the cell uncut.
+void append_points(const BackgroundCells& cells, std::size_t cell, int points, std::vector<WeightedPoint>& out,
+                   std::vector<double>& full) {
   const std::int32_t cut = cells.cut_index.empty() ? -1 : cells.cut_index[cell];
-  if (cells.kind == CellKind::hexahedron && cut >= 0) {
-    cut_hexahedron(cells.cut_parts[static_cast<std::size_t>(cut)], points, out);
-    return;
-  }
   const std::size_t first = out.size();
   whole_cell(cells.kind, corners_of(cells, cell), points, out);
+  double whole = 0;
   for (std::size_t i = first; i < out.size(); ++i) {
+    whole += out[i].volume / points;
     out[i].volume *= cells.inside_fraction[cell];
   }
+  if (cells.kind == CellKind::hexahedron && cut >= 0) {
+    out.resize(first);
+    cut_hexahedron(cells.cut_parts[static_cast<std::size_t>(cut)], points, out);
+  }
+  full.resize(out.size(), whole);
 }
 
 void check_points_per_cell(CellKind kind, int points) {
@@ -178,9 +185,10 @@ IntegrationPoints integration_points(const BackgroundCells& cells, int points_pe
                                      const std::vector<std::int32_t>& tissues) {
   check_points_per_cell(cells.kind, points_per_cell);
   std::vector<WeightedPoint> points;
+  std::vector<double> full;
   IntegrationPoints result;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    append_points(cells, cell, points_per_cell, points);
+    append_points(cells, cell, points_per_cell, points, full);
     result.cell.resize(points.size(), static_cast<std::int32_t>(cell));
   }
   result.positions.resize(static_cast<Eigen::Index>(points.size()), 3);
@@ -192,6 +200,7 @@ IntegrationPoints integration_points(const BackgroundCells& cells, int points_pe
     result.labelled_by_cell += labels && !known ? 1 : 0;
     result.label.push_back(known ? at_point : cells.label[static_cast<std::size_t>(result.cell[i])]);
   }
+  merge_slivers(full, result);
   return result;
 }
 

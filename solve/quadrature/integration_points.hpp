@@ -10,8 +10,8 @@
 namespace brainshift::solve {
 
 /// Integration points in the order of their cells. All inside the body: the points of a cut cell are the centroids of
-/// the inside parts of its octants, weighted with their volumes. Planar cells count as 1 mm thick: the forces of a
-/// planar problem are those on 1 mm of thickness.
+/// the inside parts of its octants, weighted with their volumes, slivers merged (merge_slivers()). Planar cells count
+/// as 1 mm thick: the forces of a planar problem are those on 1 mm of thickness.
 struct IntegrationPoints {
   Points positions;                  ///< undeformed, mm
   std::vector<double> volume;        ///< weight, mm³; of planar cells area × 1 mm

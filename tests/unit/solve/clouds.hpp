@@ -39,17 +39,16 @@ inline NodeCloud irregular_box(int n, double side, double jitter = 0.25, unsigne
   return cloud;
 }
 
-/// n × n × n hexahedra over a box.
-inline BackgroundCells box_cells(int n, double side) {
+/// Regular hexahedra over the box from the origin to `size`, `count` along each axis.
+inline BackgroundCells box_cells(const Eigen::Vector3i& count, const Eigen::Vector3d& size) {
   BackgroundCells cells;
-  const double h = side / n;
-  const auto vertex = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
-  cells.vertices.resize(static_cast<Eigen::Index>(n + 1) * (n + 1) * (n + 1), 3);
-  for (int k = 0; k <= n; ++k) {
-    for (int j = 0; j <= n; ++j) {
-      for (int i = 0; i <= n; ++i) {
-        cells.vertices.row(vertex(i, j, k)) << h * i, h * j, h * k;
-        if (i < n && j < n && k < n) {
+  const auto vertex = [&](int i, int j, int k) { return (k * (count[1] + 1) + j) * (count[0] + 1) + i; };
+  cells.vertices.resize(static_cast<Eigen::Index>(count[0] + 1) * (count[1] + 1) * (count[2] + 1), 3);
+  for (int k = 0; k <= count[2]; ++k) {
+    for (int j = 0; j <= count[1]; ++j) {
+      for (int i = 0; i <= count[0]; ++i) {
+        cells.vertices.row(vertex(i, j, k)) = Eigen::Array3d(i, j, k) / count.cast<double>().array() * size.array();
+        if (i < count[0] && j < count[1] && k < count[2]) {
           cells.connectivity.insert(
               cells.connectivity.end(),
               {vertex(i, j, k), vertex(i + 1, j, k), vertex(i + 1, j + 1, k), vertex(i, j + 1, k), vertex(i, j, k + 1),
@@ -58,9 +57,14 @@ inline BackgroundCells box_cells(int n, double side) {
       }
     }
   }
-  cells.inside_fraction.assign(static_cast<std::size_t>(n) * n * n, 1.0);
+  cells.inside_fraction.assign(cells.connectivity.size() / 8, 1.0);
   cells.label.assign(cells.inside_fraction.size(), 1);
   return cells;
+}
+
+/// The same over a cube.
+inline BackgroundCells box_cells(int n, double side) {
+  return box_cells(Eigen::Vector3i::Constant(n), Eigen::Vector3d::Constant(side));
 }
 
 /// Tetrahedra whose vertices are the nodes of irregular_box(n): six a cube (Kuhn's division), conforming.

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "solve/dynamics/patch_dilatation.hpp"
 #include "tests/unit/solve/body.hpp"
 #include "tests/unit/solve/material_cases.hpp"
 
@@ -130,6 +131,29 @@ TEST(SharedPressure, NeverStoresMoreThanPointwise) {
     const double expected = pointwise.energy(uniform);
     EXPECT_NEAR(shared.energy(uniform), expected, 1e-10 * expected) << name_of(material);
   }
+}
+
+/// Points that are nearly flat: the force still comes from an energy, and that of the barrier is what is added.
+TEST(Barrier, PushesPointsBackThatAreNearlyFlat) {
+  Body body{irregular_box(6, side, 0.3), box_cells(4, side), {Material{}}, BodyOptions{}};
+  const auto squeezed = [&](double to) { return body.linear(Eigen::Vector3d(0, 0, to - 1).asDiagonal()); };
+  const NodalVectors u = squeezed(0.03), direction = squeezed(0);
+  const NodalVectors f = body.force(u);
+  EXPECT_NEAR(jacobian_range(body.scratch).smallest, 0.03, 1e-6);
+  constexpr double step = 1e-5;
+  double work = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    work += f[i] * direction[i];
+  }
+  const double slope = (body.energy(squeezed(0.03 - step)) - body.energy(squeezed(0.03 + step))) / (2 * step);
+  EXPECT_NEAR(slope, work, 1e-4 * work);
+
+  const double volume = std::accumulate(body.points.volume.begin(), body.points.volume.end(), 0.0);
+  const NeoHookean law{Material{}};
+  const Deformation flat(Eigen::Vector3d(1, 1, 0.03).asDiagonal());
+  const double of_law = law.isochoric_energy(flat) + law.bulk_modulus / 2 * 0.97 * 0.97;
+  const double barrier = law.shear_modulus * std::pow(std::log(0.03 / barrier_jacobian(law)), 2);
+  EXPECT_NEAR(body.energy(u), volume * (of_law + barrier), 1e-6 * volume * of_law);
 }
 
 }  // namespace

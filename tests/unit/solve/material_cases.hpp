@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "solve/material/elastic_law.hpp"
-#include "solve/material/volumetric.hpp"
 
 namespace brainshift::solve {
 
@@ -53,12 +52,13 @@ inline Eigen::Matrix3d dilatation_slope(const ElasticLaw& law, const Eigen::Matr
 }
 
 inline double pressure(const ElasticLaw& law, const Eigen::Matrix3d& f) {
-  return std::visit([&](const auto& l) { return volumetric_pressure(l, l.dilatation(Deformation(f))); }, law);
+  return std::visit([&](const auto& l) { return l.bulk_modulus * l.dilatation(Deformation(f)); }, law);
 }
 
 inline double energy(const ElasticLaw& law, const Eigen::Matrix3d& f) {
   const Deformation d(f);
-  return std::visit([&](const auto& l) { return l.isochoric_energy(d) + volumetric_energy(l, l.dilatation(d)); }, law);
+  return std::visit(
+      [&](const auto& l) { return l.isochoric_energy(d) + l.bulk_modulus / 2 * std::pow(l.dilatation(d), 2); }, law);
 }
 
 inline Eigen::Matrix3d stress(const ElasticLaw& law, const Eigen::Matrix3d& f) {

@@ -165,5 +165,16 @@ TEST(StiffnessBoundUnderPressure, HoldsWherePressuresAreFarAboveTheShearModulus)
   }
 }
 
+TEST(StiffnessBoundInTheBarrier, HoldsWherePointsAreNearlyFlat) {
+  for (const Material& material : {Material{}, Material{.law = Law::ogden, .ogden = {{842, -4.7}}}}) {
+    Body body = make_body(Cells::hexahedra, Basis::linear, {material}, 4);
+    NodalVectors u = body.linear(Eigen::Vector3d(0, 0, -0.93).asDiagonal());
+    const NodalVectors random = body.random_parameters(0.02, 8);
+    std::transform(random.begin(), random.end(), u.begin(), u.begin(), std::plus<>());
+    expect_bounded(body, u);
+    ASSERT_LT(point_state(body.points, body.laws, body.scratch).smallest_jacobian, 0.1);
+  }
+}
+
 }  // namespace
 }  // namespace brainshift::solve

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/check_model.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace brainshift::solve {
+
+namespace {
+
+/// Rigid motions that the conditions leave free make the steady state undefined. A plane has three, x, y and the turn
+/// about z, else there are six.
+void check_held(const NodeCloud& cloud, Plane plane, bool contact) {
+  std::vector<Eigen::Matrix<double, 1, 6>> rows;
+  const Eigen::RowVector3d centre = cloud.positions.colwise().mean();
+  const double size = (cloud.positions.rowwise() - centre).cwiseAbs().maxCoeff();
+  for (Eigen::Index a = 0; a < cloud.prescribed_displacement.rows(); ++a) {
+    const Eigen::Vector3d x = (cloud.positions.row(a) - centre) / size;
+    const Eigen::Matrix3d turn{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
+    for (int axis = 0; axis < (plane == Plane::none ? 3 : 2); ++axis) {
+      if (!std::isnan(cloud.prescribed_displacement(a, axis))) {
+        Eigen::Matrix<double, 1, 6> row;
+        row << Eigen::RowVector3d::Unit(axis), turn.row(axis);
+        rows.push_back(row);
+      }
+    }
+  }
+  if (rows.empty()) {
+    throw std::invalid_argument("nothing is prescribed: no node is loaded or held; give a load");
+  }
+  Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
+  for (const auto& row : rows) {
+    held += row.transpose() * row;
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(held);
+  const int motions = plane == Plane::none ? 6 : 3;
+  if (!contact && svd.singularValues()[motions - 1] < 1e-9 * svd.singularValues()[0]) {
+    throw std::invalid_argument(
+        "the prescribed displacements leave the body free to move as a whole, and there is no skull to stop it: hold " +
+        std::string(plane == Plane::none ? "three nodes that are not in line, or add contact" : "two nodes"));
+  }
+}
+
+void check_plane(const Model& model) {
+  const bool planar = model.plane != Plane::none;
+  if (planar != is_planar(model.cells.kind)) {
+    throw std::invalid_argument(planar ? "a plane problem needs cells that are quadrilaterals or triangles"
+                                       : "the cells are planar; say whether it is plane strain or plane stress");
+  }
+  if (planar && model.skull) {
+    throw std::invalid_argument("contact with a skull needs three dimensions; leave it out of a plane problem");
+  }
+  for (const auto& [label, material] : model.materials) {
+    if (model.plane == Plane::stress && !material.prony.empty()) {
+      throw std::invalid_argument("the material of label " + std::to_string(label) +
+                                  " relaxes, which plane stress does not model; take plane strain or no Prony terms");
+    }
+  }
+}
+
+}  // namespace
+
+void check_model(const Model& model, Dynamics dynamics) {
+  check_plane(model);
+  if (dynamics == Dynamics::relaxation) {
+    check_held(model.cloud, model.plane, model.skull.has_value());
+  }
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "solve/dynamics/system.hpp"
+
+namespace brainshift::solve {
+
+/// What relaxation and the transient share: the parameters over the last steps, the balance of their energies, and what
+/// is kept of them. A step is
+///   û⁺ = û + β(û − û⁻) + α M⁻¹ (f_ext − f_int),  then contact, then the essential conditions.
+/// Central differences with the step h and the damping c have α = 2h²/(2 + ch) and β = (2 − ch)/(2 + ch), so that
+/// h² = 2α/(1 + β) and c/h = (1 − β)/α. All energies are those at the last force, one step ago.
+class Motion {
+ public:
+  /// At rest, without load.
+  Motion(const System& system, const PointLaws& laws, int snapshot_every);
+
+  /// One step to `time`, where `fraction` of the load holds. mass: one a node, as last given to weigh().
+  void step(const PointLaws& laws, std::span<const double> mass, double alpha, double beta, double time,
+            double fraction);
+
+  /// Essential conditions and contact push in proportion to 1/mass.
+  void weigh(std::span<const double> mass);
+
+  /// True when the smallest J has fallen by a fifth since last asked and answered so: the body may have stiffened.
+  bool squeezed();
+
+  /// Keeps the state and adds a row to the history when the state is sound, else says in result.failure why it is not.
+  /// Returns whether it is.
+  bool look(const PointLaws& laws, std::span<const double> mass);
+
+  /// The result, with the last state that was kept.
+  SteppingResult finish();
+
+  /// û now and one step ago; after a step `next` is û two steps ago.
+  NodalVectors now, before, next;
+  NodalVectors force;    ///< f_int − f_ext at `before`, µN
+  ForceScratch scratch;  ///< of the last internal force
+  SteppingResult result;
+  double time = 0;
+
+ private:
+  void add_energies(std::span<const double> mass, double alpha, double beta, double fraction);
+  HistoryRow row(std::span<const double> mass) const;
+
+  const System& system_;
+  std::size_t nodes_;
+  NodalVectors good_;
+  Points good_reactions_;
+  double alpha_ = 1, beta_ = 1;  // of the last step
+  double fraction_ = 0;          // of the load, at `now`
+  double fraction_before_ = 0;
+  double work_rate_ = 0;
+  double force_work_ = 0;    // of the forces over the last step
+  double damping_work_ = 0;  // over the last step
+  double external_work_ = 0;
+  double dissipated_ = 0;
+  double squeezed_to_ = 1;  // J
+  int snapshot_every_;
+  int next_snapshot_;
+};
+
+}  // namespace brainshift::solve

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "discretise/node_cloud.hpp"
+
+namespace brainshift::solve {
+
+/// The cloud with its nodes along a space-filling curve, and where each came from.
+struct OrderedCloud {
+  Points positions;
+  Points prescribed;
+  Points force;  ///< N; no rows: none
+  std::vector<double> spacing;
+  std::vector<std::uint8_t> on_surface;
+  std::vector<std::int32_t> original;  ///< the cloud's node
+};
+
+/// prescribed is NaN and force has no rows where the cloud has none.
+OrderedCloud order_nodes(const NodeCloud& cloud);
+
+std::vector<std::int32_t> surface_nodes(const OrderedCloud& cloud);
+
+/// Surface nodes that nothing prescribes.
+std::vector<std::int32_t> free_surface_nodes(const OrderedCloud& cloud);
+
+/// Nodes with a prescribed displacement or a force.
+std::size_t count_loaded(const OrderedCloud& cloud);
+
+/// Rows of ordered nodes in the cloud's own order.
+Points in_original_order(const Points& values, const std::vector<std::int32_t>& original);
+
+}  // namespace brainshift::solve

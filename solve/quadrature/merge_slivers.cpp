@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/quadrature/merge_slivers.hpp"
+
+#include <map>
+
+#include "discretise/neighbours/point_tree.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr double sliver = 0.1;  // of the full volume
+
+/// The points of one tissue that are no slivers, to be found by place.
+struct WholePoints {
+  std::vector<std::int32_t> index;
+  Points positions;
+};
+
+std::map<std::int32_t, WholePoints> whole_points_by_label(const IntegrationPoints& points,
+                                                          const std::vector<std::uint8_t>& is_sliver) {
+  std::map<std::int32_t, WholePoints> whole;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_sliver[i] == 0) {
+      whole[points.label[i]].index.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  for (auto& [label, of_label] : whole) {
+    of_label.positions = points.positions(of_label.index, Eigen::all);
+  }
+  return whole;
+}
+
+void keep(const std::vector<std::uint8_t>& dropped, IntegrationPoints& points) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < dropped.size(); ++i) {
+    if (dropped[i] == 0) {
+      points.positions.row(static_cast<Eigen::Index>(kept)) = points.positions.row(static_cast<Eigen::Index>(i)).eval();
+      points.volume[kept] = points.volume[i];
+      points.cell[kept] = points.cell[i];
+      points.label[kept] = points.label[i];
+      ++kept;
+    }
+  }
+  points.positions.conservativeResize(static_cast<Eigen::Index>(kept), 3);
+  points.volume.resize(kept);
+  points.cell.resize(kept);
+  points.label.resize(kept);
+}
+
+}  // namespace
+
+void merge_slivers(std::span<const double> full, IntegrationPoints& points) {
+  std::vector<std::uint8_t> dropped(points.size(), 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    dropped[i] = points.volume[i] < sliver * full[i] ? 1 : 0;
+  }
+  const std::map<std::int32_t, WholePoints> by_label = whole_points_by_label(points, dropped);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    dropped[i] = by_label.contains(points.label[i]) ? dropped[i] : std::uint8_t{0};  // all that its tissue has
+  }
+  for (const auto& [label, whole] : by_label) {
+    const PointTree tree(whole.positions);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (dropped[i] != 0 && points.label[i] == label) {
+        const auto row = static_cast<Eigen::Index>(i);
+        const auto into = whole.index[tree.nearest(points.positions.row(row).data()).first];
+        double& volume = points.volume[static_cast<std::size_t>(into)];
+        const double share = points.volume[i] / (points.volume[i] + volume);
+        points.positions.row(into) += share * (points.positions.row(row) - points.positions.row(into));
+        volume += points.volume[i];
+      }
+    }
+  }
+  keep(dropped, points);
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "solve/quadrature/integration_points.hpp"
+
+namespace brainshift::solve {
+
+/// Merges each point of less than a tenth of its full volume into the nearest other of its tissue, at their common
+/// centroid: linear functions are integrated as before. Where a cell is cut to a sliver its point has no weight to hold
+/// it, and a large strain turns it inside out. full: volume that a point of the uncut cell has, mm³, one a point.
+void merge_slivers(std::span<const double> full, IntegrationPoints& points);
+
+}  // namespace brainshift::solve
