@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "solve/shape/shape_matrix.hpp"
+
 namespace brainshift::solve {
 
 namespace {
@@ -15,22 +17,6 @@ Eigen::VectorXd component_of(const NodalVectors& vectors, int axis) {
   using Stride = Eigen::InnerStride<4>;
   return Eigen::Map<const Eigen::VectorXd, 0, Stride>(vectors.data() + axis,
                                                       static_cast<Eigen::Index>(vectors.size() / 4));
-}
-
-Eigen::SparseMatrix<double, Eigen::RowMajor> rows_of_nodes(const ShapeRows& rows,
-                                                           const std::vector<std::int32_t>& nodes) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto node = static_cast<std::size_t>(nodes[i]);
-    for (std::int64_t k = rows.begin[node]; k < rows.begin[node + 1]; ++k) {
-      const auto pair = static_cast<std::size_t>(k);
-      entries.emplace_back(static_cast<int>(i), rows.node[pair], rows.value[pair]);
-    }
-  }
-  Eigen::SparseMatrix<double, Eigen::RowMajor> shape(static_cast<Eigen::Index>(nodes.size()),
-                                                     static_cast<Eigen::Index>(rows.size()));
-  shape.setFromTriplets(entries.begin(), entries.end());
-  return shape;
 }
 
 }  // namespace
@@ -54,7 +40,7 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
         loaded.push_back((prescribed.row(a).array().abs() > 0).any() ? 1.0 : 0.0);
       }
     }
-    c.shape = rows_of_nodes(nodal_rows, c.node);
+    c.shape = shape_matrix(nodal_rows, c.node, prescribed.rows());
     c.prescribed = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
     c.loaded = Eigen::Map<const Eigen::VectorXd>(loaded.data(), static_cast<Eigen::Index>(loaded.size()));
     c.multiplier = Eigen::VectorXd::Zero(c.prescribed.size());

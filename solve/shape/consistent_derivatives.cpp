@@ -7,6 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "solve/shape/shape_matrix.hpp"
+
 namespace brainshift::solve {
 
 namespace {
@@ -131,17 +133,8 @@ class FitResidual {
 class Unbalanced {
  public:
   Unbalanced(std::span<const std::int32_t> surface, const ShapeRows& nodal_rows, Eigen::Index nodes)
-      : shape_(static_cast<Eigen::Index>(surface.size()), nodes) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t i = 0; i < surface.size(); ++i) {
-      const auto node = static_cast<std::size_t>(surface[i]);
-      for (auto k = static_cast<std::size_t>(nodal_rows.begin[node]);
-           k < static_cast<std::size_t>(nodal_rows.begin[node + 1]); ++k) {
-        entries.emplace_back(static_cast<int>(i), nodal_rows.node[k], nodal_rows.value[k]);
-      }
-    }
-    shape_.setFromTriplets(entries.begin(), entries.end());
-    factor_.compute(shape_ * shape_.transpose());
+      : shape_(shape_matrix(nodal_rows, surface, nodes)) {
+    factor_.compute(Eigen::SparseMatrix<double>(shape_ * shape_.transpose()));
   }
 
   void apply(Points& vectors) const {

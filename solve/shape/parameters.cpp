@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
+#include <numeric>
 #include <stdexcept>
 
-#include "solve/shape/shape_functions.hpp"
+#include "solve/shape/shape_matrix.hpp"
 
 namespace brainshift::solve {
 
@@ -11,24 +11,12 @@ namespace {
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-RowMatrix collocation_matrix(const ShapeFunctions& shape, const Points& positions) {
-  const ShapeRows rows = shape.evaluate(positions, false);
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(rows.node.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (auto k = static_cast<std::size_t>(rows.begin[i]); k < static_cast<std::size_t>(rows.begin[i + 1]); ++k) {
-      entries.emplace_back(static_cast<int>(i), rows.node[k], rows.value[k]);
-    }
-  }
-  RowMatrix v(positions.rows(), positions.rows());
-  v.setFromTriplets(entries.begin(), entries.end());
-  return v;
-}
-
 }  // namespace
 
 Points parameters_from_displacement(const ShapeFunctions& shape, const Points& positions, const Points& displacement) {
-  const RowMatrix v = collocation_matrix(shape, positions);
+  std::vector<std::int32_t> nodes(static_cast<std::size_t>(positions.rows()));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  const RowMatrix v = shape_matrix(shape.evaluate(positions, false), nodes, positions.rows());
   Eigen::BiCGSTAB<RowMatrix> solver;  // the diagonal is preconditioner enough: twenty iterations
   solver.setTolerance(1e-12);
   solver.setMaxIterations(1000);

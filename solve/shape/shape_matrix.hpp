@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <span>
+
+#include "solve/shape/shape_functions.hpp"
+
+namespace brainshift::solve {
+
+/// φ of the given points among those of `rows`, in their order: one row a point, one column a node.
+inline Eigen::SparseMatrix<double, Eigen::RowMajor> shape_matrix(const ShapeRows& rows,
+                                                                 std::span<const std::int32_t> points,
+                                                                 Eigen::Index nodes) {
+  Eigen::SparseMatrix<double, Eigen::RowMajor> shape(static_cast<Eigen::Index>(points.size()), nodes);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto point = static_cast<std::size_t>(points[i]);
+    for (auto k = static_cast<std::size_t>(rows.begin[point]); k < static_cast<std::size_t>(rows.begin[point + 1]);
+         ++k) {
+      entries.emplace_back(static_cast<int>(i), rows.node[k], rows.value[k]);
+    }
+  }
+  shape.setFromTriplets(entries.begin(), entries.end());
+  return shape;
+}
+
+}  // namespace brainshift::solve
