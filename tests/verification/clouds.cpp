@@ -56,7 +56,8 @@ void Darts::fill(const std::function<Eigen::Vector3d()>& place, bool on_surface)
 }
 
 void Darts::along(double length, bool closed, const std::function<Eigen::Vector3d(double)>& place) {
-  const int parts = static_cast<int>(std::max(1.0, std::floor(length / (1.12 * least_))));
+  const double fineness = fineness_ ? fineness_(place(0)) : 1;
+  const int parts = static_cast<int>(std::max(1.0, std::floor(length / (1.12 * fineness * least_))));
   for (int i = closed ? 0 : 1; i < parts; ++i) {
     put(place((i + 0.1 * (uniform() - 0.5)) / parts), true);
   }
@@ -76,11 +77,20 @@ NodeCloud Darts::cloud(bool planar) const {
   return cloud;
 }
 
-namespace {
-
-NodeCloud fill_cylinder(Darts darts, double radius, double height) {
-  for (const double z : {0.0, height}) {
-    darts.along(2 * pi * radius, true, [&](double turns) { return on_circle(radius, turns, z); });
+NodeCloud cylinder_cloud(double radius, double height, double least_distance, unsigned seed, const Grading& grading) {
+  const auto fineness = [&](const Eigen::Vector3d& x) {
+    double finest = 1;
+    for (const Ring& ring : grading.rings) {
+      const double away = std::hypot(ring.radius - x.head<2>().norm(), ring.z - x[2]) / grading.reach;
+      finest = std::min(finest, grading.fineness + (1 - grading.fineness) * away);
+    }
+    return finest;
+  };
+  Darts darts(least_distance, seed, grading.rings.empty() ? std::function<double(const Eigen::Vector3d&)>() : fineness);
+  std::vector<Ring> rings = grading.rings;
+  rings.insert(rings.end(), {{radius, 0.0}, {radius, height}});
+  for (const Ring& ring : rings) {
+    darts.along(2 * pi * ring.radius, true, [&](double turns) { return on_circle(ring.radius, turns, ring.z); });
   }
   for (const double z : {0.0, height}) {
     darts.fill([&] { return on_circle(radius * std::sqrt(darts.uniform()), darts.uniform(), z); }, true);
@@ -96,24 +106,17 @@ NodeCloud fill_cylinder(Darts darts, double radius, double height) {
   return darts.cloud();
 }
 
-}  // namespace
-
-NodeCloud cylinder_cloud(double radius, double height, double least_distance, unsigned seed) {
-  return fill_cylinder(Darts(least_distance, seed), radius, height);
-}
-
-NodeCloud ringed_cylinder_cloud(double radius, double height, double least_distance, unsigned seed, double ring,
-                                double fineness) {
-  const auto near_ring = [=](const Eigen::Vector3d& x) {
-    const double from_ring = std::hypot(ring - x.head<2>().norm(), height - x[2]);
-    return std::clamp(fineness + (1 - fineness) * from_ring / ring, fineness, 1.0);
-  };
-  Darts darts(least_distance, seed, near_ring);
-  const int nodes = static_cast<int>(2 * pi * ring / (1.12 * fineness * least_distance));
-  for (int i = 0; i < nodes; ++i) {
-    darts.put(on_circle(ring, (i + 0.1 * (darts.uniform() - 0.5)) / nodes, height), true);
+discretise::Refinement refinement_about(const Grading& grading, double radius) {
+  constexpr int places = 60;  // a ring
+  discretise::Refinement refinement{Points(static_cast<Eigen::Index>(grading.rings.size()) * places, 3), radius,
+                                    grading.fineness};
+  Eigen::Index row = 0;
+  for (const Ring& ring : grading.rings) {
+    for (int i = 0; i < places; ++i) {
+      refinement.centres.row(row++) = on_circle(ring.radius, static_cast<double>(i) / places, ring.z);
+    }
   }
-  return fill_cylinder(std::move(darts), radius, height);
+  return refinement;
 }
 
 NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned seed) {
@@ -243,47 +246,6 @@ BackgroundCells cells_over(const Surface& surface, std::size_t nodes, double cel
   options.cells_per_node = cells_per_node;
   options.craniotomy = refinement;
   return discretise::discretise(surface, nullptr, options).cells;
-}
-
-BackgroundCells rectangle_cells(int nx, int ny, double width, double height) {
-  BackgroundCells cells;
-  cells.kind = CellKind::quadrilateral;
-  cells.vertices.resize(static_cast<Eigen::Index>(nx + 1) * (ny + 1), 3);
-  for (int j = 0; j <= ny; ++j) {
-    for (int i = 0; i <= nx; ++i) {
-      const int v = j * (nx + 1) + i;
-      cells.vertices.row(v) << width * i / nx, height * j / ny, 0;
-      if (i < nx && j < ny) {
-        cells.connectivity.insert(cells.connectivity.end(), {v, v + 1, v + nx + 2, v + nx + 1});
-      }
-    }
-  }
-  cells.inside_fraction.assign(cells.connectivity.size() / 4, 1.0);
-  cells.label.assign(cells.inside_fraction.size(), 1);
-  return cells;
-}
-
-BackgroundCells box_cells(const Eigen::Vector3i& count, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  BackgroundCells cells;
-  const auto vertex = [&](int i, int j, int k) { return (k * (count[1] + 1) + j) * (count[0] + 1) + i; };
-  cells.vertices.resize(static_cast<Eigen::Index>(count[0] + 1) * (count[1] + 1) * (count[2] + 1), 3);
-  for (int k = 0; k <= count[2]; ++k) {
-    for (int j = 0; j <= count[1]; ++j) {
-      for (int i = 0; i <= count[0]; ++i) {
-        const Eigen::Array3d share = Eigen::Array3d(i, j, k) / count.cast<double>().array();
-        cells.vertices.row(vertex(i, j, k)) = low.array() + share * (high - low).array();
-        if (i < count[0] && j < count[1] && k < count[2]) {
-          cells.connectivity.insert(
-              cells.connectivity.end(),
-              {vertex(i, j, k), vertex(i + 1, j, k), vertex(i + 1, j + 1, k), vertex(i, j + 1, k), vertex(i, j, k + 1),
-               vertex(i + 1, j, k + 1), vertex(i + 1, j + 1, k + 1), vertex(i, j + 1, k + 1)});
-        }
-      }
-    }
-  }
-  cells.inside_fraction.assign(cells.connectivity.size() / 8, 1.0);
-  cells.label.assign(cells.inside_fraction.size(), 1);
-  return cells;
 }
 
 }  // namespace brainshift::verification

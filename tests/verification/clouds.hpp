@@ -32,7 +32,8 @@ class Darts {
   /// Throws until 3000 in a row were in vain.
   void fill(const std::function<Eigen::Vector3d()>& place, bool on_surface);
 
-  /// Nodes along a closed or open line of the given length, evenly but for a tenth of their distance.
+  /// Nodes along a closed or open line of the given length, evenly but for a tenth of their distance, as fine as its
+  /// start.
   void along(double length, bool closed, const std::function<Eigen::Vector3d(double share)>& place);
 
   /// The cloud; its spacing is the mean distance to the six nearest nodes (planar: four).
@@ -51,12 +52,21 @@ class Darts {
   std::unordered_map<std::int64_t, std::vector<std::size_t>> buckets_;
 };
 
-/// A cylinder along z from 0 to height, with nodes on both rims.
-NodeCloud cylinder_cloud(double radius, double height, double least_distance, unsigned seed);
+/// A circle about the z axis.
+struct Ring {
+  double radius, z;
+};
 
-/// The same with nodes on a circle of radius `ring` on the top, about which they are `fineness` times as far apart.
-NodeCloud ringed_cylinder_cloud(double radius, double height, double least_distance, unsigned seed, double ring,
-                                double fineness);
+/// Nodes lie on the rings and are `fineness` times as far apart there, as elsewhere from `reach` mm on.
+struct Grading {
+  std::vector<Ring> rings = {};
+  double fineness = 1;
+  double reach = 1;
+};
+
+/// A cylinder along z from 0 to height, with nodes on both rims.
+NodeCloud cylinder_cloud(double radius, double height, double least_distance, unsigned seed,
+                         const Grading& grading = {});
 
 /// The box from 0 to size.
 NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned seed);
@@ -72,13 +82,10 @@ NodeCloud hollow_ball_cloud(double inner, double outer, double least_distance, u
 BackgroundCells cells_over(const Surface& surface, std::size_t nodes, double cells_per_node,
                            const std::optional<discretise::Refinement>& refinement = {});
 
+/// Finer cells within `radius` mm of the rings of a grading.
+discretise::Refinement refinement_about(const Grading& grading, double radius);
+
 /// Closed surface of a cylinder along z, a prism of many sides.
 Surface cylinder_surface(double radius, double height);
-
-/// nx × ny quadrilaterals over the rectangle.
-BackgroundCells rectangle_cells(int nx, int ny, double width, double height);
-
-/// nx × ny × nz hexahedra over the box from low to high.
-BackgroundCells box_cells(const Eigen::Vector3i& count, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
 }  // namespace brainshift::verification

@@ -75,10 +75,14 @@ Reference read_reference(const std::string& name, const std::string& force_name)
   return reference;
 }
 
-Differences differences(const Solution& solution, const Points& positions, const Points& displacement) {
+Points displacement_at(const Solution& solution, const Points& positions) {
   const solve::ShapeFunctions shape(solution.positions, solution.spacing, solution.shape);
-  const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
-  const Eigen::VectorXd norms = (shape.interpolate(positions, parameters) - displacement).rowwise().norm();
+  return shape.interpolate(positions,
+                           solve::parameters_from_displacement(shape, solution.positions, solution.displacement));
+}
+
+Differences differences(const Solution& solution, const Points& positions, const Points& displacement) {
+  const Eigen::VectorXd norms = (displacement_at(solution, positions) - displacement).rowwise().norm();
   std::vector<double> sorted(norms.begin(), norms.end());
   std::sort(sorted.begin(), sorted.end());
   const double sum = std::accumulate(sorted.begin(), sorted.end(), 0.0);

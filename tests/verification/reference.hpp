@@ -25,6 +25,9 @@ std::vector<std::vector<double>> read_rows(const std::string& file);
 /// The comment that starts with the key, without it; empty where there is none.
 std::string comment_of(const std::string& file, const std::string& key);
 
+/// u at points, mm.
+Points displacement_at(const Solution& solution, const Points& positions);
+
 /// |u − reference| at points, mm.
 struct Differences {
   double largest = 0, percentile95 = 0, mean = 0;

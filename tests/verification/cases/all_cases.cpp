@@ -10,6 +10,7 @@ const std::vector<NamedCase>& all_cases() {
                                                {"manufactured", manufactured},
                                                {"patch_test", patch_test},
                                                {"step_estimate", step_estimate},
+                                               {"singular_clouds", singular_clouds},
                                                {"cylinder_compression", cylinder_compression},
                                                {"cylinder_shear", cylinder_shear},
                                                {"cylinder_nu0499", cylinder_nearly_incompressible},

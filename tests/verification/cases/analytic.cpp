@@ -8,6 +8,7 @@
 
 #include "solve/material/elastic_law.hpp"
 #include "solve/material/named_materials.hpp"
+#include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -50,7 +51,7 @@ solve::Model stretched_box(const solve::Material& material, const Eigen::Vector3
   solve::Model model;
   model.cloud = box_cloud(Eigen::Vector3d::Constant(side), least_distance, 3);
   const int cells = static_cast<int>(std::round(0.75 * side / least_distance));
-  model.cells = box_cells(Eigen::Vector3i::Constant(cells), Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(side));
+  model.cells = test::box_cells(cells, side);
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     for (int axis = 0; axis < 3; ++axis) {
       if (model.cloud.positions(a, axis) == 0) {
@@ -145,7 +146,7 @@ Outcome cantilever(bool small) {
   const double least = small ? 4 : 2;
   model.plane = solve::Plane::stress;
   model.cloud = rectangle_cloud(length, depth, least, 2);
-  model.cells = rectangle_cells(static_cast<int>(length / least), static_cast<int>(depth / least), length, depth);
+  model.cells = test::rectangle_cells(static_cast<int>(length / least), static_cast<int>(depth / least), length, depth);
   model.materials[1] = material;
   model.cloud.force = Points::Zero(model.cloud.positions.rows(), 3);
   std::vector<std::pair<double, Eigen::Index>> end;
@@ -190,7 +191,7 @@ namespace {
 
 /// Hexahedra in r, polar angle and azimuth over an eighth of a hollow ball; those at the pole are wedges.
 BackgroundCells hollow_ball_cells(double inner, double outer, int radial, int angular) {
-  BackgroundCells cells = box_cells({radial, angular, angular}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(1));
+  BackgroundCells cells = test::box_cells({radial, angular, angular}, Eigen::Vector3d::Constant(1));
   for (Eigen::Index v = 0; v < cells.vertices.rows(); ++v) {
     const double r = inner + cells.vertices(v, 0) * (outer - inner);
     const double polar = std::acos(0.0) * cells.vertices(v, 1), azimuth = std::acos(0.0) * cells.vertices(v, 2);

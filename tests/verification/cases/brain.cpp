@@ -46,6 +46,25 @@ Eigen::RowVector3d imposed_at(const Surface& surface, const Points& at_vertex, c
   return imposed;
 }
 
+/// Moves the nearest surface node onto each vertex that has a displacement, so that the load ends where it ends in the
+/// reference: its edge has tips that lie between nodes.
+void put_nodes_at_loaded_vertices(NodeCloud& cloud, const Surface& surface, const Points& at_vertex) {
+  std::vector<Eigen::Index> outer;
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    if (cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
+      outer.push_back(a);
+    }
+  }
+  const Points places = cloud.positions(outer, Eigen::all);
+  for (Eigen::Index v = 0; v < surface.vertices.rows(); ++v) {
+    if (!std::isnan(at_vertex(v, 0))) {
+      Eigen::Index nearest = 0;
+      (places.rowwise() - surface.vertices.row(v)).rowwise().squaredNorm().minCoeff(&nearest);
+      cloud.positions.row(outer[static_cast<std::size_t>(nearest)]) = surface.vertices.row(v);
+    }
+  }
+}
+
 solve::Model brain_model(const Surface& surface, const Points& at_vertex, std::size_t nodes, CellKind kind) {
   discretise::DiscretiseOptions options;
   options.nodes = nodes;
@@ -53,6 +72,7 @@ solve::Model brain_model(const Surface& surface, const Points& at_vertex, std::s
   const discretise::Discretisation parts = discretise::discretise(surface, nullptr, options);
   solve::Model model;
   model.cloud = parts.cloud;
+  put_nodes_at_loaded_vertices(model.cloud, surface, at_vertex);
   model.cells = parts.cells;
   model.materials[1] = {3000, 0.49, 1000};
   const auto count = static_cast<Eigen::Index>(model.cloud.size());

@@ -19,5 +19,6 @@ Outcome pressurised_ball(bool small);
 Outcome manufactured(bool small);
 Outcome patch_test(bool small);
 Outcome step_estimate(bool small);
+Outcome singular_clouds(bool small);
 
 }  // namespace brainshift::verification

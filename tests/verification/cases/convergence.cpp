@@ -36,7 +36,7 @@ double manufactured_error(Basis basis, double least_distance, double& seconds) {
   solve::Model model;
   model.cloud = box_cloud(Eigen::Vector3d::Constant(side), least_distance, 5);
   const int cells = static_cast<int>(std::round(side / (1.15 * least_distance)));
-  model.cells = box_cells(Eigen::Vector3i::Constant(cells), Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(side));
+  model.cells = test::box_cells(cells, side);
   model.materials[1] = material;
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
@@ -58,10 +58,7 @@ double manufactured_error(Basis basis, double least_distance, double& seconds) {
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     exact.row(i) = swirl(points.row(i)) + squeeze(points.row(i));
   }
-  const solve::ShapeFunctions shape(result.solution.positions, result.solution.spacing, result.solution.shape);
-  const Points parameters =
-      solve::parameters_from_displacement(shape, result.solution.positions, result.solution.displacement);
-  return (shape.interpolate(points, parameters) - exact).norm() / exact.norm();
+  return (displacement_at(result.solution, points) - exact).norm() / exact.norm();
 }
 
 /// Slope of log y over log x by least squares.
@@ -158,27 +155,21 @@ Outcome patch_test(bool small) {
          {std::pair{"plain", solve::Integration::plain}, std::pair{"consistent", solve::Integration::consistent}}) {
       const std::optional<double> most =
           integration == solve::Integration::consistent ? std::optional(1e-8) : std::nullopt;
-      double seconds = 0;
-      double error = patch_error(box, basis, integration, 4, seconds);
-      outcome.figures.push_back({std::string("conforming tetrahedra, ") + basis_name + ", " + how +
-                                     ": displacement error / (strain × spacing)",
-                                 "",
-                                 error,
-                                 "",
-                                 most,
-                                 {},
-                                 "analytic",
-                                 seconds});
-      error = patch_error(cylinder, basis, integration, 8, seconds);
-      outcome.figures.push_back({std::string("non-conforming hexahedra, ") + basis_name + ", " + how +
-                                     ": displacement error / (strain × spacing)",
-                                 "",
-                                 error,
-                                 "",
-                                 most,
-                                 {},
-                                 "analytic",
-                                 seconds});
+      for (const auto& [cells, model, points] :
+           {std::tuple<const char*, const solve::Model*, int>{"conforming tetrahedra, ", &box, 4},
+            {"non-conforming hexahedra, ", &cylinder, 8}}) {
+        double seconds = 0;
+        const double error = patch_error(*model, basis, integration, points, seconds);
+        outcome.figures.push_back(
+            {std::string(cells) + basis_name + ", " + how + ": displacement error / (strain × spacing)",
+             "",
+             error,
+             "",
+             most,
+             {},
+             "analytic",
+             seconds});
+      }
     }
   }
   return outcome;
@@ -193,8 +184,7 @@ struct StepRatios {
 StepRatios step_ratios(double poisson_ratio, Basis basis, int points_per_cell, double nodes_per_patch, unsigned seed) {
   const solve::Material material = {3000, poisson_ratio, 1000};
   const NodeCloud cloud = box_cloud(Eigen::Vector3d::Constant(side), 6, seed);
-  const BackgroundCells cells =
-      box_cells(Eigen::Vector3i::Constant(6), Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(side));
+  const BackgroundCells cells = test::box_cells(6, side);
   const solve::IntegrationPoints points = solve::integration_points(cells, points_per_cell, nullptr, {1});
   const solve::ShapeFunctions shape(cloud.positions, cloud.spacing, {.basis = basis});
   const solve::ShapeRows rows = shape.evaluate(points.positions, true);

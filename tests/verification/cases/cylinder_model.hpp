@@ -7,13 +7,16 @@
 namespace brainshift::verification {
 
 /// The cylinder of the references: 100 mm in diameter and height, both faces bonded, the lower held and the upper moved
-/// by `travel`; µ = 1000 Pa, neo-Hookean. Irregular nodes, hexahedra that do not conform.
+/// by `travel`; µ = 1000 Pa, neo-Hookean. Irregular nodes, finer at the rims when rim_fineness is below 1; hexahedra
+/// that do not conform.
 inline solve::Model cylinder_model(double least_distance, double cells_per_node, double poisson_ratio,
-                                   const Eigen::RowVector3d& travel) {
+                                   const Eigen::RowVector3d& travel, double rim_fineness = 1) {
   constexpr double radius = 50, height = 100, shear_modulus = 1000;
   solve::Model model;
-  model.cloud = cylinder_cloud(radius, height, least_distance, 4);
-  model.cells = cells_over(cylinder_surface(radius, height), model.cloud.size(), cells_per_node);
+  const Grading rims = rim_fineness < 1 ? Grading{{{radius, 0}, {radius, height}}, rim_fineness, 20} : Grading{};
+  model.cloud = cylinder_cloud(radius, height, least_distance, 4, rims);
+  model.cells = cells_over(cylinder_surface(radius, height), model.cloud.size(), cells_per_node,
+                           rims.rings.empty() ? std::nullopt : std::optional(refinement_about(rims, 5)));
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const double z = model.cloud.positions(a, 2);
     if (z == 0) {

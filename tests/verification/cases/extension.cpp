@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discretise/neighbours/neighbour_distance.hpp"
+#include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -34,7 +35,7 @@ solve::SolveResult pull(solve::Plane plane, Basis basis) {
   solve::Model model;
   model.plane = plane;
   model.cloud = reference_cloud();
-  model.cells = rectangle_cells(100, 40, length, width);
+  model.cells = test::rectangle_cells(100, 40, length, width);
   model.materials[1] = {3000, 0.49, 1000};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const double x = model.cloud.positions(a, 0);

@@ -23,7 +23,7 @@ const solve::HistoryRow& nearest_in_time(const std::vector<solve::HistoryRow>& h
 
 Outcome there_and_back(bool small) {
   constexpr double travel = 80, loading = 3, rest = 3;  // mm, s, s
-  solve::Model model = cylinder_model(small ? 16 : 10, 2, 0.49, {0, 0, -travel});
+  solve::Model model = cylinder_model(small ? 16 : 13, 2, 0.49, {0, 0, -travel});
   model.curve =
       solve::LoadCurve({0, loading, 2 * loading, 2 * loading + rest}, {0, 1, 0, 0}, solve::LoadCurve::Join::smooth);
   solve::SolveOptions options;
@@ -82,23 +82,11 @@ namespace {
 
 constexpr double radius = 15, height = 17, punch = 5;  // mm
 
-constexpr double fineness = 0.18;  // of the nodes at the singular edge of the punch
-
-/// Finer cells about the edge of the punch.
-discretise::Refinement about_punch() {
-  constexpr int places = 60;
-  discretise::Refinement refinement{Points(places, 3), 1.5, fineness};
-  for (int i = 0; i < places; ++i) {
-    const double angle = 4 * std::acos(0.0) * i / places;
-    refinement.centres.row(i) << punch * std::cos(angle), punch * std::sin(angle), height;
-  }
-  return refinement;
-}
-
 solve::SolveResult indent(double least_distance, double depth, int load_steps) {
   solve::Model model;
-  model.cloud = ringed_cylinder_cloud(radius, height, least_distance, 6, punch, fineness);
-  model.cells = cells_over(cylinder_surface(radius, height), model.cloud.size(), 0.75, about_punch());
+  const Grading edge{{{punch, height}}, 0.18, punch};  // the punch's, where the solution is singular
+  model.cloud = cylinder_cloud(radius, height, least_distance, 6, edge);
+  model.cells = cells_over(cylinder_surface(radius, height), model.cloud.size(), 0.75, refinement_about(edge, 1.5));
   model.materials[1] = {5000, 0.49, 1000};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const Eigen::RowVector3d x = model.cloud.positions.row(a);
