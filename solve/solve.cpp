@@ -14,7 +14,7 @@
 #include "solve/dynamics/transient.hpp"
 #include "solve/material/material_table.hpp"
 #include "solve/ordered_cloud.hpp"
-#include "solve/quadrature/integration_points.hpp"
+#include "solve/quadrature/adaptive_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
 #include "solve/shape/consistent_derivatives.hpp"
 
@@ -117,6 +117,18 @@ PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics)
   return laws;
 }
 
+AdaptivePoints place_points(const Model& model, const ShapeFunctions& shape, const SolveOptions& options) {
+  const LabelMap* labels = model.labels ? &*model.labels : nullptr;
+  const std::vector<std::int32_t> tissues = tissues_of(model.materials);
+  if (options.integration_tolerance > 0) {
+    return adaptive_points(model.cells, shape, options.integration_tolerance, options.integration_depth, labels,
+                           tissues);
+  }
+  AdaptivePoints plain{integration_points(model.cells, options.points_per_cell, labels, tissues), {}};
+  plain.rows = shape.evaluate(plain.points.positions, true);
+  return plain;
+}
+
 }  // namespace
 
 SolveResult solve(const Model& model, const SolveOptions& given, const Progress& progress) {
@@ -126,15 +138,11 @@ SolveResult solve(const Model& model, const SolveOptions& given, const Progress&
   check_model(model, options.dynamics);
   const OrderedCloud cloud = order_nodes(model.cloud);
 
-  report(progress, 0, "placing integration points");
-  const IntegrationPoints points = integration_points(
-      model.cells, options.points_per_cell, model.labels ? &*model.labels : nullptr, tissues_of(model.materials));
-  const MaterialTable materials = material_table(model.materials, points.label);
-
-  report(progress, 0.01, "evaluating shape functions");
+  report(progress, 0, "evaluating shape functions");
   const ShapeFunctions shape(cloud.positions, cloud.spacing, options.shape);
   const ShapeRows nodal_rows = shape.evaluate(cloud.positions, false);
-  ShapeRows point_rows = shape.evaluate(points.positions, true);
+  auto [points, point_rows, capped] = place_points(model, shape, options);
+  const MaterialTable materials = material_table(model.materials, points.label);
   SolveResult result;
   if (options.integration == Integration::consistent) {
     const ConsistencyMeasures done = make_derivatives_consistent(cloud.positions, surface_nodes(cloud), nodal_rows,
@@ -177,6 +185,7 @@ SolveResult solve(const Model& model, const SolveOptions& given, const Progress&
   SolveMeasures& m = result.measures;
   m.nodes = model.cloud.size();
   m.integration_points = points.size();
+  m.capped_points = capped;
   m.pairs = point_rows.node.size();
   m.mean_support = static_cast<double>(m.pairs) / static_cast<double>(m.integration_points);
   m.grown_supports = point_rows.grown;

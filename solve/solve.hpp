@@ -45,7 +45,9 @@ struct SolveOptions {
   Integration integration = Integration::consistent;
   double consistency_defect = 0.01;  ///< what may be left of the largest defect, make_derivatives_consistent()
   Imposition imposition = Imposition::exact;
-  int points_per_cell = 8;  ///< hexahedra 1 or 8, tetrahedra 1 or 4, quadrilaterals 1 or 4, triangles 1 or 3
+  double integration_tolerance = 0;  ///< τ of adaptive_points(); 0: points_per_cell in every cell
+  int integration_depth = 3;         ///< of adaptive_points()
+  int points_per_cell = 8;           ///< hexahedra 1 or 8, tetrahedra 1 or 4, quadrilaterals 1 or 4, triangles 1 or 3
   Dynamics dynamics = Dynamics::relaxation;
   double tolerance = 0.01;  ///< relaxation: stop when the bound of the remaining error is below this, mm
   int load_steps = 400;     ///< relaxation: steps over the load's curve
@@ -94,8 +96,9 @@ struct Snapshot {
 struct SolveMeasures {
   std::size_t nodes = 0;
   std::size_t integration_points = 0;
-  std::size_t pairs = 0;    ///< (integration point, node) pairs
-  double mean_support = 0;  ///< nodes an integration point
+  std::size_t capped_points = 0;  ///< integration points that missed the integration tolerance
+  std::size_t pairs = 0;          ///< (integration point, node) pairs
+  double mean_support = 0;        ///< nodes an integration point
   std::size_t grown_supports = 0;
   std::size_t outside_label = 0;  ///< integration points that took their cell's label
   std::size_t loaded_nodes = 0;

@@ -192,10 +192,28 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
       ->type_name("FILE");
   command->add_option("--markups", arguments->markups, "markups before and after")->expected(2)->type_name("FILE");
   command->add_option("--surfaces", arguments->surfaces, "cortex before and after")->expected(2)->type_name("FILE");
-  for (const char* name :
-       {"basis",      "derivatives",     "dilatation", "penalty",   "volumetric", "nodes_per_patch", "integration",
-        "imposition", "points_per_cell", "dynamics",   "tolerance", "load_steps", "time_step",       "damping",
-        "duration",   "curve",           "curve_join", "gravity",   "max_steps",  "snapshot_every"}) {
+  for (const char* name : {"integration_tolerance",
+                           "integration_depth",
+                           "basis",
+                           "derivatives",
+                           "dilatation",
+                           "penalty",
+                           "volumetric",
+                           "nodes_per_patch",
+                           "integration",
+                           "imposition",
+                           "points_per_cell",
+                           "dynamics",
+                           "tolerance",
+                           "load_steps",
+                           "time_step",
+                           "damping",
+                           "duration",
+                           "curve",
+                           "curve_join",
+                           "gravity",
+                           "max_steps",
+                           "snapshot_every"}) {
     add_scene_option(*command, arguments->scene, "solve", name);
   }
   for (const char* name : {"margin", "depth", "farthest"}) {

@@ -118,8 +118,12 @@ void explain_physics(const Scene& scene, std::ostringstream& text) {
   if (scene.solve.volumetric == solve::Volumetric::mean_dilatation) {
     text << ", " << said("nodes_per_patch") << " nodes a patch";
   }
-  text << "\n  integration: " << said("integration") << "\n  imposition: " << said("imposition")
-       << "\n  dynamics: " << said("dynamics");
+  text << "\n  integration: " << said("integration");
+  if (scene.solve.integration_tolerance > 0) {
+    text << ", adaptive to " << said("integration_tolerance") << ", cells split " << said("integration_depth")
+         << " times at most";
+  }
+  text << "\n  imposition: " << said("imposition") << "\n  dynamics: " << said("dynamics");
   if (in_time) {
     text << " over " << load_curve(scene.loading).duration() << " s, time step "
          << (scene.solve.time_step > 0 ? said("time_step") + " s" : "automatic") << ", damping " << said("damping")

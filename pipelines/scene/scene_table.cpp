@@ -194,6 +194,12 @@ Element solve_element() {
                          {"auto", std::nullopt}, {"1", 1}, {"3", 3}, {"4", 4}, {"8", 8}},
                      "integration points a cell: hexahedra 1 or 8 (auto), tetrahedra 1 or 4 (auto); planar cells: "
                      "quadrilaterals 1 or 4 (auto), triangles 1 or 3 (auto)"),
+       number<Scene>(
+           "integration_tolerance", MEMBER(solve.integration_tolerance), not_negative, "",
+           "of adaptive integration, relative: cells are split until their parts agree with them to it, a point "
+           "in each part; 0: points_per_cell in every cell"),
+       number<Scene>("integration_depth", MEMBER(solve.integration_depth), {.low = 1, .high = 6}, "",
+                     "of adaptive integration: how often a cell may be split"),
        choice<Scene>("dynamics", MEMBER(solve.dynamics),
                      std::vector<std::pair<std::string, solve::Dynamics>>{{"relaxation", solve::Dynamics::relaxation},
                                                                           {"transient", solve::Dynamics::transient}},

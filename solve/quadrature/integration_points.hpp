@@ -26,9 +26,13 @@ struct IntegrationPoints {
 /// triangle. They integrate quadratics exactly; the other number that each takes is 1.
 int most_points_per_cell(CellKind kind);
 
-/// Gauss points of the background cells, points_per_cell 1 or most_points_per_cell(). The tissue is read from the label
-/// map at the point where there is a map and it names one of `tissues` there, else it is the cell's.
-/// Throws std::invalid_argument when points_per_cell does not go with the kind of cell.
+/// The tissue of each point, from the label map at the point where there is a map and it names one of `tissues` there,
+/// else from its cell.
+void take_tissues(const BackgroundCells& cells, const LabelMap* labels, const std::vector<std::int32_t>& tissues,
+                  IntegrationPoints& points);
+
+/// Gauss points of the background cells, points_per_cell 1 or most_points_per_cell(), with the tissues of
+/// take_tissues(). Throws std::invalid_argument when points_per_cell does not go with the kind of cell.
 IntegrationPoints integration_points(const BackgroundCells& cells, int points_per_cell, const LabelMap* labels,
                                      const std::vector<std::int32_t>& tissues);
 

@@ -31,7 +31,9 @@ std::map<std::int32_t, WholePoints> whole_points_by_label(const IntegrationPoint
   return whole;
 }
 
-void keep(const std::vector<std::uint8_t>& dropped, IntegrationPoints& points) {
+std::vector<MergedPoint> keep(const std::vector<std::uint8_t>& dropped, const std::vector<std::uint8_t>& moved,
+                              IntegrationPoints& points) {
+  std::vector<MergedPoint> merged;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < dropped.size(); ++i) {
     if (dropped[i] == 0) {
@@ -39,6 +41,7 @@ void keep(const std::vector<std::uint8_t>& dropped, IntegrationPoints& points) {
       points.volume[kept] = points.volume[i];
       points.cell[kept] = points.cell[i];
       points.label[kept] = points.label[i];
+      merged.push_back({static_cast<std::int32_t>(i), moved[i] != 0});
       ++kept;
     }
   }
@@ -46,12 +49,13 @@ void keep(const std::vector<std::uint8_t>& dropped, IntegrationPoints& points) {
   points.volume.resize(kept);
   points.cell.resize(kept);
   points.label.resize(kept);
+  return merged;
 }
 
 }  // namespace
 
-void merge_slivers(std::span<const double> full, IntegrationPoints& points) {
-  std::vector<std::uint8_t> dropped(points.size(), 0);
+std::vector<MergedPoint> merge_slivers(std::span<const double> full, IntegrationPoints& points) {
+  std::vector<std::uint8_t> dropped(points.size(), 0), moved(points.size(), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     dropped[i] = points.volume[i] < sliver * full[i] ? 1 : 0;
   }
@@ -69,10 +73,11 @@ void merge_slivers(std::span<const double> full, IntegrationPoints& points) {
         const double share = points.volume[i] / (points.volume[i] + volume);
         points.positions.row(into) += share * (points.positions.row(row) - points.positions.row(into));
         volume += points.volume[i];
+        moved[static_cast<std::size_t>(into)] = 1;
       }
     }
   }
-  keep(dropped, points);
+  return keep(dropped, moved, points);
 }
 
 }  // namespace brainshift::solve

@@ -170,11 +170,14 @@ TEST_F(SceneFile, EveryTissueOptionReadsBackWhatItWrites) {
 
 TEST_F(SceneFile, ThePhysicsOfTheSolveStageArrives) {
   const Scene scene = parse(R"(<scene>
-  <stage name="solve" integration="consistent" nodes_per_patch="8" imposition="simplified" dynamics="transient"
+  <stage name="solve" integration="consistent" integration_tolerance="0.3" integration_depth="2"
+         nodes_per_patch="8" imposition="simplified" dynamics="transient"
          time_step="0.001" damping="2" duration="3" curve_join="straight" gravity="0,0,-9.81" points_per_cell="3"/>
   </scene>)");
   EXPECT_EQ(scene.solve.integration, solve::Integration::consistent);
   EXPECT_EQ(scene.solve.nodes_per_patch, 8);
+  EXPECT_EQ(scene.solve.integration_tolerance, 0.3);
+  EXPECT_EQ(scene.solve.integration_depth, 2);
   EXPECT_EQ(scene.solve.imposition, solve::Imposition::simplified);
   EXPECT_EQ(scene.solve.dynamics, solve::Dynamics::transient);
   EXPECT_EQ(scene.solve.time_step, 0.001);
@@ -227,6 +230,7 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
       {"<tissues><tissue label=\"1\" material=\"bran\"/></tissues>", {at + "2", "'bran'", "brain | brain_ogden"}},
       {"<stage name=\"solve\" gravity=\"1,2\"/>", {at + "2", "'1,2'", "three numbers", "m/s2"}},
       {"<stage name=\"solve\" nodes_per_patch=\"0\"/>", {at + "2", "'0'", "> 0"}},
+      {"<stage name=\"solve\" integration_tolerance=\"-1\"/>", {at + "2", "'-1'", "0"}},
       {"<stage name=\"solve\" duration=\"0\"/>", {at + "2", "'0'", "> 0"}},
       {"<tissues><tissue name=\"a\"/></tissues>", {at + "2", "needs the attribute 'label'"}},
       {"<tissues>\n<tissue label=\"1\"/>\n<tissue label=\"1\"/></tissues>", {at + "4", "two tissues of label 1"}},

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/quadrature/adaptive_points.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <numeric>
+
+#include "solve/quadrature/split_cell.hpp"
+#include "tests/unit/solve/clouds.hpp"
+
+namespace brainshift::solve {
+namespace {
+
+constexpr double side = 40;
+const std::vector<std::int32_t> tissues = {1, 2};
+
+struct Domain {
+  std::string name;
+  NodeCloud cloud;
+  BackgroundCells cells;
+};
+
+/// Cells about as large as the spacing of the nodes.
+std::vector<Domain> domains() {
+  const NodeCloud box = test::irregular_box(4, side), rectangle = test::irregular_rectangle(13, 13, side, side);
+  return {{"hexahedra", box, test::box_cells(4, side)},
+          {"tetrahedra", box, test::box_tetrahedra(test::irregular_box(4, side), 4)},
+          {"quadrilaterals", rectangle, test::rectangle_cells(7, 7, side, side)},
+          {"triangles", rectangle, test::rectangle_triangles(test::irregular_rectangle(7, 7, side, side), 7, 7)}};
+}
+
+ShapeFunctions shape_of(const Domain& domain) {
+  ShapeOptions options;
+  options.planar = is_planar(domain.cells.kind);
+  return {domain.cloud.positions, domain.cloud.spacing, options};
+}
+
+AdaptivePoints adaptive(const Domain& domain, double tolerance, int depth = 3) {
+  return adaptive_points(domain.cells, shape_of(domain), tolerance, depth, nullptr, tissues);
+}
+
+double volume_of(const IntegrationPoints& points) {
+  return std::accumulate(points.volume.begin(), points.volume.end(), 0.0);
+}
+
+/// Σ w ∂φ_a/∂X of all nodes.
+Points integral(const AdaptivePoints& a, std::size_t nodes) {
+  Points sum = Points::Zero(static_cast<Eigen::Index>(nodes), 3);
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    for (auto k = static_cast<std::size_t>(a.rows.begin[i]); k < static_cast<std::size_t>(a.rows.begin[i + 1]); ++k) {
+      sum.row(a.rows.node[k]) += a.points.volume[i] * Eigen::Map<const Eigen::RowVector3d>(&a.rows.derivative[3 * k]);
+    }
+  }
+  return sum;
+}
+
+TEST(SplitCell, PartsFillTheCellWithItsOrientation) {
+  for (const Domain& domain : domains()) {
+    for (const std::size_t cell : {0u, 7u}) {
+      const Corners corners = corners_of(domain.cells, cell);
+      std::vector<WeightedPoint> whole, parts;
+      gauss_points(domain.cells.kind, corners, 1, whole);
+      for (const Corners& part : split_cell(domain.cells.kind, corners)) {
+        gauss_points(domain.cells.kind, part, 1, parts);
+        EXPECT_GT(parts.back().volume, 0) << domain.name;
+      }
+      double volume = 0;
+      Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+      for (const WeightedPoint& p : parts) {
+        volume += p.volume;
+        moment += p.volume * p.position;
+      }
+      EXPECT_NEAR(volume, whole[0].volume, 1e-10 * volume) << domain.name;
+      EXPECT_LE((moment - volume * whole[0].position).norm(), 1e-10 * moment.norm()) << domain.name;
+    }
+  }
+}
+
+TEST(AdaptivePoints, FillTheBodyAndCarryTheShapeFunctionsOfTheirPlaces) {
+  for (const Domain& domain : domains()) {
+    const AdaptivePoints a = adaptive(domain, 0.2);
+    const double expected = is_planar(domain.cells.kind) ? side * side : side * side * side;
+    EXPECT_NEAR(volume_of(a.points), expected, 1e-9 * expected) << domain.name;
+    EXPECT_TRUE(std::is_sorted(a.points.cell.begin(), a.points.cell.end()));
+    const ShapeRows again = shape_of(domain).evaluate(a.points.positions, true);
+    EXPECT_EQ(a.rows.begin, again.begin) << domain.name;
+    EXPECT_EQ(a.rows.node, again.node) << domain.name;
+    EXPECT_EQ(a.rows.derivative, again.derivative) << domain.name;
+  }
+}
+
+TEST(AdaptivePoints, SplitMoreAndIntegrateBetterTheSmallerTheTolerance) {
+  for (const Domain& domain : domains()) {
+    const bool planar = is_planar(domain.cells.kind);
+    const Points exact = integral(adaptive(domain, 1e-6, planar ? 5 : 3), domain.cloud.size());
+    std::size_t points = 0;
+    double error = 1e9;
+    for (const double tolerance : {1.0, 0.3, 0.1}) {
+      const AdaptivePoints a = adaptive(domain, tolerance, planar ? 4 : 2);
+      const double now = (integral(a, domain.cloud.size()) - exact).norm() / exact.norm();
+      EXPECT_GE(a.points.size(), points) << domain.name;
+      EXPECT_LE(now, error * 1.01) << domain.name;
+      points = a.points.size();
+      error = now;
+    }
+    EXPECT_LE(error, 0.06) << domain.name;
+  }
+}
+
+TEST(AdaptivePoints, StopAtTheDepthAndCountWhatMissedTheTolerance) {
+  for (const Domain& domain : domains()) {
+    const AdaptivePoints once = adaptive(domain, 1e-9, 1), coarse = adaptive(domain, 1e9, 3);
+    const std::size_t parts = domain.cells.size() * (is_planar(domain.cells.kind) ? 4 : 8);
+    EXPECT_EQ(once.points.size(), parts) << domain.name;
+    EXPECT_EQ(once.capped, parts) << domain.name;
+    EXPECT_EQ(coarse.points.size(), parts) << domain.name;
+    EXPECT_EQ(coarse.capped, 0u) << domain.name;
+  }
+}
+
+TEST(AdaptivePoints, OfACutCellKeepItsVolumeAndStayInside) {
+  Domain domain = domains()[0];
+  domain.cells.cut_index.assign(domain.cells.size(), -1);
+  domain.cells.cut_index[0] = 0;
+  const double edge = side / 4, octant = std::pow(edge / 2, 3);
+  InsideOctants part{};
+  for (int o = 0; o < 8; ++o) {  // x below three quarters of the cell; a sliver of one octant
+    const bool whole = (o & 1) == 0;
+    part.volume[o] = whole ? octant : (o == 7 ? 0.02 : 0.5) * octant;
+    part.centroid[o][0] = whole ? edge / 4 : (o == 7 ? 0.505 : 0.625) * edge;
+    part.centroid[o][1] = edge * ((o & 2) ? 0.75 : 0.25);
+    part.centroid[o][2] = edge * ((o & 4) ? 0.75 : 0.25);
+  }
+  domain.cells.cut_parts = {part};
+  const double inside = std::accumulate(part.volume, part.volume + 8, 0.0);
+  domain.cells.inside_fraction[0] = inside / (8 * octant);
+  const AdaptivePoints a = adaptive(domain, 1e-3, 2);
+  EXPECT_NEAR(volume_of(a.points), side * side * side - 8 * octant + inside, 1e-9 * side * side * side);
+  const ShapeRows again = shape_of(domain).evaluate(a.points.positions, true);
+  EXPECT_EQ(a.rows.node, again.node);
+  EXPECT_EQ(a.rows.derivative, again.derivative);
+  const auto of_cut = static_cast<std::size_t>(std::count(a.points.cell.begin(), a.points.cell.end(), 0));
+  EXPECT_EQ(of_cut, 4u * 8u + 3u);  // whole octants are split again, the others stay, the sliver is gone
+}
+
+TEST(AdaptivePoints, AreTheSameForAnyNumberOfThreads) {
+  const Domain domain = domains()[0];
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const AdaptivePoints one = adaptive(domain, 0.2);
+  omp_set_num_threads(3);
+  const AdaptivePoints three = adaptive(domain, 0.2);
+  omp_set_num_threads(threads);
+  EXPECT_EQ(one.points.positions, three.points.positions);
+  EXPECT_EQ(one.rows.derivative, three.rows.derivative);
+}
+
+TEST(AdaptivePoints, RefuseMorePointsThanMemoryHolds) {
+  const NodeCloud cloud = test::irregular_box(4, side);
+  EXPECT_THROW(adaptive({"too many cells", cloud, test::box_cells(73, side)}, 0.1), std::invalid_argument);
+}
+
+TEST(AdaptivePoints, RefuseAToleranceOrDepthThatMeansNothing) {
+  const Domain domain = domains()[2];
+  EXPECT_THROW(adaptive(domain, 0), std::invalid_argument);
+  EXPECT_THROW(adaptive(domain, std::nan("")), std::invalid_argument);
+  EXPECT_THROW(adaptive(domain, 0.1, 0), std::invalid_argument);
+  EXPECT_THROW(adaptive(domain, 0.1, 7), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace brainshift::solve
