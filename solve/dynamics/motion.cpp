@@ -29,6 +29,14 @@ std::string unsound(const PointState& state, double moved, int step, double frac
   return text.str();
 }
 
+std::string unbalanced(const HistoryRow& row) {
+  std::ostringstream text;
+  text << "unstable at step " << row.step << ", " << row.time << " s: the work of " << row.external_work
+       << " mJ has become " << row.strain_energy << " mJ of strain, " << row.kinetic_energy << " mJ of motion and "
+       << row.dissipated_energy << " mJ in the damping, which is not the same; take a smaller time step";
+  return text.str();
+}
+
 }  // namespace
 
 Motion::Motion(const System& system, const PointLaws& laws, int snapshot_every)
@@ -107,9 +115,13 @@ bool Motion::squeezed() {
   return true;
 }
 
-bool Motion::look(const PointLaws& laws, std::span<const double> mass) {
+bool Motion::look(const PointLaws& laws, std::span<const double> mass, double most_imbalance) {
   const PointState state = point_state(system_.points, laws, scratch);
+  const HistoryRow latest = row(mass, state);
   result.failure = unsound(state, largest_difference(now, before), result.steps, fraction_);
+  if (result.failure.empty() && imbalance(latest) > most_imbalance) {
+    result.failure = unbalanced(latest);
+  }
   if (!result.failure.empty()) {
     result.unstable = true;
     return false;
@@ -119,7 +131,7 @@ bool Motion::look(const PointLaws& laws, std::span<const double> mass) {
   squeezed_to_ = state.smallest_jacobian;
   good_ = now;
   good_reactions_ = system_.essential.reactions(alpha_, nodes_);
-  result.history.push_back(row(mass));
+  result.history.push_back(latest);
   if (snapshot_every_ > 0 && result.steps >= next_snapshot_) {
     result.snapshots.push_back({result.steps, time, now});
     next_snapshot_ += snapshot_every_;
@@ -128,18 +140,25 @@ bool Motion::look(const PointLaws& laws, std::span<const double> mass) {
 }
 
 /// The velocity at the last force is that over the steps on its two sides.
-HistoryRow Motion::row(std::span<const double> mass) const {
+HistoryRow Motion::row(std::span<const double> mass, const PointState& state) const {
   const double inertia = sum_over_nodes(
       nodes_, [this, mass](std::size_t a) { return mass[a] * (at(now, a) - at(next, a)).squaredNorm(); });
   HistoryRow row;
   row.step = result.steps;
   row.time = time;
   row.external_work = external_work_ * energy_unit;
-  row.strain_energy = result.state.strain_energy * energy_unit;
+  row.strain_energy = state.strain_energy * energy_unit;
   row.kinetic_energy = inertia * (1 + beta_) / (16 * alpha_) * energy_unit;
   row.dissipated_energy = dissipated_ * energy_unit;
   row.reaction = newton * system_.essential.reaction_of_loaded(alpha_);
   return row;
+}
+
+/// |external work − what it became| over the largest of the two so far.
+double Motion::imbalance(const HistoryRow& row) {
+  const double became = row.strain_energy + row.kinetic_energy + row.dissipated_energy;
+  largest_energy_ = std::max({largest_energy_, std::abs(row.external_work), became});
+  return largest_energy_ > 0 ? std::abs(row.external_work - became) / largest_energy_ : 0;
 }
 
 SteppingResult Motion::finish() {

@@ -28,8 +28,9 @@ class Motion {
   bool squeezed();
 
   /// Keeps the state and adds a row to the history when the state is sound, else says in result.failure why it is not.
-  /// Returns whether it is.
-  bool look(const PointLaws& laws, std::span<const double> mass);
+  /// most_imbalance: of the work and what became of it, over the largest of them so far; infinite: not looked at.
+  /// Returns whether it is sound.
+  bool look(const PointLaws& laws, std::span<const double> mass, double most_imbalance);
 
   /// The result, with the last state that was kept.
   SteppingResult finish();
@@ -43,7 +44,8 @@ class Motion {
 
  private:
   void add_energies(std::span<const double> mass, double alpha, double beta, double fraction);
-  HistoryRow row(std::span<const double> mass) const;
+  HistoryRow row(std::span<const double> mass, const PointState& state) const;
+  double imbalance(const HistoryRow& row);
 
   const System& system_;
   std::size_t nodes_;
@@ -57,7 +59,8 @@ class Motion {
   double damping_work_ = 0;  // over the last step
   double external_work_ = 0;
   double dissipated_ = 0;
-  double squeezed_to_ = 1;  // J
+  double largest_energy_ = 0;  // mJ
+  double squeezed_to_ = 1;     // J
   int snapshot_every_;
   int next_snapshot_;
 };

@@ -85,7 +85,7 @@ class Relaxation {
 
   /// Once a window: is the state sound, how far is it from rest, how fast does it get there?
   void look() {
-    if (!motion_.look(system_.laws, mass_)) {
+    if (!motion_.look(system_.laws, mass_, std::numeric_limits<double>::infinity())) {
       return;
     }
     estimate_lowest_eigenvalue();

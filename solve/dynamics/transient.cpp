@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -14,19 +15,26 @@ namespace brainshift::solve {
 namespace {
 
 constexpr int look_every = 50;       // steps between looks at the state
-constexpr double safety = 0.9;       // of the critical step
 constexpr double least_ratio = 0.8;  // of J to that one step before: stiffness is followed only so fast
+
+/// Where all that takes energy is counted: not contact, relaxing materials (the laws' energy is the instantaneous one)
+/// or lumped conditions. Else the work is what became of it to a thousandth.
+bool balances(const System& system, const std::vector<std::vector<PronyTerm>>& prony, const SolveOptions& options) {
+  return system.contact == nullptr && prony.empty() && options.imposition == Imposition::exact;
+}
 
 class Transient {
  public:
   Transient(const System& system, const std::vector<std::vector<PronyTerm>>& prony, std::span<const double> mass,
-            const SolveOptions& options)
+            const SolveOptions& options, double safety)
       : system_(system),
         laws_(system.laws),
         prony_(prony),
         mass_(mass),
         options_(options),
-        motion_(system, PointLaws{{}, {}, system.laws.plane_stress}, options.snapshot_every) {
+        motion_(system, PointLaws{{}, {}, system.laws.plane_stress}, options.snapshot_every),
+        safety_(safety),
+        most_imbalance_(balances(system, prony, options) ? 0.05 : std::numeric_limits<double>::infinity()) {
     internal_force(system_.points, system_.laws, motion_.now, motion_.scratch, motion_.force);
     const double critical = critical_now();
     motion_.result.critical_step = critical;
@@ -36,7 +44,7 @@ class Transient {
            << " s: the motion would blow up; leave it out (0) or take a smaller one";
       throw std::invalid_argument(text.str());
     }
-    set_step(options.time_step > 0 ? options.time_step : safety * critical);
+    set_step(options.time_step > 0 ? options.time_step : safety_ * critical);
     motion_.scratch = ForceScratch(system.points, laws_);
     motion_.weigh(mass_);
   }
@@ -92,14 +100,14 @@ class Transient {
   }
 
   void look() {
-    if (motion_.look(laws_, mass_)) {
+    if (motion_.look(laws_, mass_, most_imbalance_)) {
       follow_stiffness();
     }
   }
 
   void follow_stiffness() {
     const double critical = critical_now();
-    const bool given = options_.time_step > 0, softer = 2 * step_ < safety * critical;
+    const bool given = options_.time_step > 0, softer = 2 * step_ < safety_ * critical;
     if (motion_.time >= system_.curve.duration() - step_ / 2 || (step_ <= critical && (given || !softer))) {
       return;
     }
@@ -111,7 +119,7 @@ class Transient {
       motion_.result.failure = text.str();
       return;
     }
-    set_step(std::min(safety * critical, 2 * step_));
+    set_step(std::min(safety_ * critical, 2 * step_));
   }
 
   const System& system_;
@@ -119,7 +127,9 @@ class Transient {
   const std::vector<std::vector<PronyTerm>>& prony_;
   std::span<const double> mass_;
   const SolveOptions& options_;
-  Motion motion_;    // its time is in seconds
+  Motion motion_;  // its time is in seconds
+  double safety_;  // of the critical step
+  double most_imbalance_;
   double step_ = 0;  // s
   double step_before_ = 0;
 };
@@ -128,7 +138,12 @@ class Transient {
 
 SteppingResult march(const System& system, const std::vector<std::vector<PronyTerm>>& prony,
                      std::span<const double> mass, const SolveOptions& options, const Progress& progress) {
-  return Transient(system, prony, mass, options).run(progress);
+  constexpr double safety = 0.9;
+  SteppingResult result = Transient(system, prony, mass, options, safety).run(progress);
+  if (result.unstable && options.time_step == 0) {
+    result = Transient(system, prony, mass, options, safety / 2).run(progress);
+  }
+  return result;
 }
 
 }  // namespace brainshift::solve

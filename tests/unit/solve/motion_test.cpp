@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/dynamics/motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "solve/dynamics/largest_eigenvalue.hpp"
+#include "solve/dynamics/stiffness_bound.hpp"
+#include "tests/unit/solve/body.hpp"
+
+namespace brainshift::solve {
+namespace {
+
+constexpr double side = 30;
+
+/// A box under forces that pull its top, marched with a step of `of_critical` times the true critical one.
+struct Marched {
+  Body body{test::irregular_box(5, side), test::box_cells(4, side), {Material{}}, BodyOptions{}};
+  std::vector<double> mass = physical_mass(body.points, std::vector<double>{1e-3});
+  EssentialConditions essential{Points::Constant(125, 3, std::nan("")), {}, {}, Imposition::exact};
+  LoadCurve curve;
+  NodalVectors external = body.rest();
+  SteppingResult result;
+  int sound_steps = 0;
+
+  explicit Marched(double of_critical) {
+    for (std::size_t a = 0; a < body.cloud.size(); ++a) {
+      external[4 * a + 2] = body.cloud.positions(static_cast<Eigen::Index>(a), 2) - side / 2;
+    }
+    const System system{body.points, body.laws, essential, nullptr, external, curve};
+    Motion motion(system, body.laws, 0);
+    motion.weigh(mass);
+    const double h = of_critical * 2 / std::sqrt(largest_eigenvalue(body.points, body.laws, mass, 300));
+    while (motion.result.failure.empty() && motion.result.steps < 2000) {
+      const double time = motion.time + h;
+      motion.step(body.laws, mass, h * h, 1, time, std::min(1.0, 100 * time));
+      if (motion.result.steps % 10 == 0 && motion.look(body.laws, mass, 0.05)) {
+        sound_steps = motion.result.steps;
+      }
+    }
+    result = motion.finish();
+  }
+};
+
+TEST(Motion, BalancesItsEnergiesJustBelowTheCriticalStep) {
+  const Marched marched(0.98);
+  EXPECT_EQ(marched.result.failure, "");
+  EXPECT_EQ(marched.sound_steps, 2000);
+}
+
+TEST(Motion, IsFoundUnstableJustAboveTheCriticalStepAndKeepsTheLastGoodState) {
+  for (const double of_critical : {1.03, 1.5}) {
+    const Marched marched(of_critical);
+    EXPECT_TRUE(marched.result.unstable) << of_critical;
+    EXPECT_NE(marched.result.failure.find("unstable at step"), std::string::npos) << marched.result.failure;
+    EXPECT_LT(marched.result.steps, 2000);
+    double largest = 0;
+    for (const double u : marched.result.parameters) {
+      ASSERT_TRUE(std::isfinite(u));
+      largest = std::max(largest, std::abs(u));
+    }
+    EXPECT_LT(largest, side / 10);
+  }
+}
+
+}  // namespace
+}  // namespace brainshift::solve
