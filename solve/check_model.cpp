@@ -13,15 +13,15 @@ namespace {
 
 /// Rigid motions that the conditions leave free make the steady state undefined. A plane has three, x, y and the turn
 /// about z, else there are six.
-void check_held(const NodeCloud& cloud, Plane plane, bool contact) {
+void check_held(const OrderedCloud& cloud, Plane plane, bool contact) {
   std::vector<Eigen::Matrix<double, 1, 6>> rows;
   const Eigen::RowVector3d centre = cloud.positions.colwise().mean();
   const double size = (cloud.positions.rowwise() - centre).cwiseAbs().maxCoeff();
-  for (Eigen::Index a = 0; a < cloud.prescribed_displacement.rows(); ++a) {
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
     const Eigen::Vector3d x = (cloud.positions.row(a) - centre) / size;
     const Eigen::Matrix3d turn{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
     for (int axis = 0; axis < (plane == Plane::none ? 3 : 2); ++axis) {
-      if (!std::isnan(cloud.prescribed_displacement(a, axis))) {
+      if (!std::isnan(cloud.prescribed(a, axis))) {
         Eigen::Matrix<double, 1, 6> row;
         row << Eigen::RowVector3d::Unit(axis), turn.row(axis);
         rows.push_back(row);
@@ -63,10 +63,10 @@ void check_plane(const Model& model) {
 
 }  // namespace
 
-void check_model(const Model& model, Dynamics dynamics) {
+void check_model(const Model& model, const OrderedCloud& cloud, Dynamics dynamics) {
   check_plane(model);
   if (dynamics == Dynamics::relaxation) {
-    check_held(model.cloud, model.plane, model.skull.has_value());
+    check_held(cloud, model.plane, model.skull.has_value());
   }
 }
 

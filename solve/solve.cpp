@@ -135,8 +135,8 @@ SolveResult solve(const Model& model, const SolveOptions& given, const Progress&
   const auto start = Clock::now();
   SolveOptions options = given;
   options.shape.planar = model.plane != Plane::none;
-  check_model(model, options.dynamics);
   const OrderedCloud cloud = order_nodes(model.cloud);
+  check_model(model, cloud, options.dynamics);
 
   report(progress, 0, "evaluating shape functions");
   const ShapeFunctions shape(cloud.positions, cloud.spacing, options.shape);

@@ -23,16 +23,22 @@ double unprojected_modulus(const ElasticLaw& law) {
   return std::min(law.bulk_modulus, law.shear_modulus);
 }
 
+inline constexpr double highest_barrier = 0.5;
+
 /// J_b: no point of a nearly incompressible body comes so low but for want of nodes; 0, no barrier, from K = 3µ down.
 template <class ElasticLaw>
 double barrier_jacobian(const ElasticLaw& law) {
-  return 0.5 * std::max(0.0, 1 - 3 * law.shear_modulus / law.bulk_modulus);
+  return highest_barrier * std::max(0.0, 1 - 3 * law.shear_modulus / law.bulk_modulus);
 }
 
 /// ln(J/J_b) below the barrier, else 0; J from θ.
 template <class ElasticLaw>
 double depth_in_barrier(const ElasticLaw& law, double dilatation) {
-  const double jacobian = dilatation - law.least_dilatation, barrier = barrier_jacobian(law);
+  const double jacobian = dilatation - law.least_dilatation;
+  if (jacobian >= highest_barrier) {
+    return 0;  // as nearly always
+  }
+  const double barrier = barrier_jacobian(law);
   return jacobian < barrier ? std::log(jacobian / barrier) : 0.0;
 }
 

@@ -89,6 +89,7 @@ class Transient {
   }
 
   void step() {
+    // between the midpoints of the steps before and after the force, where the velocities are
     const double h = step_before_ > 0 ? (step_before_ + step_) / 2 : step_;
     const double ch = options_.damping * h;
     const double time = motion_.time + step_;

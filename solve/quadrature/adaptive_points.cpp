@@ -2,7 +2,6 @@
 #include "solve/quadrature/adaptive_points.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -21,8 +20,9 @@ struct Region {
   Corners corners;        ///< none: the inside part of an octant, which is not split
   std::int32_t cut = -1;  ///< row of cut_parts of a whole cut cell
   WeightedPoint point;
-  double full;        ///< volume of the region, not of its inside part
-  std::size_t row{};  ///< of its shape functions, among those of its level
+  double full;          ///< volume of the region, not of its inside part
+  std::size_t level{};  ///< how often its cell was split
+  std::size_t row{};    ///< of its shape functions, among those of its level
 };
 
 WeightedPoint one_point(CellKind kind, const Corners& corners) {
@@ -40,15 +40,7 @@ std::vector<Region> whole_cells(const BackgroundCells& cells) {
     region.point.volume *= cells.inside_fraction[cell];
     region.cut = cells.cut_index.empty() ? -1 : cells.cut_index[cell];
     if (region.cut >= 0) {
-      const InsideOctants& part = cells.cut_parts[static_cast<std::size_t>(region.cut)];
-      region.point = {Eigen::Vector3d::Zero(), 0};
-      for (int octant = 0; octant < 8; ++octant) {
-        if (part.volume[octant] > 0) {
-          region.point.position += part.volume[octant] * Eigen::Vector3d(part.centroid[octant]);
-          region.point.volume += part.volume[octant];
-        }
-      }
-      region.point.position /= region.point.volume;
+      region.point = inside_point(cells.cut_parts[static_cast<std::size_t>(region.cut)]);
     }
     regions.push_back(region);
   }
@@ -78,10 +70,11 @@ void append_parts(const BackgroundCells& cells, const Region& region, std::vecto
   }
 }
 
-ShapeRows evaluate(const ShapeFunctions& shape, std::vector<Region>& regions) {
+ShapeRows evaluate(const ShapeFunctions& shape, std::size_t level, std::vector<Region>& regions) {
   Points positions(static_cast<Eigen::Index>(regions.size()), 3);
   for (std::size_t i = 0; i < regions.size(); ++i) {
     positions.row(static_cast<Eigen::Index>(i)) = regions[i].point.position;
+    regions[i].level = level;
     regions[i].row = i;
   }
   return shape.evaluate(positions, true);
@@ -141,10 +134,9 @@ std::vector<std::uint8_t> compare(const std::vector<Region>& regions, const Shap
   return good;
 }
 
-/// The regions that stay, in the order in which they were found, with the level of each and the rows of each level.
+/// The regions that stay, and the shape functions of each level.
 struct Kept {
   std::vector<Region> regions;
-  std::vector<std::size_t> level;
   std::vector<ShapeRows> rows;
   std::size_t capped = 0;
 };
@@ -162,7 +154,7 @@ void check_affordable(std::size_t points, double tolerance, int depth) {
 Kept refine(const BackgroundCells& cells, const ShapeFunctions& shape, double tolerance, int depth) {
   Kept kept;
   std::vector<Region> regions = whole_cells(cells);
-  kept.rows.push_back(evaluate(shape, regions));
+  kept.rows.push_back(evaluate(shape, 0, regions));
   for (int split = 1; !regions.empty(); ++split) {
     std::vector<Region> parts, unfinished;
     std::vector<std::size_t> begin = {0};
@@ -171,7 +163,7 @@ Kept refine(const BackgroundCells& cells, const ShapeFunctions& shape, double to
       begin.push_back(parts.size());
     }
     check_affordable(kept.regions.size() + parts.size(), tolerance, depth);
-    kept.rows.push_back(evaluate(shape, parts));
+    kept.rows.push_back(evaluate(shape, kept.rows.size(), parts));
     const std::vector<std::uint8_t> good =
         compare(regions, kept.rows[kept.rows.size() - 2], parts, kept.rows.back(), begin, shape.nodes(), tolerance);
     for (std::size_t i = 0; i < good.size(); ++i) {
@@ -182,7 +174,6 @@ Kept refine(const BackgroundCells& cells, const ShapeFunctions& shape, double to
           continue;
         }
         kept.regions.push_back(parts[part]);
-        kept.level.push_back(kept.rows.size() - 1);
         kept.capped += good[i] == 0 ? 1 : 0;
       }
     }
@@ -226,17 +217,14 @@ AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunction
                                const LabelMap* labels, const std::vector<std::int32_t>& tissues) {
   check(tolerance, depth);
   Kept kept = refine(cells, shape, tolerance, depth);
-  std::vector<std::size_t> order(kept.regions.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return kept.regions[a].cell < kept.regions[b].cell; });
+  std::stable_sort(kept.regions.begin(), kept.regions.end(),
+                   [](const Region& a, const Region& b) { return a.cell < b.cell; });
   AdaptivePoints result;
   result.capped = kept.capped;
-  result.points.positions.resize(static_cast<Eigen::Index>(order.size()), 3);
+  result.points.positions.resize(static_cast<Eigen::Index>(kept.regions.size()), 3);
   std::vector<double> full;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Region& region = kept.regions[order[i]];
-    result.points.positions.row(static_cast<Eigen::Index>(i)) = region.point.position;
+  for (const Region& region : kept.regions) {
+    result.points.positions.row(static_cast<Eigen::Index>(full.size())) = region.point.position;
     result.points.volume.push_back(region.point.volume);
     result.points.cell.push_back(region.cell);
     full.push_back(region.full);
@@ -247,8 +235,8 @@ AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunction
   std::vector<std::pair<std::size_t, std::size_t>> source;
   std::vector<Eigen::Index> moved;
   for (std::size_t i = 0; i < merged.size(); ++i) {
-    const std::size_t from = order[static_cast<std::size_t>(merged[i].from)];
-    source.emplace_back(kept.level[from], kept.regions[from].row);
+    const Region& from = kept.regions[static_cast<std::size_t>(merged[i].from)];
+    source.emplace_back(from.level, from.row);
     if (merged[i].moved) {
       source.back() = {kept.rows.size(), moved.size()};
       moved.push_back(static_cast<Eigen::Index>(i));

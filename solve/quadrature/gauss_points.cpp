@@ -108,6 +108,18 @@ Corners corners_of(const BackgroundCells& cells, std::size_t cell) {
   return corners;
 }
 
+WeightedPoint inside_point(const InsideOctants& part) {
+  WeightedPoint whole{Eigen::Vector3d::Zero(), 0};
+  for (int octant = 0; octant < 8; ++octant) {
+    if (part.volume[octant] > 0) {
+      whole.position += part.volume[octant] * Eigen::Vector3d(part.centroid[octant]);
+      whole.volume += part.volume[octant];
+    }
+  }
+  whole.position /= whole.volume;
+  return whole;
+}
+
 void gauss_points(CellKind kind, const Corners& corners, int points, std::vector<WeightedPoint>& out) {
   switch (kind) {
     case CellKind::hexahedron:

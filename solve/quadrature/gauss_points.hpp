@@ -18,6 +18,9 @@ struct WeightedPoint {
 
 Corners corners_of(const BackgroundCells& cells, std::size_t cell);
 
+/// The centroid of the inside part of a cut cell, with its volume.
+WeightedPoint inside_point(const InsideOctants& part);
+
 /// Appends the Gauss points of a whole cell: 1, or what integrates quadratics exactly (8 a hexahedron, 4 a tetrahedron
 /// or quadrilateral, 3 a triangle). Planar cells count as 1 mm thick.
 void gauss_points(CellKind kind, const Corners& corners, int points, std::vector<WeightedPoint>& out);

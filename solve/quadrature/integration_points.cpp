@@ -13,20 +13,14 @@ namespace brainshift::solve {
 namespace {
 
 void cut_hexahedron(const InsideOctants& part, int points, std::vector<WeightedPoint>& out) {
-  WeightedPoint whole{Eigen::Vector3d::Zero(), 0};
-  for (std::size_t octant = 0; octant < 8; ++octant) {
-    const double v = part.volume[octant];
-    if (v > 0) {
-      const Eigen::Vector3d centroid(part.centroid[octant]);
-      whole.position += v * centroid;
-      whole.volume += v;
-      if (points == 8) {
-        out.push_back({centroid, v});
-      }
-    }
-  }
   if (points == 1) {
-    out.push_back({whole.position / whole.volume, whole.volume});
+    out.push_back(inside_point(part));
+    return;
+  }
+  for (std::size_t octant = 0; octant < 8; ++octant) {
+    if (part.volume[octant] > 0) {
+      out.push_back({Eigen::Vector3d(part.centroid[octant]), part.volume[octant]});
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #include "solve/quadrature/split_cell.hpp"
 
 #include <Eigen/Geometry>
+#include <cstdlib>
 
 namespace brainshift::solve {
 
