@@ -153,7 +153,8 @@ SolveResult solve(const Model& model, const SolveOptions& given, const Progress&
   const PressurePatches patches =
       pressure_patches(points.positions, nodes_per_point(points, point_rows, cloud.spacing), materials.row_of_point,
                        shared_pressure ? options.nodes_per_patch : 0);
-  const PointBlocks blocks = point_blocks(points, point_rows, materials.row_of_point, model.cloud.size(), patches);
+  const PointBlocks blocks =
+      point_blocks(points, point_rows, materials.row_of_point, model.cloud.size(), patches, options.precision);
   check_supported(blocks, cloud);
 
   const PointLaws laws = point_laws(materials, model.plane, options.dynamics);

@@ -15,6 +15,7 @@
 #include "solve/boundary/essential_conditions.hpp"
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/load_curve.hpp"
+#include "solve/dynamics/precision.hpp"
 #include "solve/material/material.hpp"
 #include "solve/solution.hpp"
 
@@ -45,9 +46,10 @@ struct SolveOptions {
   Integration integration = Integration::consistent;
   double consistency_defect = 0.01;  ///< what may be left of the largest defect, make_derivatives_consistent()
   Imposition imposition = Imposition::exact;
-  double integration_tolerance = 0;  ///< τ of adaptive_points(); 0: points_per_cell in every cell
-  int integration_depth = 3;         ///< of adaptive_points()
-  int points_per_cell = 8;           ///< hexahedra 1 or 8, tetrahedra 1 or 4, quadrilaterals 1 or 4, triangles 1 or 3
+  double integration_tolerance = 0;                   ///< τ of adaptive_points(); 0: points_per_cell in every cell
+  int integration_depth = 3;                          ///< of adaptive_points()
+  Precision precision = Precision::double_precision;  ///< of the derivatives that stepping reads
+  int points_per_cell = 8;  ///< hexahedra 1 or 8, tetrahedra 1 or 4, quadrilaterals 1 or 4, triangles 1 or 3
   Dynamics dynamics = Dynamics::relaxation;
   double tolerance = 0.01;  ///< relaxation: stop when the bound of the remaining error is below this, mm
   int load_steps = 400;     ///< relaxation: steps over the load's curve

@@ -203,6 +203,7 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
                            "integration",
                            "imposition",
                            "points_per_cell",
+                           "precision",
                            "dynamics",
                            "tolerance",
                            "load_steps",

@@ -200,6 +200,11 @@ Element solve_element() {
            "in each part; 0: points_per_cell in every cell"),
        number<Scene>("integration_depth", MEMBER(solve.integration_depth), {.low = 1, .high = 6}, "",
                      "of adaptive integration: how often a cell may be split"),
+       choice<Scene>(
+           "precision", MEMBER(solve.precision),
+           std::vector<std::pair<std::string, solve::Precision>>{{"double", solve::Precision::double_precision},
+                                                                 {"single", solve::Precision::single_precision}},
+           "in which the derivatives are kept while stepping; arithmetic is double in any case"),
        choice<Scene>("dynamics", MEMBER(solve.dynamics),
                      std::vector<std::pair<std::string, solve::Dynamics>>{{"relaxation", solve::Dynamics::relaxation},
                                                                           {"transient", solve::Dynamics::transient}},

@@ -21,15 +21,15 @@ namespace {
 using Lane = double __attribute__((vector_size(32)));
 
 /// F = 1 + Σ_a û_a ⊗ B_a, column-major into gradient[9].
-BRAINSHIFT_KERNEL
-void deformation_gradient(std::span<const std::uint16_t> slots, const double* derivative, const double* displacement,
-                          double* gradient) {
+template <class Scalar>
+[[gnu::always_inline]] inline void add_up_gradient(std::span<const std::uint16_t> slots, const Scalar* derivative,
+                                                   const double* displacement, double* gradient) {
   Lane column[3] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   for (const std::uint16_t slot : slots) {
     Lane u;
     __builtin_memcpy(&u, displacement + 4 * std::size_t{slot}, sizeof u);
     for (int axis = 0; axis < 3; ++axis) {
-      column[axis] += u * derivative[axis];
+      column[axis] += u * double{derivative[axis]};
     }
     derivative += 3;
   }
@@ -40,10 +40,22 @@ void deformation_gradient(std::span<const std::uint16_t> slots, const double* de
   }
 }
 
-/// f_a += wP · B_a.
 BRAINSHIFT_KERNEL
-void scatter_stress(std::span<const std::uint16_t> slots, const double* derivative, const double* stress,
-                    double* force) {
+void deformation_gradient(std::span<const std::uint16_t> slots, const double* derivative, const double* displacement,
+                          double* gradient) {
+  add_up_gradient(slots, derivative, displacement, gradient);
+}
+
+BRAINSHIFT_KERNEL
+void deformation_gradient(std::span<const std::uint16_t> slots, const float* derivative, const double* displacement,
+                          double* gradient) {
+  add_up_gradient(slots, derivative, displacement, gradient);
+}
+
+/// f_a += wP · B_a.
+template <class Scalar>
+[[gnu::always_inline]] inline void spread_stress(std::span<const std::uint16_t> slots, const Scalar* derivative,
+                                                 const double* stress, double* force) {
   Lane column[3];
   for (int axis = 0; axis < 3; ++axis) {
     column[axis] = Lane{stress[3 * axis], stress[3 * axis + 1], stress[3 * axis + 2], 0};
@@ -53,11 +65,23 @@ void scatter_stress(std::span<const std::uint16_t> slots, const double* derivati
     Lane f;
     __builtin_memcpy(&f, at, sizeof f);
     for (int axis = 0; axis < 3; ++axis) {
-      f += column[axis] * derivative[axis];
+      f += column[axis] * double{derivative[axis]};
     }
     __builtin_memcpy(at, &f, sizeof f);
     derivative += 3;
   }
+}
+
+BRAINSHIFT_KERNEL
+void scatter_stress(std::span<const std::uint16_t> slots, const double* derivative, const double* stress,
+                    double* force) {
+  spread_stress(slots, derivative, stress, force);
+}
+
+BRAINSHIFT_KERNEL
+void scatter_stress(std::span<const std::uint16_t> slots, const float* derivative, const double* stress,
+                    double* force) {
+  spread_stress(slots, derivative, stress, force);
 }
 
 /// F_33 for which P_33 = 0, by the secant method from the last step's.
@@ -103,12 +127,13 @@ struct NotRelaxing {
   }
 };
 
-template <class ElasticLaw>
+template <class Scalar, class ElasticLaw>
 void patch_gradients(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, bool plane_stress,
                      const double* displacement, ForceScratch& scratch) {
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const auto i = static_cast<std::size_t>(p);
-    deformation_gradient(points.slots_of(p), points.derivatives_of(p), displacement, scratch.gradient.data() + 9 * i);
+    deformation_gradient(points.slots_of(p), points.derivatives_of<Scalar>(p), displacement,
+                         scratch.gradient.data() + 9 * i);
     if (plane_stress) {
       scratch.thickness[i] = free_thickness(law, gradient_of(scratch, p), scratch.thickness[i]);
       scratch.gradient[9 * i + 8] = scratch.thickness[i];
@@ -116,7 +141,7 @@ void patch_gradients(const PointBlocks& points, const Patch& patch, const Elasti
   }
 }
 
-template <class ElasticLaw, class Viscosity>
+template <class Scalar, class ElasticLaw, class Viscosity>
 void patch_force(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const Viscosity& viscosity,
                  double* force, ForceScratch& scratch, JacobianRange& range) {
   const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, scratch);
@@ -125,7 +150,7 @@ void patch_force(const PointBlocks& points, const Patch& patch, const ElasticLaw
     const double pressure = point_pressure(law, dilatations.dot(points.modes_of(p)), law.dilatation(d));
     const Eigen::Matrix3d stress =
         points.volume[static_cast<std::size_t>(p)] * (viscosity.stress(law, d, p) + pressure * law.dilatation_slope(d));
-    scatter_stress(points.slots_of(p), points.derivatives_of(p), stress.data(), force);
+    scatter_stress(points.slots_of(p), points.derivatives_of<Scalar>(p), stress.data(), force);
     double& jacobian = scratch.jacobian[static_cast<std::size_t>(p)];
     range.smallest = lesser(range.smallest, d.jacobian);
     range.least_ratio = lesser(range.least_ratio, d.jacobian / jacobian);
@@ -133,6 +158,7 @@ void patch_force(const PointBlocks& points, const Patch& patch, const ElasticLaw
   }
 }
 
+template <class Scalar>
 void block_force(const PointBlocks& points, const Block& block, const PointLaws& laws, const NodalVectors& parameters,
                  ForceScratch& scratch) {
   const auto first = static_cast<std::size_t>(block.first_slot);
@@ -150,12 +176,12 @@ void block_force(const PointBlocks& points, const Block& block, const PointLaws&
     const auto row = static_cast<std::size_t>(patch.material);
     std::visit(
         [&](const auto& law) {
-          patch_gradients(points, patch, law, laws.plane_stress, displacement, scratch);
+          patch_gradients<Scalar>(points, patch, law, laws.plane_stress, displacement, scratch);
           if (laws.prony.empty() || laws.prony[row].terms.empty()) {
-            patch_force(points, patch, law, NotRelaxing{}, force, scratch, range);
+            patch_force<Scalar>(points, patch, law, NotRelaxing{}, force, scratch, range);
           } else {
             const Relaxing relaxing{&laws.prony[row], &scratch};
-            patch_force(points, patch, law, relaxing, force, scratch, range);
+            patch_force<Scalar>(points, patch, law, relaxing, force, scratch, range);
           }
         },
         laws.elastic[row]);
@@ -204,7 +230,12 @@ void internal_force(const PointBlocks& points, const PointLaws& laws, const Noda
   {
 #pragma omp for schedule(dynamic)
     for (std::int64_t b = 0; b < blocks; ++b) {
-      block_force(points, points.blocks[static_cast<std::size_t>(b)], laws, parameters, scratch);
+      const Block& block = points.blocks[static_cast<std::size_t>(b)];
+      if (points.precision() == Precision::single_precision) {
+        block_force<float>(points, block, laws, parameters, scratch);
+      } else {
+        block_force<double>(points, block, laws, parameters, scratch);
+      }
     }
 #pragma omp for schedule(static)
     for (std::int64_t a = 0; a < nodes; ++a) {

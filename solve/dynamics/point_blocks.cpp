@@ -2,6 +2,7 @@
 #include "solve/dynamics/point_blocks.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 namespace brainshift::solve {
@@ -25,7 +26,7 @@ std::int64_t pairs_of(const Patch& patch, const ShapeRows& rows, const std::vect
 
 /// Copies the shape functions of a block's points, with its nodes numbered 0, 1, ... in the order of the nodes.
 void append_block(PointBlocks& out, const ShapeRows& rows, const std::vector<std::int32_t>& order, Block block,
-                  std::vector<std::int32_t>& slot_of_node) {
+                  Precision precision, std::vector<std::int32_t>& slot_of_node) {
   const std::int32_t first = out.patches[static_cast<std::size_t>(block.first_patch)].first_point;
   const std::int32_t last = out.patches[static_cast<std::size_t>(block.last_patch - 1)].last_point;
   std::vector<std::int32_t> nodes;
@@ -47,8 +48,16 @@ void append_block(PointBlocks& out, const ShapeRows& rows, const std::vector<std
       const auto node = static_cast<std::size_t>(rows.node[static_cast<std::size_t>(pair)]);
       out.pair_slot.push_back(static_cast<std::uint16_t>(slot_of_node[node]));
     }
-    out.pair_derivative.insert(out.pair_derivative.end(), rows.derivative.begin() + 3 * rows.begin[p],
-                               rows.derivative.begin() + 3 * rows.begin[p + 1]);
+    const std::span<const double> derivative =
+        std::span(rows.derivative)
+            .subspan(3 * static_cast<std::size_t>(rows.begin[p]),
+                     3 * (static_cast<std::size_t>(rows.begin[p + 1] - rows.begin[p])));
+    if (precision == Precision::single_precision) {
+      std::transform(derivative.begin(), derivative.end(), std::back_inserter(out.pair_single),
+                     [](double d) { return static_cast<float>(d); });
+    } else {
+      out.pair_derivative.insert(out.pair_derivative.end(), derivative.begin(), derivative.end());
+    }
     out.pair_begin.push_back(static_cast<std::int64_t>(out.pair_slot.size()));
   }
   out.blocks.push_back(block);
@@ -71,12 +80,16 @@ void list_slots_of_nodes(PointBlocks& out, std::size_t nodes) {
 }  // namespace
 
 PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows, std::span<const std::int32_t> material,
-                         std::size_t nodes, const PressurePatches& patched) {
+                         std::size_t nodes, const PressurePatches& patched, Precision precision) {
   const std::vector<std::int32_t>& order = patched.order;
   PointBlocks out;
   out.pair_begin.push_back(0);
   out.pair_slot.reserve(rows.node.size());
-  out.pair_derivative.reserve(rows.derivative.size());
+  if (precision == Precision::single_precision) {
+    out.pair_single.reserve(rows.derivative.size());
+  } else {
+    out.pair_derivative.reserve(rows.derivative.size());
+  }
   for (const std::int32_t p : order) {
     out.volume.push_back(points.volume[static_cast<std::size_t>(p)]);
   }
@@ -98,14 +111,14 @@ PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows,
     const std::int32_t first_point = out.patches[static_cast<std::size_t>(block.first_patch)].first_point;
     const bool full = patch.last_point - first_point > points_per_block || pairs + more > pairs_per_block;
     if (full && block.last_patch > block.first_patch) {
-      append_block(out, rows, order, block, slot_of_node);
+      append_block(out, rows, order, block, precision, slot_of_node);
       block.first_patch = i;
       pairs = 0;
     }
     block.last_patch = i + 1;
     pairs += more;
   }
-  append_block(out, rows, order, block, slot_of_node);
+  append_block(out, rows, order, block, precision, slot_of_node);
   list_slots_of_nodes(out, nodes);
   return out;
 }

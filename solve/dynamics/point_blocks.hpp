@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
+#include "solve/dynamics/precision.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
 #include "solve/shape/shape_functions.hpp"
@@ -34,7 +36,8 @@ struct PointBlocks {
   std::vector<double> mode;              ///< (points × 4) pressure modes, orthonormal in Σ w over a patch
   std::vector<std::int64_t> pair_begin;  ///< (points + 1)
   std::vector<std::uint16_t> pair_slot;  ///< one a (point, node) pair: local node of the block
-  std::vector<double> pair_derivative;   ///< (pairs × 3) ∂φ_a/∂X_J, 1/mm
+  std::vector<double> pair_derivative;   ///< (pairs × 3) ∂φ_a/∂X_J, 1/mm; empty in single precision
+  std::vector<float> pair_single;        ///< the same in single precision; empty in double
   std::vector<std::int32_t> slot_node;   ///< one a slot: node
   std::vector<std::int64_t> node_begin;  ///< (nodes + 1) offsets into node_slot
   std::vector<std::int32_t> node_slot;   ///< the slots of a node, in block order
@@ -53,15 +56,25 @@ struct PointBlocks {
   Eigen::Map<const Eigen::Vector4d> modes_of(std::int32_t point) const {
     return Eigen::Map<const Eigen::Vector4d>(mode.data() + 4 * static_cast<std::size_t>(point));
   }
-  /// (support × 3) derivatives of a point's shape functions.
-  const double* derivatives_of(std::int32_t point) const {
-    return pair_derivative.data() + 3 * pair_begin[static_cast<std::size_t>(point)];
+  Precision precision() const {
+    return pair_single.empty() ? Precision::double_precision : Precision::single_precision;
+  }
+  /// (support × 3) derivatives of a point's shape functions; Scalar is that of precision().
+  template <class Scalar>
+  const Scalar* derivatives_of(std::int32_t point) const {
+    const std::int64_t offset = 3 * pair_begin[static_cast<std::size_t>(point)];
+    if constexpr (std::is_same_v<Scalar, float>) {
+      return pair_single.data() + offset;
+    } else {
+      return pair_derivative.data() + offset;
+    }
   }
 };
 
 /// Lays out points and their shape functions, in the order of the patches. material: row of the material table, one a
 /// point.
 PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows, std::span<const std::int32_t> material,
-                         std::size_t nodes, const PressurePatches& patches);
+                         std::size_t nodes, const PressurePatches& patches,
+                         Precision precision = Precision::double_precision);
 
 }  // namespace brainshift::solve

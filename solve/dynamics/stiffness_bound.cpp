@@ -12,12 +12,16 @@ namespace brainshift::solve {
 
 namespace {
 
-Eigen::Map<const Eigen::Matrix3Xd> derivatives(const PointBlocks& points, std::int32_t point) {
-  return {points.derivatives_of(point), 3, static_cast<Eigen::Index>(points.support_size(point))};
+Eigen::Matrix3Xd derivatives(const PointBlocks& points, std::int32_t point) {
+  const auto nodes = static_cast<Eigen::Index>(points.support_size(point));
+  if (points.precision() == Precision::single_precision) {
+    return Eigen::Map<const Eigen::Matrix3Xf>(points.derivatives_of<float>(point), 3, nodes).cast<double>();
+  }
+  return Eigen::Map<const Eigen::Matrix3Xd>(points.derivatives_of<double>(point), 3, nodes);
 }
 
 /// ‖Σ_b B_b ⊗ B_b / |B_b|‖, the largest eigenvalue.
-double weighted_norm(const Eigen::Map<const Eigen::Matrix3Xd>& b) {
+double weighted_norm(const Eigen::Matrix3Xd& b) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (Eigen::Index a = 0; a < b.cols(); ++a) {
     const double norm = b.col(a).norm();

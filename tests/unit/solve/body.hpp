@@ -17,6 +17,7 @@ struct BodyOptions {
   double nodes_per_patch = 6;  ///< 0: single points
   int points_per_cell = 8;
   bool plane_stress = false;
+  Precision precision = Precision::double_precision;
 };
 
 /// A cloud with cells and materials, and all that internal_force() needs. Of two materials the second has the end at
@@ -89,7 +90,7 @@ struct Body {
     const ShapeFunctions shape(cloud.positions, cloud.spacing,
                                {.basis = options.basis, .planar = is_planar(cells.kind)});
     return point_blocks(where, shape.evaluate(where.positions, true), material, cloud.size(),
-                        pressure_patches(where.positions, share, material, options.nodes_per_patch));
+                        pressure_patches(where.positions, share, material, options.nodes_per_patch), options.precision);
   }
 };
 

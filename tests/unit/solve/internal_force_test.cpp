@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "solve/dynamics/patch_dilatation.hpp"
+#include "solve/dynamics/stiffness_bound.hpp"
 #include "tests/unit/solve/body.hpp"
 #include "tests/unit/solve/material_cases.hpp"
 
@@ -117,6 +118,31 @@ TEST_P(InternalForce, IsTheSameBitForBitForAnyNumberOfThreads) {
   EXPECT_EQ(body.force(u), one);
   EXPECT_EQ(body.energy(u), energy_of_one);
   omp_set_num_threads(threads);
+}
+
+/// What is kept in single precision is off by its rounding and no more.
+TEST(SinglePrecision, IsNearDouble) {
+  for (const Material& material : {every_law.front(), every_law.back()}) {
+    const auto body = [&](Precision precision) {
+      return Body{irregular_box(6, side, 0.3), box_cells(4, side), {material}, BodyOptions{.precision = precision}};
+    };
+    Body kept_double = body(Precision::double_precision), kept_single = body(Precision::single_precision);
+    EXPECT_TRUE(kept_single.points.pair_derivative.empty());
+    const NodalVectors u = kept_double.random_parameters(0.8), expected = kept_double.force(u);
+    const NodalVectors f = kept_single.force(u);
+    double difference = 0;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      difference = std::max(difference, std::abs(f[i] - expected[i]));
+    }
+    EXPECT_GT(difference, 0);
+    EXPECT_LE(difference, 1e-5 * largest(expected)) << name_of(material);
+    const std::vector<double> bound = stiffness_bound(kept_single.points, kept_single.laws, kept_single.scratch);
+    const std::vector<double> expected_bound =
+        stiffness_bound(kept_double.points, kept_double.laws, kept_double.scratch);
+    for (std::size_t a = 0; a < bound.size(); ++a) {
+      EXPECT_NEAR(bound[a], expected_bound[a], 1e-5 * expected_bound[a]);
+    }
+  }
 }
 
 /// The projection takes energy of the dilatation away (Bessel), none of one that is uniform.
