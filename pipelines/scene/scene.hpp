@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "discretise/discretise.hpp"
+#include "pipelines/scene/tradeoff_lists.hpp"
 #include "register/registration.hpp"
 #include "segmentation/segment.hpp"
 #include "solve/load/craniotomy_load.hpp"
@@ -105,6 +106,7 @@ struct Scene {
   std::optional<Load> load;
   std::optional<Contact> contact;
   std::optional<std::filesystem::path> landmarks;
+  std::optional<TradeoffLists> tradeoff;
   segmentation::SegmentOptions segment;  ///< brain_labels and skull_label are filled in from tissues and image
   discretise::DiscretiseOptions discretise;
   CraniotomyRefinement refinement;

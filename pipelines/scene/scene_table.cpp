@@ -252,6 +252,48 @@ Element register_element() {
            command(StageId::registration)}};
 }
 
+/// The values of a setting: each must be one that the setting's own option takes.
+Option<Scene> values_of(const TradeoffSetting& setting) {
+  const auto access = [setting](auto& scene) -> auto& {
+    return (*scene.tradeoff).*setting.list;
+  };
+  Option<Scene> option =
+      text<Scene>(setting.name, access, "values of " + std::string(setting.element) + "." + setting.name);
+  option.allowed = "values of that option, separated by blanks or commas";
+  option.set = [=](Scene& scene, const std::string& words) {
+    const Option<Scene>* listed = find_option(find_element(setting.element)->options, setting.name);
+    const std::vector<std::string> values = split_words(words);
+    for (const std::string& value : values) {
+      if (Scene scratch; !listed->set(scratch, value)) {
+        return false;
+      }
+    }
+    access(scene) = words;
+    return !values.empty();
+  };
+  return option;
+}
+
+Element tradeoff_element() {
+  Element element{"tradeoff",
+                  "What the command tradeoff tries: all combinations of these values.",
+                  true,
+                  [](const Scene& s) { return s.tradeoff.has_value(); },
+                  [](Scene& s) {
+                    if (!s.tradeoff) {
+                      s.tradeoff.emplace();
+                    }
+                  },
+                  {}};
+  for (const TradeoffSetting& setting : tradeoff_settings) {
+    element.options.push_back(values_of(setting));
+  }
+  element.options.push_back(number<Scene>("reference_nodes", MEMBER(tradeoff->reference_nodes),
+                                          {.low = 20, .high = 10000000}, "",
+                                          "of the much finer solution that they are measured against"));
+  return element;
+}
+
 std::vector<Element> make_elements() {
   std::vector<Element> elements = {image_element()};
   for (Element& element : load_elements()) {
@@ -283,6 +325,7 @@ std::vector<Element> make_elements() {
   elements.push_back(solve_element());
   elements.push_back(register_element());
   elements.push_back({"report", "The page of pictures.", false, always, nothing, {command(StageId::report)}});
+  elements.push_back(tradeoff_element());
   return elements;
 }
 

@@ -12,6 +12,18 @@ bool Range::holds(double value) const {
   return std::isfinite(value) && above && below;
 }
 
+std::vector<std::string> split_words(std::string_view text) {
+  constexpr std::string_view separators = " ,\t\n";
+  std::vector<std::string> words;
+  std::size_t begin = 0;
+  while ((begin = text.find_first_not_of(separators, begin)) != std::string_view::npos) {
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+    words.emplace_back(text.substr(begin, end - begin));
+    begin = end;
+  }
+  return words;
+}
+
 std::optional<std::vector<std::pair<double, double>>> read_number_pairs(std::string_view text) {
   std::vector<std::pair<double, double>> pairs;
   if (text.find_first_not_of(" \t\n") == std::string_view::npos) {

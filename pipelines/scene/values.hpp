@@ -46,19 +46,19 @@ std::string write_number(T value) {
   return {text, result.ptr};
 }
 
+/// Words separated by blanks or commas.
+std::vector<std::string> split_words(std::string_view text);
+
 /// Numbers separated by blanks or commas; empty on failure.
 template <class T>
 std::optional<std::vector<T>> read_numbers(std::string_view text, const Range& range) {
   std::vector<T> values;
-  std::size_t begin = 0;
-  while ((begin = text.find_first_not_of(" ,\t\n", begin)) != std::string_view::npos) {
-    const std::size_t end = std::min(text.find_first_of(" ,\t\n", begin), text.size());
-    const auto value = read_number<T>(text.substr(begin, end - begin), range);
+  for (const std::string& word : split_words(text)) {
+    const auto value = read_number<T>(word, range);
     if (!value) {
       return std::nullopt;
     }
     values.push_back(*value);
-    begin = end;
   }
   return values;
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "pipelines/report/plot.hpp"
 
 namespace brainshift::verification {
 
@@ -23,18 +24,8 @@ struct Figure {
   bool holds() const { return !(most && !(ours <= *most)) && !(least && !(ours >= *least)); }
 };
 
-/// Points joined by straight lines, in a plot.
-struct Series {
-  std::string name;
-  std::vector<double> x, y;
-};
-
-struct Plot {
-  std::string file;  ///< without .png
-  std::string title, x_label, y_label;
-  std::vector<Series> series;
-  bool logarithmic = false;  ///< both axes
-};
+using pipelines::Plot;
+using pipelines::Series;
 
 struct Outcome {
   std::vector<Figure> figures;
@@ -59,8 +50,5 @@ struct Row {
 };
 std::string markdown_table(const std::vector<Row>& rows);
 std::string csv_table(const std::vector<Row>& rows);
-
-/// Draws a plot to folder/file.png.
-void draw(const std::filesystem::path& folder, const Plot& plot);
 
 }  // namespace brainshift::verification

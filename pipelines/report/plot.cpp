@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/report/plot.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,14 +10,10 @@
 #include <stdexcept>
 
 #include "pipelines/report/canvas.hpp"
-#include "tests/verification/figures.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::pipelines {
 
 namespace {
-
-using pipelines::Canvas;
-using pipelines::Colour;
 
 constexpr int width = 900, height = 560, left = 100, right = 30, top = 60, bottom = 70;
 constexpr std::array<Colour, 6> colours = {
@@ -69,27 +67,27 @@ void draw_axes(Canvas& canvas, const Axis& x, const Axis& y, const Plot& plot) {
   for (const double tick : x.ticks()) {
     const double px = left + x.share(tick) * (width - left - right);
     draw_line(canvas, {px, top}, {px, height - bottom}, 1, grid);
-    draw_text(canvas, {px, height - bottom + 16}, number(tick), {.size = 14, .anchor = pipelines::Anchor::centre});
+    draw_text(canvas, {px, height - bottom + 16}, number(tick), {.size = 14, .anchor = Anchor::centre});
   }
   for (const double tick : y.ticks()) {
     const double py = height - bottom - y.share(tick) * (height - top - bottom);
     draw_line(canvas, {left, py}, {width - right, py}, 1, grid);
-    draw_text(canvas, {left - 8.0, py}, number(tick), {.size = 14, .anchor = pipelines::Anchor::right});
+    draw_text(canvas, {left - 8.0, py}, number(tick), {.size = 14, .anchor = Anchor::right});
   }
-  draw_line(canvas, {left, top}, {left, height - bottom}, 1.5, pipelines::colour::ink);
-  draw_line(canvas, {left, height - bottom}, {width - right, height - bottom}, 1.5, pipelines::colour::ink);
-  draw_text(canvas, {width / 2.0, 22}, plot.title, {.size = 18, .anchor = pipelines::Anchor::centre, .bold = true});
-  draw_text(canvas, {width / 2.0, height - 22.0}, plot.x_label, {.size = 16, .anchor = pipelines::Anchor::centre});
+  draw_line(canvas, {left, top}, {left, height - bottom}, 1.5, colour::ink);
+  draw_line(canvas, {left, height - bottom}, {width - right, height - bottom}, 1.5, colour::ink);
+  draw_text(canvas, {width / 2.0, 22}, plot.title, {.size = 18, .anchor = Anchor::centre, .bold = true});
+  draw_text(canvas, {width / 2.0, height - 22.0}, plot.x_label, {.size = 16, .anchor = Anchor::centre});
   draw_text(canvas, {10, 44}, plot.y_label, {.size = 16});
 }
 
 void draw_series(Canvas& canvas, const Axis& x, const Axis& y, const Series& series, const Colour& colour, int row) {
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     const Eigen::Vector2d here = place(x, y, series.x[i], series.y[i]);
-    if (i > 0) {
+    if (i > 0 && series.joined) {
       draw_line(canvas, place(x, y, series.x[i - 1], series.y[i - 1]), here, 2, colour);
     }
-    if (series.x.size() < 40) {
+    if (series.x.size() < 40 || !series.joined) {
       draw_line(canvas, here, here, 7, colour);
     }
   }
@@ -106,7 +104,7 @@ void draw(const std::filesystem::path& folder, const Plot& plot) {
     std::for_each(s.x.begin(), s.x.end(), [&x](double v) { x.include(v); });
     std::for_each(s.y.begin(), s.y.end(), [&y](double v) { y.include(v); });
   }
-  Canvas canvas(width, height, pipelines::colour::white);
+  Canvas canvas(width, height, colour::white);
   draw_axes(canvas, x, y, plot);
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     draw_series(canvas, x, y, plot.series[i], colours[i % colours.size()], static_cast<int>(i));
@@ -119,4 +117,4 @@ void draw(const std::filesystem::path& folder, const Plot& plot) {
   }
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::pipelines
