@@ -179,9 +179,24 @@ struct Placed {
   std::size_t capped = 0;
 };
 
-/// Splits the cells from..to; the points of each come by level.
+void check_affordable(std::size_t points, const AdaptiveRule& rule) {
+  constexpr std::size_t most = 3'000'000;
+  if (points > most) {
+    throw std::invalid_argument("adaptive integration to " + std::to_string(rule.tolerance) + ", cells split " +
+                                std::to_string(rule.depth) + " times at most, takes more than " + std::to_string(most) +
+                                " points; take a larger tolerance, a smaller depth or fewer cells");
+  }
+}
+
+/// No fewer points than these: those of cells that are whole, split once.
+std::size_t fewest_points(const BackgroundCells& cells, const AdaptiveRule& rule) {
+  const std::size_t parts = is_planar(cells.kind) ? 4 : 8;
+  return (cells.size() - cells.cut_parts.size()) * parts * static_cast<std::size_t>(rule.points_per_part);
+}
+
+/// Splits the cells from..to; the points of each come by level. before: points of the cells before these.
 Placed place(const BackgroundCells& cells, std::size_t from, std::size_t to, const ShapeFunctions& shape,
-             const AdaptiveRule& rule) {
+             const AdaptiveRule& rule, std::size_t before) {
   struct Source {
     std::int32_t cell;
     std::size_t level, point;
@@ -199,6 +214,7 @@ Placed place(const BackgroundCells& cells, std::size_t from, std::size_t to, con
       append_parts(cells, region, rule.points_per_part, parts);
       begin.push_back(parts.regions.size());
     }
+    check_affordable(before + sources.size() + parts.points.size(), rule);
     parts.evaluate(shape);
     placed.rows.grown += parts.rows.grown;
     const std::vector<std::uint8_t> good = compare(whole, parts, begin, shape.nodes(), rule.tolerance);
@@ -235,15 +251,6 @@ Placed place(const BackgroundCells& cells, std::size_t from, std::size_t to, con
     append_row(level.rows, s.point, placed.rows);
   }
   return placed;
-}
-
-void check_affordable(std::size_t points, const AdaptiveRule& rule) {
-  constexpr std::size_t most = 3'000'000;
-  if (points > most) {
-    throw std::invalid_argument("adaptive integration to " + std::to_string(rule.tolerance) + ", cells split " +
-                                std::to_string(rule.depth) + " times at most, takes more than " + std::to_string(most) +
-                                " points; take a larger tolerance, a smaller depth or fewer cells");
-  }
 }
 
 /// The rows of the points that are left, those of the moved ones new. Gives the batches' memory back as it goes.
@@ -287,19 +294,19 @@ void check(CellKind kind, const AdaptiveRule& rule) {
 AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunctions& shape, const AdaptiveRule& rule,
                                const LabelMap* labels, const std::vector<std::int32_t>& tissues) {
   check(cells.kind, rule);
+  check_affordable(fewest_points(cells, rule), rule);
   constexpr std::size_t cells_per_batch = 256;  // of which the rows of all levels are in memory
   AdaptivePoints result;
   std::vector<WeightedPoint> points;
   std::vector<double> full;
   std::vector<ShapeRows> batches;
   for (std::size_t from = 0; from < cells.size(); from += cells_per_batch) {
-    Placed batch = place(cells, from, std::min(from + cells_per_batch, cells.size()), shape, rule);
+    Placed batch = place(cells, from, std::min(from + cells_per_batch, cells.size()), shape, rule, points.size());
     points.insert(points.end(), batch.points.begin(), batch.points.end());
     full.insert(full.end(), batch.full.begin(), batch.full.end());
     result.points.cell.insert(result.points.cell.end(), batch.cell.begin(), batch.cell.end());
     result.capped += batch.capped;
     batches.push_back(std::move(batch.rows));
-    check_affordable(points.size(), rule);
   }
   result.points.positions.resize(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i) {
