@@ -125,7 +125,8 @@ void add_curve(const solve::Model& model, const Method& method, const Tolerances
   };
   add("not adaptive, 1 point a triangle: ", computed(model, method, 0, 1));
   add("not adaptive, 3 points a triangle: ", plain);
-  Series largest{method.name + ", largest", {}, {}}, mean{method.name + ", mean", {}, {}};
+  const std::string line = method.basis == Basis::linear ? "published, " : "default, ";
+  Series largest{line + "largest", {}, {}}, mean{line + "mean", {}, {}};
   for (const double tolerance : tolerances.compared) {
     const solve::SolveResult result = computed(model, method, tolerance);
     const Differences d = apart(result, reference);
@@ -165,7 +166,7 @@ Outcome adaptive_integration(bool small) {
   table.outcome.plots.push_back(
       {"adaptive_integration",
        "Slice of a brain, " + std::to_string(model.cloud.size()) + " nodes: difference from the finest solution",
-       "integration tolerance τ", "difference, mm", series, true});
+       "integration tolerance", "difference, mm", series, true});
   return table.outcome;
 }
 
