@@ -217,7 +217,6 @@ TEST(AdaptivePoints, AreTheSameForAnyNumberOfThreads) {
 TEST(AdaptivePoints, RefuseMorePointsThanMemoryHolds) {
   const NodeCloud cloud = test::irregular_box(4, side);
   EXPECT_THROW(adaptive({"too many cells", cloud, test::box_cells(73, side)}, 0.1), std::invalid_argument);
-  EXPECT_THROW(adaptive({"too deep", cloud, test::box_cells(4, side)}, 1e-9, 6), std::invalid_argument);
 }
 
 TEST(AdaptivePoints, RefuseAToleranceOrDepthThatMeansNothing) {
