@@ -106,7 +106,8 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
     solve::write_craniotomy_csv(out / "load.csv", load);
   }
   solve::SolveOptions options = job.options;
-  options.points_per_cell = job.points_per_cell.value_or(solve::most_points_per_cell(model.cells.kind));
+  const bool adaptive = options.integration_tolerance > 0;
+  options.points_per_cell = job.points_per_cell.value_or(adaptive ? 1 : solve::most_points_per_cell(model.cells.kind));
   const solve::SolveResult result = solve::solve(model, options, progress);
   write_solution(out / "solution.vtu", result.solution);
   solve::write_history(out / "history.csv", result.history);
