@@ -125,16 +125,6 @@ bool Motion::look(const PointLaws& laws, std::span<const double> mass, double mo
   const PointState state = point_state(system_.points, laws, scratch);
   const HistoryRow latest = row(mass, state);
   largest_work_ = std::max(largest_work_, std::abs(latest.external_work));
-  if (getenv("KE") && largest_work_ > 0) {
-    static double m = 0;
-    if (latest.kinetic_energy / largest_work_ > m) {
-      m = latest.kinetic_energy / largest_work_;
-      FILE* f = fopen(getenv("KE"), "a");
-      fprintf(f, "%g w %g k %g s %g step %d\n", m, largest_work_, latest.kinetic_energy, latest.strain_energy,
-              result.steps);
-      fclose(f);
-    }
-  }
   if (const std::string fault = unsound(state, largest_difference(now, before)); !fault.empty()) {
     note_broken_point(state.smallest_jacobian);
     fail(fault, latest, broken_ ? *broken_ : restless_node(last_steps()));

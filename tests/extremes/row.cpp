@@ -84,6 +84,8 @@ Ending run(const solve::Model& model, const solve::SolveOptions& options) {
     ending.exit = 2;
   }
   ending.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::fprintf(stderr, "  %zu nodes, %d steps, exit %d, %.1f s\n", model.cloud.size(), ending.result.measures.steps,
+               ending.exit, ending.seconds);
   return ending;
 }
 

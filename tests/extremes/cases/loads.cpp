@@ -88,7 +88,7 @@ std::vector<Row> rotation(bool small) {
   solve::SolveOptions options;
   options.tolerance = 1e-4;
   options.load_steps = 2000;
-  options.max_steps = 200000;
+  options.max_steps = 20000;
   const Ending ending = run(model, options);
   double peak = 0;
   for (const solve::HistoryRow& row : ending.result.history) {
