@@ -34,9 +34,8 @@ void check_size(const Mask& brain) {
   if (across < smallest || across > largest) {
     std::ostringstream text;
     text << "the brain is " << across << " mm across, where " << smallest << " to " << largest
-         << " mm are expected: are the image's lengths in metres, centimetres or micrometres? Voxels of "
-         << spacing.x() << " x " << spacing.y() << " x " << spacing.z()
-         << " mm are what its header says; correct it";
+         << " mm are expected: are the image's lengths in metres, centimetres or micrometres? Voxels of " << spacing.x()
+         << " x " << spacing.y() << " x " << spacing.z() << " mm are what its header says; correct it";
     throw std::invalid_argument(text.str());
   }
 }

@@ -27,6 +27,7 @@ const std::pair<const char*, Case> cases[] = {
     {"metres", metres},
     {"time_step", time_step},
     {"free_vibration", free_vibration},
+    {"precision", precision},
     {"loads", loads},
     {"rotation", rotation},
     {"rest", rest},

@@ -55,6 +55,7 @@ std::vector<Row> far_away(bool small);
 std::vector<Row> metres(bool small);
 std::vector<Row> time_step(bool small);
 std::vector<Row> free_vibration(bool small);
+std::vector<Row> precision(bool small);
 std::vector<Row> loads(bool small);
 std::vector<Row> rotation(bool small);
 std::vector<Row> rest(bool small);
