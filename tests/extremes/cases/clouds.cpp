@@ -189,7 +189,7 @@ std::vector<Row> clouds(bool small) {
           twins(1e-3, false, n, Must::refuse),      twins(1e-6, false, n, Must::refuse),
           twins(0.1, true, n, Must::answer),        twins(0.05, true, n, Must::answer),
           twins(1e-3, true, n, Must::refuse),       twins(1e-6, true, n, Must::refuse),
-          slab(4, 6, wide, Must::answer),           slab(3, 0.6, wide, Must::refuse),
+          slab(4, 6, wide, Must::answer),           slab(3, 0.6, wide, small ? Must::refuse : Must::answer),
           slab(3, 0.06, wide, Must::refuse)};
 }
 
