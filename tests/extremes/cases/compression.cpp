@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A cylinder with bonded faces to a fifth and a tenth of its height, and a cube whose sides are free to half: below
-// 0.44 (Biot) its uniform state is unstable, and no longer the answer.
+// A cylinder with bonded faces to a fifth and a tenth of its height, and a cube whose sides are free to half: its
+// uniform state is stable down to 0.44 (Biot).
 #include <algorithm>
 #include <cmath>
 
