@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <sstream>
 #include <stdexcept>
 
 #include "segmentation/check_input.hpp"
@@ -14,12 +15,38 @@
 namespace brainshift::segmentation {
 namespace {
 
+// Lengths in metres make a brain of a fifth of a millimetre, and everything after this would go on in earnest.
+void check_size(const Mask& brain) {
+  constexpr double smallest = 20, largest = 500;  // mm
+  const Eigen::Vector3d& spacing = brain.geometry.spacing;
+  Eigen::Array3i low = brain.geometry.size, high = Eigen::Array3i::Zero();
+  for (int k = 0; k < brain.geometry.size.z(); ++k) {
+    for (int j = 0; j < brain.geometry.size.y(); ++j) {
+      for (int i = 0; i < brain.geometry.size.x(); ++i) {
+        if (brain.at(i, j, k) != 0) {
+          low = low.min(Eigen::Array3i(i, j, k));
+          high = high.max(Eigen::Array3i(i, j, k) + 1);
+        }
+      }
+    }
+  }
+  const double across = ((high - low).cast<double>() * spacing.array()).maxCoeff();
+  if (across < smallest || across > largest) {
+    std::ostringstream text;
+    text << "the brain is " << across << " mm across, where " << smallest << " to " << largest
+         << " mm are expected: are the image's lengths in metres, centimetres or micrometres? Voxels of " << spacing.x()
+         << " x " << spacing.y() << " x " << spacing.z() << " mm are what its header says; correct it";
+    throw std::invalid_argument(text.str());
+  }
+}
+
 // The brain as one body. Throws when there is none, or when the image cuts it off.
 Mask brain_body(const Mask& tissue) {
   if (count(tissue) == 0) {
     throw std::invalid_argument("no voxel is brain: the mask, or what the brain's labels name, is empty");
   }
   Mask body = holes_filled(largest_component(tissue));
+  check_size(body);
   if (touches_border(body)) {
     throw std::invalid_argument(
         "the brain touches the image's border, so its surface cannot be closed; pad the images by a few voxels of 0");

@@ -3,9 +3,12 @@
 
 #include <Eigen/SVD>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "discretise/neighbours/neighbour_distance.hpp"
 
 namespace brainshift::solve {
 
@@ -61,10 +64,27 @@ void check_plane(const Model& model) {
   }
 }
 
+/// Nodes in nearly one place have nearly the same shape functions: their difference strains nothing, so it never comes
+/// to rest.
+void check_apart(const OrderedCloud& cloud) {
+  constexpr double least = 0.01;  // of the spacing
+  const NearestNeighbours nearest = nearest_neighbours(cloud.positions, 1);
+  for (std::size_t a = 0; a < nearest.distance.size(); ++a) {
+    if (nearest.distance[a] < least * cloud.spacing[a]) {
+      std::ostringstream text;
+      text << "nodes " << cloud.original[a] << " and " << cloud.original[static_cast<std::size_t>(nearest.index[a])]
+           << " lie only " << nearest.distance[a] << " mm apart, where the spacing is " << cloud.spacing[a]
+           << " mm; remove one of them";
+      throw std::invalid_argument(text.str());
+    }
+  }
+}
+
 }  // namespace
 
 void check_model(const Model& model, const OrderedCloud& cloud, Dynamics dynamics) {
   check_plane(model);
+  check_apart(cloud);
   if (dynamics == Dynamics::relaxation) {
     check_held(cloud, model.plane, model.skull.has_value());
   }

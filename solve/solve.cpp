@@ -176,6 +176,10 @@ SolveResult solve(const Model& model, const SolveOptions& given, const Progress&
           : march(system, materials.prony, physical_mass(blocks, materials.density), options, progress);
 
   result.failure = stepped.failure;
+  if (stepped.fault) {
+    result.failure += ' ';
+    result.failure += describe(*stepped.fault, {blocks, laws, cloud, points.positions, points.label, patches.order});
+  }
   result.history = std::move(stepped.history);
   constexpr double newton = 1e-6;  // µN to N
   result.solution = {model.cloud.positions, nodal_displacement(nodal_rows, stepped.parameters, cloud.original),

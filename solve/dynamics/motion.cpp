@@ -12,28 +12,27 @@ namespace {
 constexpr double energy_unit = 1e-6;  // g mm²/s² to mJ
 constexpr double newton = 1e-6;       // µN to N
 
-/// One sentence when the state is not sound: displacements that are no longer finite, a point that turned inside out;
-/// else empty. moved: largest |û⁺ − û| of the last step.
-std::string unsound(const PointState& state, double moved, int step, double fraction) {
-  if (std::isfinite(moved) && state.smallest_jacobian > 0) {
-    return {};
+/// An undamped motion holds at most what was put in, and its energy is known to a few percent.
+constexpr double most_motion = 2;
+
+/// What is wrong with the state of the points; empty: nothing. moved: largest |û⁺ − û| of the last step.
+std::string unsound(const PointState& state, double moved) {
+  if (!std::isfinite(moved)) {
+    return "displacements are no longer finite";
   }
-  std::ostringstream text;
-  text << "unstable at step " << step << " with " << 100 * fraction << " % of the load: ";
-  if (std::isfinite(moved)) {
+  if (!(state.smallest_jacobian > 0)) {
+    std::ostringstream text;
     text << "an integration point turned inside out (J = " << state.smallest_jacobian << ")";
-  } else {
-    text << "displacements are no longer finite";
+    return text.str();
   }
-  text << "; the load is too large for this cloud, or a material too soft beside its neighbour";
-  return text.str();
+  return {};
 }
 
 std::string unbalanced(const HistoryRow& row) {
   std::ostringstream text;
-  text << "unstable at step " << row.step << ", " << row.time << " s: the work of " << row.external_work
-       << " mJ has become " << row.strain_energy << " mJ of strain, " << row.kinetic_energy << " mJ of motion and "
-       << row.dissipated_energy << " mJ in the damping, which is not the same; take a smaller time step";
+  text << "the work of " << row.external_work << " mJ has become " << row.strain_energy << " mJ of strain, "
+       << row.kinetic_energy << " mJ of motion and " << row.dissipated_energy
+       << " mJ in the damping, which is not the same, most of all";
   return text.str();
 }
 
@@ -108,6 +107,7 @@ void Motion::add_energies(std::span<const double> mass, double alpha, double bet
 bool Motion::squeezed() {
   constexpr double much = 0.8;
   const double smallest = jacobian_range(scratch).smallest;
+  note_broken_point(smallest);
   if (smallest >= much * squeezed_to_) {
     return false;
   }
@@ -115,17 +115,26 @@ bool Motion::squeezed() {
   return true;
 }
 
+void Motion::note_broken_point(double smallest_jacobian) {
+  if (!(smallest_jacobian > 0) && !broken_) {
+    broken_ = broken_point(system_.points, scratch, last_steps());
+  }
+}
+
 bool Motion::look(const PointLaws& laws, std::span<const double> mass, double most_imbalance) {
   const PointState state = point_state(system_.points, laws, scratch);
   const HistoryRow latest = row(mass, state);
-  result.failure = unsound(state, largest_difference(now, before), result.steps, fraction_);
-  if (result.failure.empty() && imbalance(latest) > most_imbalance) {
-    result.failure = unbalanced(latest);
+  largest_work_ = std::max(largest_work_, std::abs(latest.external_work));
+  if (const std::string fault = unsound(state, largest_difference(now, before)); !fault.empty()) {
+    note_broken_point(state.smallest_jacobian);
+    fail(fault, latest, broken_ ? *broken_ : restless_node(last_steps()));
+  } else if (imbalance(latest) > most_imbalance || latest.kinetic_energy > most_motion * largest_work_) {
+    fail(unbalanced(latest), latest, restless_node(last_steps()));
   }
-  if (!result.failure.empty()) {
-    result.unstable = true;
+  if (result.unstable) {
     return false;
   }
+  broken_.reset();
   result.state = state;
   result.fraction = fraction_;
   squeezed_to_ = state.smallest_jacobian;
@@ -137,6 +146,17 @@ bool Motion::look(const PointLaws& laws, std::span<const double> mass, double mo
     next_snapshot_ += snapshot_every_;
   }
   return true;
+}
+
+void Motion::fail(const std::string& why, const HistoryRow& latest, const Fault& fault) {
+  std::ostringstream text;
+  text << "unstable at step " << result.steps << " (time " << latest.time << ") with " << 100 * fraction_
+       << " % of the load: " << why;
+  result.failure = text.str();
+  result.unstable = true;
+  result.fault = fault;
+  result.fault->fast =
+      !result.history.empty() && result.history.back().kinetic_energy > result.history.back().strain_energy;
 }
 
 /// The velocity at the last force is that over the steps on its two sides.

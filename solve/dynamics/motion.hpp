@@ -25,11 +25,12 @@ class Motion {
   void weigh(std::span<const double> mass);
 
   /// True when the smallest J has fallen by a fifth since last asked and answered so: the body may have stiffened.
+  /// Notes where a point turned inside out first.
   bool squeezed();
 
   /// Keeps the state and adds a row to the history when the state is sound, else says in result.failure why it is not.
   /// most_imbalance: of the work and what became of it, over the largest of them so far; infinite: not looked at.
-  /// Returns whether it is sound.
+  /// Unsound, too, is a motion with more energy than was put in. Returns whether it is sound.
   bool look(const PointLaws& laws, std::span<const double> mass, double most_imbalance);
 
   /// The result, with the last state that was kept.
@@ -43,6 +44,9 @@ class Motion {
   double time = 0;
 
  private:
+  LastSteps last_steps() const { return {now, before, next}; }
+  void note_broken_point(double smallest_jacobian);
+  void fail(const std::string& why, const HistoryRow& row, const Fault& fault);
   void add_energies(std::span<const double> mass, double alpha, double beta, double fraction);
   HistoryRow row(std::span<const double> mass, const PointState& state) const;
   double imbalance(const HistoryRow& row);
@@ -59,8 +63,10 @@ class Motion {
   double damping_work_ = 0;  // over the last step
   double external_work_ = 0;
   double dissipated_ = 0;
-  double largest_energy_ = 0;  // mJ
-  double squeezed_to_ = 1;     // J
+  double largest_energy_ = 0;    // mJ
+  double largest_work_ = 0;      // mJ
+  std::optional<Fault> broken_;  // the first point that turned inside out since the last sound state
+  double squeezed_to_ = 1;       // J
   int snapshot_every_;
   int next_snapshot_;
 };

@@ -49,4 +49,9 @@ inline double largest_difference(const NodalVectors& a, const NodalVectors& b) {
   return largest;
 }
 
+/// Largest |component|.
+inline double largest_component(const NodalVectors& v) {
+  return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())).lpNorm<Eigen::Infinity>();
+}
+
 }  // namespace brainshift::solve

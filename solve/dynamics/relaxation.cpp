@@ -16,6 +16,7 @@ namespace {
 
 constexpr int window = 20;           // steps between looks at the state
 constexpr int recent_windows = 4;    // that the error bound looks back on
+constexpr double open_part = 0.02;    // of the largest displacement: the error that may be left, whatever the tolerance
 constexpr double mass_margin = 1.1;  // stiffness may grow by this before the masses are made anew
 
 /// α of all steps. It stays the same: nodes in contact rest where a step's push and their way back cancel, which moves
@@ -56,7 +57,8 @@ class Relaxation {
       if (result.steps % window == 0) {
         look();
         report_progress(progress);
-        if (motion_.time >= 1 && bound_ <= options_.tolerance) {
+        if (motion_.time >= 1 && bound_ <= tolerance()) {
+          check_collapse();
           return finish();
         }
       }
@@ -64,8 +66,10 @@ class Relaxation {
     if (result.failure.empty()) {
       std::ostringstream text;
       text << "not converged after " << result.steps << " steps: the error bound is " << bound_ << " mm, wanted "
-           << options_.tolerance << " mm; allow more steps or a larger tolerance";
+           << tolerance() << " mm; allow more steps or a larger tolerance; it moves most";
       result.failure = text.str();
+      result.fault = restless_node({motion_.now, motion_.before, motion_.next});
+      result.fault->explained = true;
     }
     return finish();
   }
@@ -83,6 +87,20 @@ class Relaxation {
     }
   }
 
+  /// At rest, but not where the body would be: its tissue cannot lose so much volume.
+  void check_collapse() {
+    SteppingResult& result = motion_.result;
+    if (result.state.collapsed == 0) {
+      return;
+    }
+    std::ostringstream text;
+    text << result.state.collapsed
+         << " integration points of nearly incompressible tissue have lost about half of their volume (least J = "
+         << result.state.smallest_jacobian << "), which is an error of too few nodes, not to be trusted; worst";
+    result.failure = text.str();
+    result.fault = broken_point(system_.points, motion_.scratch, {motion_.now, motion_.before, motion_.next});
+  }
+
   /// Once a window: is the state sound, how far is it from rest, how fast does it get there?
   void look() {
     if (!motion_.look(system_.laws, mass_, std::numeric_limits<double>::infinity())) {
@@ -90,6 +108,7 @@ class Relaxation {
     }
     estimate_lowest_eigenvalue();
     estimate_error(largest_difference(motion_.now, motion_.before));
+    farthest_ = std::max(farthest_, largest_component(motion_.now));
     HistoryRow& row = motion_.result.history.back();
     row.residual = residual();
     row.error_bound = bound_;
@@ -128,6 +147,11 @@ class Relaxation {
     }
   }
 
+  /// The bound that is wanted, mm: of a small load's answer not more than a small part is left open.
+  double tolerance() const {
+    return farthest_ > 0 ? std::min(options_.tolerance, open_part * farthest_) : options_.tolerance;
+  }
+
   /// What still accelerates, over the internal force.
   double residual() const {
     const Motion& m = motion_;
@@ -161,7 +185,7 @@ class Relaxation {
     double done = 0.3 * motion_.time;
     if (std::isfinite(bound_)) {
       text << ", error bound " << bound_ << " mm";
-      const double decades = std::log10(std::max(bound_ / options_.tolerance, 1.0));
+      const double decades = std::log10(std::max(bound_ / tolerance(), 1.0));
       done = 1 - 0.7 * std::min(decades / 3, 1.0);
     }
     report(progress, done, text.str());
@@ -184,6 +208,7 @@ class Relaxation {
   double mass_scale_ = 1;
   double lowest_ = 1e-4;  // A_0: a guess until there are increments
   double bound_ = std::numeric_limits<double>::infinity();
+  double farthest_ = 0;  // largest |û| on the way, mm
   int load_steps_;
 };
 
@@ -193,6 +218,9 @@ SteppingResult relax(const System& system, const SolveOptions& options, const Pr
   SteppingResult result = Relaxation(system, options, false).run(progress);
   if (result.unstable) {
     result = Relaxation(system, options, true).run(progress);
+    if (result.unstable) {
+      result.failure = "tried twice, the second time with the smallest steps: " + result.failure;
+    }
   }
   return result;
 }

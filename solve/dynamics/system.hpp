@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "solve/boundary/contact.hpp"
 #include "solve/boundary/essential_conditions.hpp"
 #include "solve/boundary/load_curve.hpp"
+#include "solve/dynamics/diagnosis.hpp"
 #include "solve/dynamics/internal_force.hpp"
 #include "solve/solve.hpp"
 
@@ -34,11 +37,12 @@ struct SteppingResult {
   std::vector<ParameterSnapshot> snapshots;
   PointState state;
   int steps = 0;
-  double fraction = 0;       ///< of the load, at the last good state
-  double error_bound = 0;    ///< mm; relaxation only
-  double critical_step = 0;  ///< s, of the undeformed body; transient only
-  bool unstable = false;     ///< failed because it blew up, not for want of steps
-  std::string failure;       ///< empty when all went well
+  double fraction = 0;         ///< of the load, at the last good state
+  double error_bound = 0;      ///< mm; relaxation only
+  double critical_step = 0;    ///< s, of the undeformed body; transient only
+  bool unstable = false;       ///< failed because it blew up, not for want of steps
+  std::string failure;         ///< empty when all went well
+  std::optional<Fault> fault;  ///< where, when something went wrong at a place
 };
 
 }  // namespace brainshift::solve

@@ -106,8 +106,18 @@ class Transient {
     }
   }
 
+  std::int32_t stiffest_node(const std::vector<double>& bound) const {
+    std::int32_t stiffest = 0;
+    for (std::size_t a = 0; a < bound.size(); ++a) {
+      const auto s = static_cast<std::size_t>(stiffest);
+      stiffest = bound[a] * mass_[s] > bound[s] * mass_[a] ? static_cast<std::int32_t>(a) : stiffest;
+    }
+    return stiffest;
+  }
+
   void follow_stiffness() {
-    const double critical = critical_now();
+    const std::vector<double> bound = stiffness_bound(system_.points, system_.laws, motion_.scratch);
+    const double critical = critical_step(bound, mass_);
     const bool given = options_.time_step > 0, softer = 2 * step_ < safety_ * critical;
     if (motion_.time >= system_.curve.duration() - step_ / 2 || (step_ <= critical && (given || !softer))) {
       return;
@@ -116,8 +126,9 @@ class Transient {
       std::ostringstream text;
       text << "at step " << motion_.result.steps << ", " << motion_.time
            << " s, the body has become so stiff that the critical step is " << critical
-           << " s, below the given one; leave it out (0) or take a smaller one";
+           << " s, below the given one; leave it out (0) or take a smaller one; it is stiffest";
       motion_.result.failure = text.str();
+      motion_.result.fault = Fault{.node = stiffest_node(bound), .explained = true};
       return;
     }
     set_step(std::min(safety_ * critical, 2 * step_));
@@ -143,6 +154,9 @@ SteppingResult march(const System& system, const std::vector<std::vector<PronyTe
   SteppingResult result = Transient(system, prony, mass, options, safety).run(progress);
   if (result.unstable && options.time_step == 0) {
     result = Transient(system, prony, mass, options, safety / 2).run(progress);
+    if (result.unstable) {
+      result.failure = "tried twice, the second time with half the step: " + result.failure;
+    }
   }
   return result;
 }

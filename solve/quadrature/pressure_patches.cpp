@@ -9,10 +9,21 @@ namespace brainshift::solve {
 
 namespace {
 
+constexpr double tie = 1e-9;  // of a sum: so far rounding does not decide
+
+/// Positions in steps of a hundred millionth of the body. Points of regular cells lie level in rows, and it must not be
+/// rounding that decides on which side of a cut they come: the patches would depend on where the body lies.
+Points without_rounding(const Points& positions) {
+  constexpr double steps = 1e8;
+  const Eigen::RowVector3d low = positions.colwise().minCoeff();
+  const double extent = (positions.colwise().maxCoeff() - low).maxCoeff();
+  return ((positions.rowwise() - low) * (steps / (extent > 0 ? extent : 1))).array().round();
+}
+
 class Halving {
  public:
   Halving(const Points& positions, std::span<const double> share, double nodes_per_patch, PressurePatches& out)
-      : positions_(positions), share_(share), nodes_per_patch_(nodes_per_patch), out_(out) {}
+      : positions_(without_rounding(positions)), share_(share), nodes_per_patch_(nodes_per_patch), out_(out) {}
 
   void split(std::span<std::int32_t> points) {
     const double total = nodes_of(points);
@@ -25,7 +36,7 @@ class Halving {
     const double wanted = total * std::floor(parts / 2) / parts;
     std::size_t cut = 0;
     double before = 0;
-    while (cut + 1 < points.size() && (cut == 0 || before + share_at(points[cut]) / 2 < wanted)) {
+    while (cut + 1 < points.size() && (cut == 0 || before + share_at(points[cut]) / 2 < wanted - tie * total)) {
       before += share_at(points[cut++]);
     }
     split(points.first(cut));
@@ -46,15 +57,17 @@ class Halving {
       low = low.cwiseMin(positions_.row(p));
       high = high.cwiseMax(positions_.row(p));
     }
-    Eigen::Index axis = 0;
-    (high - low).maxCoeff(&axis);
+    constexpr double level = 4;  // steps
+    const Eigen::RowVector3d side = high - low;
+    Eigen::Index axis = side[1] > side[0] + level ? 1 : 0;
+    axis = side[2] > side[axis] + level ? 2 : axis;
     std::sort(points.begin(), points.end(), [this, axis](std::int32_t a, std::int32_t b) {
       const double xa = positions_(a, axis), xb = positions_(b, axis);
       return xa != xb ? xa < xb : a < b;
     });
   }
 
-  const Points& positions_;
+  const Points positions_;
   std::span<const double> share_;
   double nodes_per_patch_;
   PressurePatches& out_;

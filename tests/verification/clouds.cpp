@@ -119,8 +119,9 @@ discretise::Refinement refinement_about(const Grading& grading, double radius) {
   return refinement;
 }
 
-NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned seed) {
-  Darts darts(least_distance, seed);
+NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned seed,
+                    std::function<double(const Eigen::Vector3d&)> fineness) {
+  Darts darts(least_distance, seed, std::move(fineness));
   for (int corner = 0; corner < 8; ++corner) {
     darts.put({(corner & 1) ? size[0] : 0, (corner & 2) ? size[1] : 0, (corner & 4) ? size[2] : 0}, true);
   }

@@ -68,8 +68,9 @@ struct Grading {
 NodeCloud cylinder_cloud(double radius, double height, double least_distance, unsigned seed,
                          const Grading& grading = {});
 
-/// The box from 0 to size.
-NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned seed);
+/// The box from 0 to size. fineness: as of Darts.
+NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned seed,
+                    std::function<double(const Eigen::Vector3d&)> fineness = {});
 
 /// The rectangle from 0 to (width, height) in the plane.
 NodeCloud rectangle_cloud(double width, double height, double least_distance, unsigned seed);

@@ -204,5 +204,20 @@ TEST(Segment, InputThatDoesNotFitIsRefusedInASentence) {
   EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(lacking, bad); }, {"edge length"}));
 }
 
+TEST(Segment, RefusesABrainWhoseLengthsAreInMetres) {
+  SegmentInput input;
+  const auto grid =
+      grid_around(Eigen::Vector3d::Zero(), 40, Eigen::Vector3d::Constant(0.004), Eigen::Matrix3d::Identity());
+  input.labels = ball(grid, Eigen::Vector3d::Zero(), 0.07);
+  SegmentOptions options;
+  options.brain_labels = {1};
+  try {
+    segment(input, options);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("metres"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace brainshift::test

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/dynamics/diagnosis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr double much_softer = 100;  // ratio of shear moduli from which on a neighbour is worth naming
+
+/// Calls use(point, node) for all pairs of a patch's points and the nodes they see, patch by patch.
+template <class Use>
+void for_each_pair(const PointBlocks& points, const Use& use) {
+  for (const Block& block : points.blocks) {
+    for (std::int32_t i = block.first_patch; i < block.last_patch; ++i) {
+      const Patch& patch = points.patches[static_cast<std::size_t>(i)];
+      for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+        for (const std::uint16_t slot : points.slots_of(p)) {
+          use(patch, p, points.slot_node[static_cast<std::size_t>(block.first_slot) + slot]);
+        }
+      }
+    }
+  }
+}
+
+/// Cosine of the last two increments over these nodes; −1: they go there and back.
+double alignment(const std::vector<std::int32_t>& nodes, const LastSteps& steps) {
+  double product = 0, last = 0, earlier = 0;
+  for (const std::int32_t node : nodes) {
+    const auto a = static_cast<std::size_t>(node);
+    const Eigen::Vector4d now = at(steps.now, a) - at(steps.before, a);
+    const Eigen::Vector4d before = at(steps.before, a) - at(steps.earlier, a);
+    product += now.dot(before);
+    last += now.squaredNorm();
+    earlier += before.squaredNorm();
+  }
+  return product / std::sqrt(last * earlier);
+}
+
+bool swing(const std::vector<std::int32_t>& nodes, const LastSteps& steps) {
+  return alignment(nodes, steps) < -0.5;
+}
+
+/// The softest and the stiffest tissue that a node sees.
+struct Neighbours {
+  double softest = std::numeric_limits<double>::infinity(), stiffest = 0;  // shear modulus, Pa
+  std::int32_t soft_point = 0, stiff_point = 0;
+};
+
+Neighbours neighbours(const PointBlocks& points, const PointLaws& laws, std::int32_t node) {
+  Neighbours found;
+  for_each_pair(points, [&](const Patch& patch, std::int32_t point, std::int32_t seen) {
+    if (seen != node) {
+      return;
+    }
+    const double modulus = std::visit([](const auto& law) { return law.shear_modulus; },
+                                      laws.elastic[static_cast<std::size_t>(patch.material)]);
+    if (modulus < found.softest) {
+      found.softest = modulus;
+      found.soft_point = point;
+    }
+    if (modulus > found.stiffest) {
+      found.stiffest = modulus;
+      found.stiff_point = point;
+    }
+  });
+  return found;
+}
+
+std::string cause(const Fault& fault, std::int32_t node, const Surroundings& around) {
+  if (fault.swings) {
+    return "the step is too long for the stiffness there, the node swings there and back from step to step; take a "
+           "smaller time step";
+  }
+  const Neighbours n = neighbours(around.points, around.laws, node);
+  if (n.stiffest >= much_softer * n.softest) {
+    std::ostringstream text;
+    const auto tissue = [&](std::int32_t point) {
+      return around.tissue[static_cast<std::size_t>(around.placement[static_cast<std::size_t>(point)])];
+    };
+    text << "tissue " << tissue(n.soft_point) << " is " << n.stiffest / n.softest << " times softer than tissue "
+         << tissue(n.stiff_point) << " beside it; check the materials, or put more nodes there";
+    return text.str();
+  }
+  return fault.fast ? "the load comes too fast; spread it over more steps, or more time"
+                    : "the load is too large for the nodes there; put more nodes there, or take a smaller load";
+}
+
+}  // namespace
+
+Fault broken_point(const PointBlocks& points, const ForceScratch& scratch, const LastSteps& steps) {
+  const auto worst = std::min_element(scratch.jacobian.begin(), scratch.jacobian.end(),
+                                      [](double a, double b) { return a < b || (std::isnan(a) && !std::isnan(b)); });
+  Fault fault;
+  fault.point = static_cast<std::int32_t>(worst - scratch.jacobian.begin());
+  std::vector<std::int32_t> support;
+  for_each_pair(points, [&](const Patch&, std::int32_t point, std::int32_t node) {
+    if (point == fault.point) {
+      support.push_back(node);
+    }
+  });
+  fault.swings = swing(support, steps);
+  return fault;
+}
+
+Fault restless_node(const LastSteps& steps) {
+  Fault fault;
+  double most = -1;
+  for (std::size_t a = 0; a < steps.now.size() / 4; ++a) {
+    const double change = (at(steps.now, a) - 2 * at(steps.before, a) + at(steps.earlier, a)).norm();
+    if (!std::isfinite(change)) {
+      fault.node = static_cast<std::int32_t>(a);
+      return fault;
+    }
+    if (change > most) {
+      most = change;
+      fault.node = static_cast<std::int32_t>(a);
+    }
+  }
+  fault.swings = swing({fault.node}, steps);
+  return fault;
+}
+
+std::string describe(const Fault& fault, const Surroundings& around) {
+  std::int32_t node = fault.node;
+  std::ostringstream text;
+  const Eigen::IOFormat coordinates(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ") mm");
+  text << "at ";
+  if (fault.point >= 0) {
+    const auto i = static_cast<std::size_t>(around.placement[static_cast<std::size_t>(fault.point)]);
+    const Eigen::RowVector3d place = around.place.row(static_cast<Eigen::Index>(i));
+    Eigen::Index nearest = 0;
+    (around.cloud.positions.rowwise() - place).rowwise().squaredNorm().minCoeff(&nearest);
+    node = static_cast<std::int32_t>(nearest);
+    text << "the integration point " << place.format(coordinates) << ", tissue " << around.tissue[i] << ", next to ";
+  }
+  text << "node " << around.cloud.original[static_cast<std::size_t>(node)] << ", "
+       << around.cloud.positions.row(node).format(coordinates);
+  if (!fault.explained) {
+    text << "; likely cause: " << cause(fault, node, around);
+  }
+  return text.str();
+}
+
+}  // namespace brainshift::solve

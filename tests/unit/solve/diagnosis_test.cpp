@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "solve/dynamics/diagnosis.hpp"
+#include "tests/unit/solve/models.hpp"
+
+namespace brainshift::solve {
+namespace {
+
+constexpr double side = model_side;
+
+/// The node that a sentence names, after having found that its place is the cloud's.
+Eigen::Index named_node(const std::string& sentence, const NodeCloud& cloud) {
+  std::smatch found;
+  const std::regex pattern(R"(node (\d+), \((\S+), (\S+), (\S+)\) mm)");
+  if (!std::regex_search(sentence, found, pattern)) {
+    ADD_FAILURE() << sentence;
+    return 0;
+  }
+  const Eigen::Index node = std::stol(found[1]);
+  const Eigen::RowVector3d place(std::stod(found[2]), std::stod(found[3]), std::stod(found[4]));
+  EXPECT_LE((cloud.positions.row(node) - place).norm(), 1e-3) << sentence;
+  return node;
+}
+
+TEST(Diagnosis, NamesTheNodeNextToAPointThatTurnedInsideOut) {
+  const Model model = uniaxial(-0.5, 5);
+  const SolveResult result = solve(model, {});
+  ASSERT_NE(result.failure.find("likely cause: "), std::string::npos) << result.failure;
+  EXPECT_NE(result.failure.find("tried twice"), std::string::npos) << result.failure;
+  named_node(result.failure, model.cloud);
+  EXPECT_TRUE(result.solution.displacement.allFinite());
+  EXPECT_GT(result.measures.smallest_jacobian, 0);
+}
+
+TEST(Diagnosis, NamesTheSoftTissueBesideAStiffOne) {
+  Model model = uniaxial(-0.5, 5);
+  model.materials[2] = {3e6, 0.3, 1000};
+  model.materials[7] = {10, 0.3, 1000};
+  model.materials.erase(1);
+  for (std::size_t c = 0; c < model.cells.size(); ++c) {
+    model.cells.label[c] = model.cells.vertices(model.cells.connectivity[8 * c], 2) > 1 ? 2 : 7;
+  }
+  const SolveResult result = solve(model, {});
+  EXPECT_NE(result.failure.find("tissue 7 is 300000 times softer than tissue 2"), std::string::npos) << result.failure;
+  EXPECT_LE(model.cloud.positions(named_node(result.failure, model.cloud), 2), side / 2) << result.failure;
+}
+
+TEST(Diagnosis, NamesTheNodeThatIsNotYetAtRest) {
+  Model model = uniaxial(0.9, 4);
+  SolveOptions options;
+  options.max_steps = 420;
+  options.tolerance = 1e-9;
+  const SolveResult result = solve(model, options);
+  EXPECT_NE(result.failure.find("it moves most at node"), std::string::npos) << result.failure;
+  named_node(result.failure, model.cloud);
+}
+
+TEST(Diagnosis, FindsTheNodeThatSwingsFromStepToStep) {
+  NodalVectors now(40, 0.0), before(40, 0.0), earlier(40, 0.0);
+  for (std::size_t a = 0; a < 10; ++a) {
+    now[4 * a] = 3;  // all move evenly
+    before[4 * a] = 2;
+    earlier[4 * a] = 1;
+  }
+  now[4 * 7 + 1] = 0.5;
+  before[4 * 7 + 1] = -4;
+  earlier[4 * 7 + 1] = 0.4;
+  Fault fault = restless_node({now, before, earlier});
+  EXPECT_EQ(fault.node, 7);
+  EXPECT_TRUE(fault.swings);
+  before[4 * 7 + 1] = 0.45;
+  now[4 * 7 + 1] = 6;
+  fault = restless_node({now, before, earlier});
+  EXPECT_EQ(fault.node, 7);
+  EXPECT_FALSE(fault.swings);
+  now[4 * 3 + 2] = std::nan("");
+  EXPECT_EQ(restless_node({now, before, earlier}).node, 3);
+}
+
+TEST(Diagnosis, RefusesNodesNearlyInOnePlace) {
+  Model model = uniaxial(0.9, 4);
+  model.cloud.positions.row(21) = model.cloud.positions.row(22) + Eigen::RowVector3d(1e-3, 0, 0);
+  try {
+    solve(model, {});
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("mm apart"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Relaxation, AnswersASmallLoadInProportion) {
+  const auto answer = [](double load) {
+    Model model = uniaxial(1, 4);
+    for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+      if (model.cloud.positions(a, 2) > side - 1e-9) {
+        model.cloud.prescribed_displacement(a, 2) = -load;
+      }
+    }
+    return Points(solve(model, {}).solution.displacement / load);
+  };
+  EXPECT_LE((answer(1e-6) - answer(1e-3)).cwiseAbs().maxCoeff(), 0.01);
+}
+
+}  // namespace
+}  // namespace brainshift::solve
