@@ -16,7 +16,7 @@ namespace {
 
 constexpr int window = 20;           // steps between looks at the state
 constexpr int recent_windows = 4;    // that the error bound looks back on
-constexpr double open_part = 0.02;    // of the largest displacement: the error that may be left, whatever the tolerance
+constexpr double open_part = 0.02;   // of the largest displacement: the error that may be left, whatever the tolerance
 constexpr double mass_margin = 1.1;  // stiffness may grow by this before the masses are made anew
 
 /// α of all steps. It stays the same: nodes in contact rest where a step's push and their way back cancel, which moves
