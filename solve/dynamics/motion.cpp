@@ -162,6 +162,7 @@ double Motion::imbalance(const HistoryRow& row) {
 }
 
 SteppingResult Motion::finish() {
+  result.held = held();
   result.parameters = std::move(good_);
   result.reactions = std::move(good_reactions_);
   return std::move(result);

@@ -35,6 +35,13 @@ class Motion {
   /// The result, with the last state that was kept.
   SteppingResult finish();
 
+  HeldBytes held() const {
+    const std::size_t reactions = static_cast<std::size_t>(good_reactions_.size()) * sizeof(double);
+    return {.nodal_vectors = bytes(now) + bytes(before) + bytes(next) + bytes(force) + bytes(good_) + reactions +
+                             scratch.scratch_bytes(),
+            .viscosity = scratch.viscous_bytes()};
+  }
+
   /// û now and one step ago; after a step `next` is û two steps ago.
   NodalVectors now, before, next;
   NodalVectors force;    ///< f_int − f_ext at `before`, µN
