@@ -122,6 +122,7 @@ struct SolveMeasures {
   HeldBytes bytes;
   std::size_t region_nodes = 0;  ///< solved, those at the region's rim too; 0: no region was asked for
   double seconds_coarse = 0;     ///< of the coarse solution that chose the region
+  double coarse_error = 0;       ///< of it, largest next to the region's rim, mm: what the outside may be wrong by
 };
 
 struct SolveResult {

@@ -74,6 +74,7 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
   if (m.region_nodes > 0) {
     report.measures["region"] = {{"nodes", m.region_nodes},
                                  {"share", static_cast<double>(m.region_nodes) / static_cast<double>(m.nodes)},
+                                 {"coarse_error_mm", m.coarse_error},
                                  {"seconds_coarse", m.seconds_coarse}};
   }
   report.measures.erase(dynamics == solve::Dynamics::transient ? "error_bound_mm" : "critical_step_s");

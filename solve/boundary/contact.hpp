@@ -33,6 +33,7 @@ class Contact {
   };
   Measures measure(const NodalVectors& parameters) const;
 
+  const SignedDistance& skull() const { return skull_; }
   std::size_t held_bytes() const;
 
  private:

@@ -12,7 +12,7 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double smallest_pivot = 1e-10;  // of V M⁻¹ Vᵀ, relative to its largest
+constexpr double smallest_pivot = 1e-10;  // of V M⁻¹ Vᵀ, over its diagonal: masses may differ by any factor
 
 Eigen::VectorXd component_of(const NodalVectors& vectors, int axis) {
   using Stride = Eigen::InnerStride<4>;
@@ -88,8 +88,9 @@ void EssentialConditions::factorise(std::span<const double> mass) {
     const Eigen::SparseMatrix<double> system = c.shape * inverse.asDiagonal() * c.shape.transpose();
     c.factor = std::make_shared<Factor>(system);
     Eigen::Index worst = 0;
-    const Eigen::VectorXd pivots = c.factor->vectorD();
-    if (!(c.factor->info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot * pivots.maxCoeff())) {
+    const Eigen::VectorXd diagonal = c.factor->permutationP() * system.diagonal();
+    const Eigen::VectorXd pivots = c.factor->vectorD().cwiseQuotient(diagonal);
+    if (!(c.factor->info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot)) {
       const auto at = static_cast<std::size_t>(c.factor->permutationPinv().indices()[worst]);
       throw std::invalid_argument("the prescribed displacements contradict or repeat each other at node " +
                                   std::to_string(names_[static_cast<std::size_t>(c.node[at])]) +

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solve/prepare.hpp"
 #include "solve/shape/shape_functions.hpp"
 #include "solve/shape/support_search.hpp"
 
@@ -34,6 +35,25 @@ std::vector<std::int32_t> by_importance(const NodeCloud& cloud) {
     }
   }
   return order;
+}
+
+/// All free surface nodes of the cloud may touch the skull, moved by the coarse parameters: coarse nodes alone would
+/// let the surface between them through, and the body sink by tenths of a millimetre.
+void touch_with_whole_surface(const NodeCloud& cloud, const NodeCloud& coarse, const ShapeOptions& options,
+                              Prepared& prepared) {
+  std::vector<std::int32_t> surface, ordinal;
+  for (std::size_t a = 0; a < cloud.size(); ++a) {
+    const auto node = static_cast<std::int32_t>(a);
+    if (cloud.on_surface[a] != 0 && !is_prescribed(cloud, node)) {
+      ordinal.push_back(static_cast<std::int32_t>(surface.size()));
+      surface.push_back(node);
+    }
+  }
+  const Points positions = subset(cloud, surface).positions;
+  const NodeCloud ordered = subset(coarse, prepared.original);
+  const ShapeFunctions shape(ordered.positions, ordered.spacing, options);
+  SignedDistance skull = prepared.contact->skull();
+  prepared.contact.emplace(std::move(skull), positions, ordinal, shape.evaluate(positions, false));
 }
 
 }  // namespace
@@ -87,9 +107,15 @@ std::optional<Points> coarse_displacement(const Model& model, const SolveOptions
   SolveOptions options = given;
   options.region = 0;
   options.points_per_cell = 1;
+  options.shape = {.basis = Basis::linear, .derivatives = given.shape.derivatives};
   options.snapshot_every = 0;
   options.tolerance = std::max(given.tolerance, looser * given.region);
-  const SolveResult result = solve(coarse, options, progress);
+  SolveMeasures measures;
+  Prepared prepared = prepare(coarse, options, {}, measures, progress);
+  if (prepared.contact) {
+    touch_with_whole_surface(model.cloud, coarse.cloud, options.shape, prepared);
+  }
+  const SolveResult result = step(coarse, options, std::move(prepared), measures, progress);
   if (!result.failure.empty()) {
     return std::nullopt;
   }

@@ -16,9 +16,9 @@ std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud);
 /// Rows of the cloud, spacings and all.
 NodeCloud subset(const NodeCloud& cloud, const std::vector<std::int32_t>& nodes);
 
-/// The displacement at all nodes (n × 3) mm as a solution on the coarse nodes has it, their spacing doubled, the cells
-/// with one point each; prescribed components as prescribed. Empty when that cannot be solved: too few nodes, or not
-/// converged.
+/// The displacement at all nodes (n × 3) mm of the solution on the coarse nodes, their spacing doubled, with linear
+/// shape functions and one point a cell; prescribed components as prescribed. Empty when that cannot be solved: too few
+/// nodes, or not converged.
 std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress);
 
 }  // namespace brainshift::solve

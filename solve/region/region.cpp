@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "solve/prepare.hpp"
+#include "solve/quadrature/gauss_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/region/coarse.hpp"
 #include "solve/shape/support_search.hpp"
@@ -17,8 +18,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A cell is in the region when a node nearer to its centre than this part of its support radius moves enough.
-constexpr double margin = 0.5;
+/// A cell is in the region when a node nearer to its centre than this share of the node's support radius moves enough.
+constexpr double margin = 1;
+
+/// Next to the rim are the region's nodes that move by less than this many times the region.
+constexpr double next_to_rim = 2;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -51,15 +55,14 @@ struct Region {
 /// One a cell: whether it moves by more than the region, with a margin about it.
 std::vector<std::uint8_t> moving_cells(const BackgroundCells& cells, const SupportSearch& search,
                                        const Eigen::VectorXd& moved, double region) {
-  const IntegrationPoints centres = integration_points(cells, 1, nullptr, {});
-  std::vector<std::uint8_t> moving(cells.size(), 0);
+  std::vector<std::uint8_t> moving;
   std::vector<Supporter> near;
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    search.find(centres.positions.row(static_cast<Eigen::Index>(i)), margin, near);
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    const Eigen::Vector3d centre = corners_of(cells, cell).colwise().mean();
+    search.find(centre, margin, near);
     const bool moves =
         std::any_of(near.begin(), near.end(), [&](const Supporter& s) { return moved[s.node] > region; });
-    std::uint8_t& cell = moving[static_cast<std::size_t>(centres.cell[i])];
-    cell = moves ? 1 : cell;
+    moving.push_back(moves ? 1 : 0);
   }
   return moving;
 }
@@ -168,6 +171,18 @@ SolveResult on_whole_cloud(const Model& model, const Region& region, const Point
   return whole;
 }
 
+/// How wrong the coarse solution is where it can be seen: at the free nodes that move little, mm.
+double error_next_to_rim(const Region& region, const Points& displacement, const Points& coarse, double limit) {
+  double largest = 0;
+  for (std::size_t i = 0; i < region.nodes.size(); ++i) {
+    const Eigen::RowVector3d u = displacement.row(static_cast<Eigen::Index>(i));
+    if (region.rim[i] == 0 && u.norm() < next_to_rim * limit) {
+      largest = std::max(largest, (u - coarse.row(region.nodes[i])).norm());
+    }
+  }
+  return largest;
+}
+
 SolveResult solve_whole(const Model& model, SolveOptions options, double seconds_coarse, const Progress& progress) {
   options.region = 0;
   SolveResult result = solve(model, options, progress);
@@ -191,10 +206,11 @@ SolveResult solve_region(const Model& model, const SolveOptions& given, const Pr
   const auto setup = Clock::now();
   const Eigen::VectorXd moved = coarse->rowwise().norm();
   const Region region = choose(model, options, moved);
-  if (region.is_all_rim()) {
+  if (moved.maxCoeff() <= options.region || region.is_all_rim()) {
     std::ostringstream text;
     text << "the region of what moves by more than " << options.region << " mm is empty or too small to be solved: "
-         << "nothing moves by more than " << moved.maxCoeff() << " mm; ask for a smaller one, or 0 for the whole body";
+         << "the largest displacement is " << moved.maxCoeff()
+         << " mm; ask for a smaller region, or 0 for the whole body";
     throw std::invalid_argument(text.str());
   }
   if (!region.has_rim()) {
@@ -205,7 +221,12 @@ SolveResult solve_region(const Model& model, const SolveOptions& given, const Pr
   measures.seconds_coarse = seconds_coarse;
   Prepared prepared = prepare(part, options, region.rim, measures, progress);
   measures.seconds_setup = seconds_since(setup);
-  return on_whole_cloud(model, region, *coarse, step(part, options, std::move(prepared), measures, progress));
+  SolveResult solved = step(part, options, std::move(prepared), measures, progress);
+  solved.measures.coarse_error = error_next_to_rim(region, solved.solution.displacement, *coarse, options.region);
+  if (solved.measures.coarse_error > options.region) {
+    return solve_whole(model, given, seconds_since(start), progress);
+  }
+  return on_whole_cloud(model, region, *coarse, std::move(solved));
 }
 
 }  // namespace brainshift::solve
