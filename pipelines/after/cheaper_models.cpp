@@ -2,6 +2,7 @@
 #include "pipelines/after/cheaper_models.hpp"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 namespace brainshift::pipelines {
