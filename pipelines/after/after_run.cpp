@@ -68,19 +68,19 @@ Trial tried(const CheaperModel& cheaper, const SolveInput& input, const solve::S
   return trial;
 }
 
-std::string verdict(const Trial& trial, double within) {
+std::string verdict(const Trial& trial, bool left_out, double within) {
   std::ostringstream text;
   if (!trial.fault.empty()) {
-    text << "needed: without it there is no solution (" << trial.fault << ")";
+    text << "needed: else there is no solution (" << trial.fault << ")";
     return text.str();
   }
   const bool none = trial.largest < within;
   const std::string tolerance = write_number(within) + " mm";
-  text << (none ? "" : "needed: ") << "leaving it out changes the answer by at most " << rounded(trial.largest)
-       << " mm (95 %: " << rounded(trial.percentile_95) << "), " << (none ? "less than " : "not less than ")
-       << "the tolerance of " << tolerance << ", and "
+  text << (none ? "" : "needed: ") << (left_out ? "leaving it out" : "that") << " changes the answer by at most "
+       << rounded(trial.largest) << " mm (95 %: " << rounded(trial.percentile_95) << "), "
+       << (none ? "less than " : "not less than ") << "the tolerance of " << tolerance << ", and "
        << (trial.saved > 0 ? "saves " + rounded(trial.saved) : "costs " + rounded(-trial.saved)) << " s";
-  text << (none ? ": you can leave it out" : "");
+  text << (none ? (left_out ? ": you can leave it out" : ": you can take it") : "");
   return text.str();
 }
 
@@ -107,7 +107,7 @@ std::string explain_after(const Scene& scene, const fs::path& run, std::optional
       continue;
     }
     tell(cheaper.part + ": " + cheaper.change);
-    text << verdict(tried(cheaper, input, whole), limit) << "\n";
+    text << verdict(tried(cheaper, input, whole), cheaper.change == "left out", limit) << "\n";
   }
   return text.str();
 }
