@@ -53,7 +53,7 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
     c.multiplier = Eigen::VectorXd::Zero(c.prescribed.size());
   }
   if (nothing_prescribed()) {
-    names_ = {};
+    std::vector<std::int32_t>().swap(names_);  // and its memory
   }
 }
 

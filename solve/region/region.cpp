@@ -24,6 +24,10 @@ constexpr double margin = 1;
 /// Next to the rim are the region's nodes that move by less than this many times the region.
 constexpr double next_to_rim = 2;
 
+/// The coarse solution is trusted outside when it is wrong by less than this share of the region there: further out it
+/// may be a little more wrong than where that can be seen.
+constexpr double trusted = 0.75;
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -223,7 +227,7 @@ SolveResult solve_region(const Model& model, const SolveOptions& given, const Pr
   measures.seconds_setup = seconds_since(setup);
   SolveResult solved = step(part, options, std::move(prepared), measures, progress);
   solved.measures.coarse_error = error_next_to_rim(region, solved.solution.displacement, *coarse, options.region);
-  if (solved.measures.coarse_error > options.region) {
+  if (solved.measures.coarse_error > trusted * options.region) {
     return solve_whole(model, given, seconds_since(start), progress);
   }
   return on_whole_cloud(model, region, *coarse, std::move(solved));
