@@ -8,10 +8,22 @@
 namespace brainshift::pipelines {
 namespace {
 
-constexpr double pair_bytes = 26, node_row_bytes = 0, point_bytes = 72, node_bytes = 640, patch_bytes = 32;
-constexpr double condition_bytes = 1300, condition_node_bytes = 12, contact_bytes = 700, loaded_share = 0.1;
-constexpr double pair_time = 3, point_time = 120, node_time = 30, patch_time = 20, condition_time = 300;
-constexpr double contact_time = 150, viscous_time = 150, external_time = 5;
+// Bytes, from run.json of the demo's head (12,000 nodes, 75,750 points, 3.5 million pairs, 93 loaded nodes): shape
+// functions 104.5 MB, nodal vectors 13.2, essential conditions 0.30, contact 12.4 of which 10.8 are distances.
+constexpr double pair_bytes = 26;        // three doubles and a slot
+constexpr double node_row_bytes = 1500;  // shape functions at the node itself, and its slots
+constexpr double point_bytes = 72;       // F
+constexpr double node_bytes = 640;
+constexpr double patch_bytes = 32;  // four pressure modes a point
+constexpr double condition_bytes = 1700, condition_node_bytes = 12;
+constexpr double contact_bytes = 570;
+constexpr double loaded_share = 0.033;  // of the surface nodes
+
+// Nanoseconds of one core a step, from `bash tests/benchmark/parts.sh 8000 2` (50,500 points): 14.2 ms without any
+// part; pressure patches 0.73 ms more, contact 0.44, two Prony terms 3.0, gravity not to be measured. That of the
+// essential conditions and the division of the 14.2 ms are not measured, but guessed.
+constexpr double pair_time = 5, point_time = 50, node_time = 30;
+constexpr double patch_time = 14, contact_time = 180, viscous_time = 59, external_time = 1, condition_time = 300;
 
 /// Nodes on the surface of a ball of as many, a brain's folds having none of their own.
 double surface_nodes(double nodes) {
