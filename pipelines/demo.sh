@@ -3,7 +3,7 @@
 #
 # The main job on a real head, from a fresh Debian 12: installs what is missing, builds, runs, says where the report is.
 #
-#   bash pipelines/demo.sh [--out DIR] [--no-install]
+#   bash pipelines/demo.sh [--out DIR] [--preset fast|balanced|accurate] [--no-install]
 #
 # The head is the MRI "Colin 27" of Debian's mricron-data, with a simulated craniotomy. Where that package cannot be had,
 # a synthetic head takes its place.
@@ -12,9 +12,10 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 out=$root/demo
 install=yes
+preset=()
 
 usage() {
-  echo "usage: bash pipelines/demo.sh [--out DIR] [--no-install]"
+  echo "usage: bash pipelines/demo.sh [--out DIR] [--preset fast|balanced|accurate] [--no-install]"
 }
 
 while [ $# -gt 0 ]; do
@@ -22,6 +23,11 @@ while [ $# -gt 0 ]; do
     --out)
       [ $# -ge 2 ] || { usage >&2; exit 2; }
       out=$2
+      shift 2
+      ;;
+    --preset)
+      [ $# -ge 2 ] || { usage >&2; exit 2; }
+      preset=(--preset "$2")
       shift 2
       ;;
     --no-install)
@@ -50,11 +56,11 @@ mask=$(dpkg -L mricron-data 2>/dev/null | grep '/ch2bet\.nii\.gz$' || true)
 if [ -n "$head" ] && [ -r "$head" ] && [ -n "$mask" ] && [ -r "$mask" ]; then
   echo "The head: $head (a real MRI); the craniotomy on it is simulated."
   "$brainshift" run "$root/pipelines/scenes/colin27.xml" --out "$out" \
-    --set "image.t1=$head" --set "image.brain_mask=$mask"
+    --set "image.t1=$head" --set "image.brain_mask=$mask" "${preset[@]}"
 else
   echo "The head MRI of mricron-data is not there: a synthetic head takes its place."
   "$brainshift" phantom --out "$out/phantom"
-  "$brainshift" run "$out/phantom/scene.xml" --out "$out"
+  "$brainshift" run "$out/phantom/scene.xml" --out "$out" "${preset[@]}"
 fi
 
 echo

@@ -96,8 +96,8 @@ AdaptivePoints place_points(const Model& model, const ShapeFunctions& shape, con
   const LabelMap* labels = model.labels ? &*model.labels : nullptr;
   const std::vector<std::int32_t> tissues = tissues_of(model.materials);
   if (options.integration_tolerance > 0) {
-    return adaptive_points(model.cells, shape, options.integration_tolerance, options.integration_depth, labels,
-                           tissues);
+    const AdaptiveRule rule{options.integration_tolerance, options.integration_depth, options.points_per_cell};
+    return adaptive_points(model.cells, shape, rule, labels, tissues);
   }
   AdaptivePoints plain{integration_points(model.cells, options.points_per_cell, labels, tissues), {}};
   plain.rows = shape.evaluate(plain.points.positions, true);

@@ -50,7 +50,7 @@ struct SolveOptions {
   double integration_tolerance = 0;                   ///< τ of adaptive_points(); 0: points_per_cell in every cell
   int integration_depth = 3;                          ///< of adaptive_points()
   Precision precision = Precision::double_precision;  ///< of the derivatives that stepping reads
-  int points_per_cell = 8;  ///< hexahedra 1 or 8, tetrahedra 1 or 4, quadrilaterals 1 or 4, triangles 1 or 3
+  int points_per_cell = 8;  ///< or part of one: hexahedra 1 or 8, tetrahedra and quads 1 or 4, triangles 1 or 3
   Dynamics dynamics = Dynamics::relaxation;
   double tolerance = 0.01;  ///< relaxation: stop when the bound of the remaining error is below this, mm
   int load_steps = 400;     ///< relaxation: steps over the load's curve

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "pipelines/commands/commands.hpp"
+#include "pipelines/phantom/cylinder.hpp"
 #include "pipelines/phantom/phantom.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 
@@ -10,21 +11,32 @@ namespace {
 
 struct PhantomArguments {
   PhantomOptions options;
+  std::string shape = "head";
   std::filesystem::path out;
 };
 
 }  // namespace
 
 void add_phantom_command(CLI::App& program, const Settings& settings) {
-  CLI::App* command = program.add_subcommand("phantom", "A synthetic head with known answers and its scene.");
+  CLI::App* command =
+      program.add_subcommand("phantom", "A synthetic head with known answers, or a cylinder, and its scene.");
   auto arguments = std::make_shared<PhantomArguments>();
+  command
+      ->add_option("--shape", arguments->shape, "a head, or a soft cylinder pressed on a plate, which takes no option")
+      ->check(CLI::IsMember({"head", "cylinder"}))
+      ->type_name("head | cylinder")
+      ->capture_default_str();
   command->add_option("--size", arguments->options.size, "voxels along each axis")->capture_default_str();
   command->add_option("--spacing", arguments->options.spacing, "of the voxels, mm")->capture_default_str();
   command->add_option("--seed", arguments->options.seed, "of the texture")->capture_default_str();
   command->add_option("--out", arguments->out, "folder for the head")->required()->type_name("DIR");
   command->callback([arguments, &settings] {
     StageFolder folder(arguments->out, *settings.interruption);
-    write_phantom(arguments->options, folder.path());
+    if (arguments->shape == "cylinder") {
+      write_cylinder(folder.path());
+    } else {
+      write_phantom(arguments->options, folder.path());
+    }
     folder.merge();
   });
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include "pipelines/commands/commands.hpp"
@@ -6,6 +8,8 @@
 #include "pipelines/runner/run.hpp"
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
+#include "pipelines/scene/presets.hpp"
+#include "pipelines/tradeoff/to_tolerance.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -14,6 +18,9 @@ struct RunArguments {
   std::filesystem::path scene;
   RunOptions options;
   std::string until = "report";
+  std::string preset;
+  std::optional<double> tolerance;
+  std::optional<std::size_t> most_nodes;
   std::vector<std::string> overrides;
 };
 
@@ -32,15 +39,41 @@ void show(Console& console, const RunEvent& event) {
   }
 }
 
+void tell(const Level& level, bool quiet) {
+  if (quiet) {
+    return;
+  }
+  std::fprintf(stderr, "%zu nodes: ", level.nodes);
+  if (std::isfinite(level.estimate.percentile_95)) {
+    std::fprintf(stderr, "estimated error %.3g mm (95 %% of the brain; largest %.3g mm)\n",
+                 level.estimate.percentile_95, level.estimate.largest);
+  } else {
+    std::fprintf(stderr, "the first solution\n");
+  }
+}
+
+/// The sentence of what did not converge, or was not reached; else empty.
+std::string run_checked(const Scene& scene, const RunArguments& arguments, const Settings& settings) {
+  Console console(settings.quiet, settings.verbose);
+  const RunObserver observer = [&](const RunEvent& event) { show(console, event); };
+  if (!arguments.tolerance) {
+    return run(scene, arguments.options, *settings.interruption, observer).failure;
+  }
+  const ToleranceOutcome outcome =
+      run_to_tolerance(scene, {*arguments.tolerance, arguments.most_nodes}, arguments.options, *settings.interruption,
+                       observer, [&](const Level& level) { tell(level, settings.quiet); });
+  return outcome.run.failure.empty() ? outcome.missed : outcome.run.failure;
+}
+
 void run_scene(RunArguments arguments, const Settings& settings) {
-  const Scene scene = parse_scene(arguments.scene, arguments.overrides);
+  std::vector<std::string> overrides = preset_overrides(arguments.preset);
+  overrides.insert(overrides.end(), arguments.overrides.begin(), arguments.overrides.end());
+  const Scene scene = parse_scene(arguments.scene, overrides);
   check_scene(scene);
   arguments.options.until = stage_from_name(arguments.until);
-  Console console(settings.quiet, settings.verbose);
-  const RunOutcome outcome =
-      run(scene, arguments.options, *settings.interruption, [&](const RunEvent& event) { show(console, event); });
-  if (!outcome.failure.empty()) {
-    throw NotConverged(outcome.failure);
+  const std::string failure = run_checked(scene, arguments, settings);
+  if (!failure.empty()) {
+    throw NotConverged(failure);
   }
 }
 
@@ -56,6 +89,20 @@ void add_run_command(CLI::App& program, const Settings& settings) {
   command->add_option("--until", arguments->until, "the last stage to run")
       ->type_name("segment | discretise | solve | register | report");
   command->add_flag("--force", arguments->options.force, "run stages that have not changed, too");
+  auto* preset =
+      command->add_option("--preset", arguments->preset, "settings of the scene that suit each other: " + preset_help())
+          ->type_name(preset_names());
+  auto* tolerance =
+      command
+          ->add_option(
+              "--tolerance", arguments->tolerance,
+              "error of the displacement, mm, 95 % of the brain: spacing, basis, integration and stop are chosen, "
+              "and the brain is solved on finer clouds until the estimated error is below it")
+          ->type_name("MM")
+          ->excludes(preset);
+  command->add_option("--max-nodes", arguments->most_nodes, "that --tolerance may take; absent: what fits the memory")
+      ->type_name("N")
+      ->needs(tolerance);
   command->add_option("--set", arguments->overrides, "override an option of the scene, as segment.edge_length=4")
       ->type_name("PATH=VALUE")
       ->take_all()

@@ -13,7 +13,8 @@ namespace {
 struct TradeoffArguments {
   std::filesystem::path scene;
   std::filesystem::path out;
-  std::vector<std::string> overrides;
+  std::vector<std::string> lists;      ///< as overrides of the scene
+  std::vector<std::string> overrides;  ///< --set
 };
 
 void tell(std::size_t done, std::size_t all, const TradeoffPoint& point) {
@@ -31,7 +32,9 @@ void trade(const TradeoffArguments& arguments, const Settings& settings) {
       tell(done, all, point);
     }
   };
-  const Sweep result = sweep(arguments.scene, arguments.overrides, arguments.out, *settings.interruption, observer);
+  std::vector<std::string> overrides = arguments.overrides;
+  overrides.insert(overrides.end(), arguments.lists.begin(), arguments.lists.end());
+  const Sweep result = sweep(arguments.scene, overrides, arguments.out, *settings.interruption, observer);
   write_tradeoff(arguments.out, result);
   if (!settings.quiet) {
     std::cout << front_in_words(result, TradeoffTime::solve);
@@ -55,7 +58,7 @@ void add_tradeoff_command(CLI::App& program, const Settings& settings) {
         ->add_option_function<std::string>(
             flag,
             [arguments, name](const std::string& values) {
-              arguments->overrides.push_back("tradeoff." + name + "=" + values);
+              arguments->lists.push_back("tradeoff." + name + "=" + values);
             },
             help)
         ->type_name("VALUE,VALUE,...");

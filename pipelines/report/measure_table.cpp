@@ -31,6 +31,8 @@ constexpr Rule rules[] = {
      "distance of the brain's surface from the edge of its label, 95 % of the surface"},
     {"solve", "/solve/measures/error_bound_mm", "mm", -infinity, infinity, false, "",
      "bound of what further steps could still move a node"},
+    {"solve", "/solve/measures/estimated_error_95_mm", "mm", -infinity, infinity, false, "",
+     "estimated error of the displacement from the spacing of the nodes, 95 % of the brain"},
     {"solve", "/solve/measures/constraint_error_mm", "mm", -infinity, 0.05, false, "at most 0.05 mm",
      "largest miss of the measured displacement at a node of the opening"},
     {"solve", "/solve/measures/largest_penetration_mm", "mm", -infinity, 0.5, false, "at most 0.5 mm",

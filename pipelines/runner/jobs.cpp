@@ -106,7 +106,9 @@ SolveInput read_input(const SolveJob& job) {
         solve::prescribed_on_surface_nodes(model.cloud, *input.load, job.load->opening);
   }
   input.options = job.options;
-  input.options.points_per_cell = job.points_per_cell.value_or(solve::most_points_per_cell(model.cells.kind));
+  const bool adaptive = input.options.integration_tolerance > 0;
+  input.options.points_per_cell =
+      job.points_per_cell.value_or(adaptive ? 1 : solve::most_points_per_cell(model.cells.kind));
   return input;
 }
 

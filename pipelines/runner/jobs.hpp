@@ -35,7 +35,7 @@ struct SolveJob {
   std::optional<Load> load;       ///< absent: what the nodes prescribe; the forces of the nodes act in any case
   std::map<std::int32_t, solve::Material> materials;
   solve::SolveOptions options;         ///< but for points_per_cell
-  std::optional<int> points_per_cell;  ///< absent: the most that the cells take
+  std::optional<int> points_per_cell;  ///< absent: the most that the cells take; adaptive 1
   Loading loading;
   solve::Plane plane = solve::Plane::none;
 };

@@ -10,4 +10,7 @@ void reset_peak_memory();
 /// system does not say.
 double peak_memory_mb();
 
+/// Memory that can be had without swapping, MB; infinite where the system does not say.
+double available_memory_mb();
+
 }  // namespace brainshift::pipelines

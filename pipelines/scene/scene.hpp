@@ -111,7 +111,7 @@ struct Scene {
   discretise::DiscretiseOptions discretise;
   CraniotomyRefinement refinement;
   solve::SolveOptions solve;           ///< but for points_per_cell
-  std::optional<int> points_per_cell;  ///< absent: the most that the cells take
+  std::optional<int> points_per_cell;  ///< absent: the most that the cells take; adaptive 1
   Loading loading;
   registration::RegisterOptions registration;
   std::array<std::string, all_stages.size()> commands;  ///< external commands that replace stages; empty: our own stage

@@ -193,11 +193,11 @@ Element solve_element() {
                      std::vector<std::pair<std::string, std::optional<int>>>{
                          {"auto", std::nullopt}, {"1", 1}, {"3", 3}, {"4", 4}, {"8", 8}},
                      "integration points a cell: hexahedra 1 or 8 (auto), tetrahedra 1 or 4 (auto); planar cells: "
-                     "quadrilaterals 1 or 4 (auto), triangles 1 or 3 (auto)"),
-       number<Scene>(
-           "integration_tolerance", MEMBER(solve.integration_tolerance), not_negative, "",
-           "of adaptive integration, relative: cells are split until their parts agree with them to it, a point "
-           "in each part; 0: points_per_cell in every cell"),
+                     "quadrilaterals 1 or 4 (auto), triangles 1 or 3 (auto); in adaptive integration of each part of "
+                     "a cell, where auto is 1"),
+       number<Scene>("integration_tolerance", MEMBER(solve.integration_tolerance), not_negative, "",
+                     "of adaptive integration, relative: cells are split until their parts agree with them to it, "
+                     "points_per_cell in each part; 0: in every cell"),
        number<Scene>("integration_depth", MEMBER(solve.integration_depth), {.low = 1, .high = 6}, "",
                      "of adaptive integration: how often a cell may be split"),
        choice<Scene>(

@@ -16,8 +16,8 @@ std::vector<std::size_t> pareto_front(std::span<const CostAndError> points) {
   });
   double least = std::numeric_limits<double>::infinity();
   std::erase_if(order, [&](std::size_t i) {
-    const bool nearer = points[i].error < least;
-    least = std::min(least, points[i].error);
+    const bool nearer = points[i].error < 0.99 * least;
+    least = nearer ? points[i].error : least;
     return !nearer;
   });
   return order;

@@ -12,7 +12,8 @@ struct CostAndError {
   double error = 0;  ///< mm
 };
 
-/// The Pareto front: indices of those that no other is both as fast and as near as, in the order of their seconds.
+/// The Pareto front: indices of those that are nearer, by a hundredth of the error at least, than all that are faster;
+/// in the order of their seconds.
 std::vector<std::size_t> pareto_front(std::span<const CostAndError> points);
 
 }  // namespace brainshift::pipelines

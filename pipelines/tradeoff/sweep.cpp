@@ -103,7 +103,7 @@ class Sweeper {
     if (!is_active(StageId::registration, scene)) {
       return;
     }
-    const RunOutcome outcome = run(scene, {out_ / "run", StageId::report, false}, interruption_);
+    const RunOutcome outcome = run(scene, {out_ / "scene", StageId::report, false}, interruption_);
     if (!outcome.failure.empty()) {
       throw std::runtime_error("the scene with its own settings is " + outcome.failure);
     }

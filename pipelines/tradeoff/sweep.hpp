@@ -35,11 +35,11 @@ struct Sweep {
 /// Told after each point: how many are done, of how many, and the last one.
 using SweepObserver = std::function<void(std::size_t done, std::size_t all, const TradeoffPoint& point)>;
 
-/// Solves the scene with every choice of its lists and with the reference, one after the other, below `out`: reference/
-/// and run/ are folders of runs, points/NAME.json keeps what was measured. What is there already, made by the same
-/// version from the same scene and files, is not done again. A choice that cannot be solved is a point with a failure.
-/// overrides: of the scene, before the choice's own. Throws std::invalid_argument when the scene is at fault and
-/// std::runtime_error when the reference does not converge.
+/// Solves the scene with every choice of its lists and with the reference, one after the other, below `out`:
+/// reference/, scene/ (with its own settings) and run/ are folders of runs, points/NAME.json keeps what was measured.
+/// What is there already, made by the same version from the same scene and files, is not done again. A choice that
+/// cannot be solved is a point with a failure. overrides: of the scene, before the choice's own. Throws
+/// std::invalid_argument when the scene is at fault and std::runtime_error when the reference does not converge.
 Sweep sweep(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
             const std::filesystem::path& out, Interruption& interruption, const SweepObserver& observer);
 

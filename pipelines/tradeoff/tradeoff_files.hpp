@@ -11,7 +11,7 @@ namespace brainshift::pipelines {
 /// Which of the times a front is drawn over.
 enum class TradeoffTime : std::uint8_t { solve, whole };
 
-/// The points that no other is both as fast and as near as (95th percentile), as indices of sweep.points.
+/// The front of pareto_front() in seconds and 95th percentile, as indices of sweep.points; failures are left out.
 std::vector<std::size_t> front_of(const Sweep& sweep, TradeoffTime time);
 
 /// A sentence for each point on the front.

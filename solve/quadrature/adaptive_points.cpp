@@ -14,70 +14,87 @@ namespace brainshift::solve {
 
 namespace {
 
-/// A part of a cell with its one point.
-struct Region {
-  std::int32_t cell;
-  Corners corners;        ///< none: the inside part of an octant, which is not split
-  std::int32_t cut = -1;  ///< row of cut_parts of a whole cut cell
-  WeightedPoint point;
-  double full;          ///< volume of the region, not of its inside part
-  std::size_t level{};  ///< how often its cell was split
-  std::size_t row{};    ///< of its shape functions, among those of its level
-};
-
 WeightedPoint one_point(CellKind kind, const Corners& corners) {
   std::vector<WeightedPoint> points;
   gauss_points(kind, corners, 1, points);
   return points.front();
 }
 
-std::vector<Region> whole_cells(const BackgroundCells& cells) {
+/// A cell or a part of one, with its points.
+struct Region {
+  std::int32_t cell;
+  Corners corners;              ///< none: the inside part of an octant, which is not split
+  double fraction;              ///< of its volume that is inside
+  std::int32_t cut = -1;        ///< row of cut_parts of a whole cut cell
+  std::size_t first{}, last{};  ///< its points, among those of its level
+};
+
+/// Regions that were split equally often.
+struct Level {
   std::vector<Region> regions;
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    Region region{static_cast<std::int32_t>(cell), corners_of(cells, cell), -1, {}, 0};
-    region.point = one_point(cells.kind, region.corners);
-    region.full = region.point.volume;
-    region.point.volume *= cells.inside_fraction[cell];
-    region.cut = cells.cut_index.empty() ? -1 : cells.cut_index[cell];
-    if (region.cut >= 0) {
-      region.point = inside_point(cells.cut_parts[static_cast<std::size_t>(region.cut)]);
+  std::vector<WeightedPoint> points;
+  std::vector<double> full;  ///< volume that each point would have if its cell were not cut
+  ShapeRows rows;            ///< one a point
+
+  void add(Region region, const WeightedPoint& point, double volume) {
+    region.first = points.size();
+    points.push_back(point);
+    full.push_back(volume);
+    region.last = points.size();
+    regions.push_back(region);
+  }
+
+  void add(Region region, CellKind kind, int count) {
+    region.first = points.size();
+    gauss_points(kind, region.corners, count, points);
+    region.last = points.size();
+    for (std::size_t i = region.first; i < region.last; ++i) {
+      full.push_back(points[i].volume);
+      points[i].volume *= region.fraction;
     }
     regions.push_back(region);
   }
-  return regions;
+
+  void evaluate(const ShapeFunctions& shape) {
+    Points positions(static_cast<Eigen::Index>(points.size()), 3);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      positions.row(static_cast<Eigen::Index>(i)) = points[i].position;
+    }
+    rows = shape.evaluate(positions, true);
+  }
+};
+
+Level whole_cells(const BackgroundCells& cells, std::size_t from, std::size_t to, int count) {
+  Level level;
+  for (std::size_t cell = from; cell < to; ++cell) {
+    Region region{static_cast<std::int32_t>(cell), corners_of(cells, cell), cells.inside_fraction[cell]};
+    region.cut = cells.cut_index.empty() ? -1 : cells.cut_index[cell];
+    if (region.cut >= 0) {
+      level.add(region, inside_point(cells.cut_parts[static_cast<std::size_t>(region.cut)]), 0);
+    } else {
+      level.add(region, cells.kind, count);
+    }
+  }
+  return level;
 }
 
-void append_parts(const BackgroundCells& cells, const Region& region, std::vector<Region>& out) {
+void append_parts(const BackgroundCells& cells, const Region& region, int count, Level& out) {
   constexpr double nearly_whole = 1 - 1e-6;
-  const double fraction = region.cut < 0 ? region.point.volume / region.full : 1;
   int octant = 0;
   for (const Corners& corners : split_cell(cells.kind, region.corners)) {
-    Region part{region.cell, corners, -1, one_point(cells.kind, corners), 0};
-    part.full = part.point.volume;
-    part.point.volume *= fraction;
-    if (region.cut >= 0) {
-      const InsideOctants& inside = cells.cut_parts[static_cast<std::size_t>(region.cut)];
-      const double volume = inside.volume[octant];
-      if (volume < nearly_whole * part.full) {
-        part.corners.resize(0, 3);
-        part.point = {Eigen::Vector3d(inside.centroid[octant]), volume};
-      }
+    if (region.cut < 0) {
+      out.add({region.cell, corners, region.fraction}, cells.kind, count);
+      continue;
+    }
+    const InsideOctants& inside = cells.cut_parts[static_cast<std::size_t>(region.cut)];
+    const double volume = inside.volume[octant], whole = one_point(cells.kind, corners).volume;
+    if (volume >= nearly_whole * whole) {
+      out.add({region.cell, corners, 1}, cells.kind, count);
+    } else if (volume > 0) {
+      out.add({region.cell, Corners(0, 3), 1}, {Eigen::Vector3d(inside.centroid[octant]), volume}, whole);
     }
     ++octant;
-    if (part.point.volume > 0) {
-      out.push_back(part);
-    }
   }
-}
-
-ShapeRows evaluate(const ShapeFunctions& shape, std::size_t level, std::vector<Region>& regions) {
-  Points positions(static_cast<Eigen::Index>(regions.size()), 3);
-  for (std::size_t i = 0; i < regions.size(); ++i) {
-    positions.row(static_cast<Eigen::Index>(i)) = regions[i].point.position;
-    regions[i].level = level;
-    regions[i].row = i;
-  }
-  return shape.evaluate(positions, true);
 }
 
 /// Σ w ∂φ_a/∂X over some regions, for one region and its parts after another; owned by one thread.
@@ -85,12 +102,14 @@ class Integral {
  public:
   explicit Integral(std::size_t nodes) : sum_(Points::Zero(static_cast<Eigen::Index>(nodes), 3)) {}
 
-  void add(const ShapeRows& rows, const Region& region, double sign) {
-    for (auto k = static_cast<std::size_t>(rows.begin[region.row]);
-         k < static_cast<std::size_t>(rows.begin[region.row + 1]); ++k) {
-      sum_.row(rows.node[k]) +=
-          sign * region.point.volume * Eigen::Map<const Eigen::RowVector3d>(&rows.derivative[3 * k]);
-      touched_.push_back(rows.node[k]);
+  void add(const Level& level, const Region& region, double sign) {
+    const ShapeRows& rows = level.rows;
+    for (std::size_t i = region.first; i < region.last; ++i) {
+      for (auto k = static_cast<std::size_t>(rows.begin[i]); k < static_cast<std::size_t>(rows.begin[i + 1]); ++k) {
+        sum_.row(rows.node[k]) +=
+            sign * level.points[i].volume * Eigen::Map<const Eigen::RowVector3d>(&rows.derivative[3 * k]);
+        touched_.push_back(rows.node[k]);
+      }
     }
   }
 
@@ -111,139 +130,198 @@ class Integral {
 };
 
 /// 1 where the parts of a region integrate it to the tolerance. begin: where each region's parts begin, and an end.
-std::vector<std::uint8_t> compare(const std::vector<Region>& regions, const ShapeRows& rows,
-                                  const std::vector<Region>& parts, const ShapeRows& part_rows,
-                                  std::span<const std::size_t> begin, std::size_t nodes, double tolerance) {
-  std::vector<std::uint8_t> good(regions.size(), 0);
-  const auto count = static_cast<std::int64_t>(regions.size());
+std::vector<std::uint8_t> compare(const Level& whole, const Level& parts, std::span<const std::size_t> begin,
+                                  std::size_t nodes, double tolerance) {
+  std::vector<std::uint8_t> good(whole.regions.size(), 0);
+  const auto count = static_cast<std::int64_t>(good.size());
 #pragma omp parallel
   {
     Integral fine(nodes), difference(nodes);
 #pragma omp for schedule(dynamic, 64)
     for (std::int64_t i = 0; i < count; ++i) {
       const auto region = static_cast<std::size_t>(i);
-      difference.add(rows, regions[region], -1);
+      difference.add(whole, whole.regions[region], -1);
       for (std::size_t part = begin[region]; part < begin[region + 1]; ++part) {
-        fine.add(part_rows, parts[part], 1);
-        difference.add(part_rows, parts[part], 1);
+        fine.add(parts, parts.regions[part], 1);
+        difference.add(parts, parts.regions[part], 1);
       }
-      const double error = difference.take_squared_norm(), whole = fine.take_squared_norm();
-      good[region] = error <= tolerance * tolerance * whole ? 1 : 0;
+      const double error = difference.take_squared_norm(), norm = fine.take_squared_norm();
+      good[region] = error <= tolerance * tolerance * norm ? 1 : 0;
     }
   }
   return good;
 }
 
-/// The regions that stay, and the shape functions of each level.
-struct Kept {
-  std::vector<Region> regions;
-  std::vector<ShapeRows> rows;
+void append_row(const ShapeRows& from, std::size_t row, ShapeRows& rows) {
+  const auto first = static_cast<std::ptrdiff_t>(from.begin[row]),
+             last = static_cast<std::ptrdiff_t>(from.begin[row + 1]);
+  rows.node.insert(rows.node.end(), from.node.begin() + first, from.node.begin() + last);
+  rows.value.insert(rows.value.end(), from.value.begin() + first, from.value.begin() + last);
+  rows.derivative.insert(rows.derivative.end(), from.derivative.begin() + 3 * first,
+                         from.derivative.begin() + 3 * last);
+  rows.begin.push_back(rows.begin.back() + last - first);
+}
+
+void reserve(std::size_t points, std::size_t pairs, ShapeRows& rows) {
+  rows.begin.reserve(points + 1);
+  rows.node.reserve(pairs);
+  rows.value.reserve(pairs);
+  rows.derivative.reserve(3 * pairs);
+  rows.begin.assign(1, 0);
+}
+
+/// The points of some cells, in their order.
+struct Placed {
+  std::vector<WeightedPoint> points;
+  std::vector<std::int32_t> cell;
+  std::vector<double> full;
+  ShapeRows rows;
   std::size_t capped = 0;
 };
 
-void check_affordable(std::size_t points, double tolerance, int depth) {
-  constexpr std::size_t most = 3'000'000;  // some 6 kB each while they are placed
+void check_affordable(std::size_t points, const AdaptiveRule& rule) {
+  constexpr std::size_t most = 3'000'000;
   if (points > most) {
-    throw std::invalid_argument("adaptive integration to " + std::to_string(tolerance) + ", cells split " +
-                                std::to_string(depth) + " times at most, takes " + std::to_string(points) +
-                                " points, more than " + std::to_string(most) +
-                                "; take a larger tolerance, a smaller depth or fewer cells");
+    throw std::invalid_argument("adaptive integration to " + std::to_string(rule.tolerance) + ", cells split " +
+                                std::to_string(rule.depth) + " times at most, takes more than " + std::to_string(most) +
+                                " points; take a larger tolerance, a smaller depth or fewer cells");
   }
 }
 
-Kept refine(const BackgroundCells& cells, const ShapeFunctions& shape, double tolerance, int depth) {
-  Kept kept;
-  std::vector<Region> regions = whole_cells(cells);
-  kept.rows.push_back(evaluate(shape, 0, regions));
-  for (int split = 1; !regions.empty(); ++split) {
-    std::vector<Region> parts, unfinished;
+/// No fewer points than these: those of cells that are whole, split once.
+std::size_t fewest_points(const BackgroundCells& cells, const AdaptiveRule& rule) {
+  const std::size_t parts = is_planar(cells.kind) ? 4 : 8;
+  return (cells.size() - cells.cut_parts.size()) * parts * static_cast<std::size_t>(rule.points_per_part);
+}
+
+/// Splits the cells from..to; the points of each come by level. before: points of the cells before these.
+Placed place(const BackgroundCells& cells, std::size_t from, std::size_t to, const ShapeFunctions& shape,
+             const AdaptiveRule& rule, std::size_t before) {
+  struct Source {
+    std::int32_t cell;
+    std::size_t level, point;
+  };
+  std::vector<Source> sources;
+  std::vector<Level> levels = {whole_cells(cells, from, to, rule.points_per_part)};
+  levels.back().evaluate(shape);
+  Placed placed;
+  placed.rows.grown = levels.back().rows.grown;
+  while (!levels.back().regions.empty()) {
+    const Level& whole = levels.back();
+    Level parts;
     std::vector<std::size_t> begin = {0};
-    for (const Region& region : regions) {
-      append_parts(cells, region, parts);
-      begin.push_back(parts.size());
+    for (const Region& region : whole.regions) {
+      append_parts(cells, region, rule.points_per_part, parts);
+      begin.push_back(parts.regions.size());
     }
-    check_affordable(kept.regions.size() + parts.size(), tolerance, depth);
-    kept.rows.push_back(evaluate(shape, kept.rows.size(), parts));
-    const std::vector<std::uint8_t> good =
-        compare(regions, kept.rows[kept.rows.size() - 2], parts, kept.rows.back(), begin, shape.nodes(), tolerance);
+    check_affordable(before + sources.size() + parts.points.size(), rule);
+    parts.evaluate(shape);
+    placed.rows.grown += parts.rows.grown;
+    const std::vector<std::uint8_t> good = compare(whole, parts, begin, shape.nodes(), rule.tolerance);
+    std::vector<Region> unfinished;
     for (std::size_t i = 0; i < good.size(); ++i) {
       for (std::size_t part = begin[i]; part < begin[i + 1]; ++part) {
-        const bool ends = split == depth || parts[part].corners.rows() == 0;
+        const Region& region = parts.regions[part];
+        const bool ends = levels.size() == static_cast<std::size_t>(rule.depth) || region.corners.rows() == 0;
         if (good[i] == 0 && !ends) {
-          unfinished.push_back(parts[part]);
+          unfinished.push_back(region);
           continue;
         }
-        kept.regions.push_back(parts[part]);
-        kept.capped += good[i] == 0 ? 1 : 0;
+        for (std::size_t point = region.first; point < region.last; ++point) {
+          sources.push_back({region.cell, levels.size(), point});
+          placed.capped += good[i] == 0 ? 1 : 0;
+        }
       }
     }
-    regions = std::move(unfinished);
+    parts.regions = std::move(unfinished);
+    levels.push_back(std::move(parts));
   }
-  return kept;
+  std::stable_sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) { return a.cell < b.cell; });
+  std::size_t pairs = 0;
+  for (const Source& s : sources) {
+    const ShapeRows& rows = levels[s.level].rows;
+    pairs += static_cast<std::size_t>(rows.begin[s.point + 1] - rows.begin[s.point]);
+  }
+  reserve(sources.size(), pairs, placed.rows);
+  for (const Source& s : sources) {
+    const Level& level = levels[s.level];
+    placed.points.push_back(level.points[s.point]);
+    placed.full.push_back(level.full[s.point]);
+    placed.cell.push_back(s.cell);
+    append_row(level.rows, s.point, placed.rows);
+  }
+  return placed;
 }
 
-/// Row i of the result is row source[i].second of level source[i].first.
-ShapeRows gather(const std::vector<ShapeRows>& levels, const std::vector<std::pair<std::size_t, std::size_t>>& source) {
+/// The rows of the points that are left, those of the moved ones new. Gives the batches' memory back as it goes.
+ShapeRows gather(std::vector<ShapeRows> batches, const std::vector<MergedPoint>& merged, const ShapeRows& moved) {
   ShapeRows rows;
-  rows.begin.push_back(0);
-  for (const auto& [level, row] : source) {
-    const ShapeRows& from = levels[level];
-    const auto first = static_cast<std::ptrdiff_t>(from.begin[row]),
-               last = static_cast<std::ptrdiff_t>(from.begin[row + 1]);
-    rows.node.insert(rows.node.end(), from.node.begin() + first, from.node.begin() + last);
-    rows.value.insert(rows.value.end(), from.value.begin() + first, from.value.begin() + last);
-    rows.derivative.insert(rows.derivative.end(), from.derivative.begin() + 3 * first,
-                           from.derivative.begin() + 3 * last);
-    rows.begin.push_back(rows.begin.back() + last - first);
+  std::size_t pairs = moved.node.size();
+  for (const ShapeRows& batch : batches) {
+    pairs += batch.node.size();
+    rows.grown += batch.grown;
   }
-  for (const ShapeRows& from : levels) {
-    rows.grown += from.grown;
+  rows.grown += moved.grown;
+  reserve(merged.size(), pairs, rows);
+  std::size_t batch = 0, before = 0, next_moved = 0;
+  for (const MergedPoint& m : merged) {
+    while (static_cast<std::size_t>(m.from) >= before + batches[batch].size()) {
+      before += batches[batch].size();
+      batches[batch++] = {};
+    }
+    if (m.moved) {
+      append_row(moved, next_moved++, rows);
+    } else {
+      append_row(batches[batch], static_cast<std::size_t>(m.from) - before, rows);
+    }
   }
   return rows;
 }
 
-void check(double tolerance, int depth) {
-  if (!(tolerance > 0)) {
-    throw std::invalid_argument("the integration tolerance is " + std::to_string(tolerance) + ", but must be above 0");
+void check(CellKind kind, const AdaptiveRule& rule) {
+  if (!(rule.tolerance > 0)) {
+    throw std::invalid_argument("the integration tolerance is " + std::to_string(rule.tolerance) +
+                                ", but must be above 0");
   }
-  if (depth < 1 || depth > 6) {
-    throw std::invalid_argument("the integration depth is " + std::to_string(depth) + ", but must be 1 to 6");
+  if (rule.depth < 1 || rule.depth > 6) {
+    throw std::invalid_argument("the integration depth is " + std::to_string(rule.depth) + ", but must be 1 to 6");
   }
+  check_points_per_cell(kind, rule.points_per_part);
 }
 
 }  // namespace
 
-AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunctions& shape, double tolerance, int depth,
+AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunctions& shape, const AdaptiveRule& rule,
                                const LabelMap* labels, const std::vector<std::int32_t>& tissues) {
-  check(tolerance, depth);
-  Kept kept = refine(cells, shape, tolerance, depth);
-  std::stable_sort(kept.regions.begin(), kept.regions.end(),
-                   [](const Region& a, const Region& b) { return a.cell < b.cell; });
+  check(cells.kind, rule);
+  check_affordable(fewest_points(cells, rule), rule);
+  constexpr std::size_t cells_per_batch = 256;  // of which the rows of all levels are in memory
   AdaptivePoints result;
-  result.capped = kept.capped;
-  result.points.positions.resize(static_cast<Eigen::Index>(kept.regions.size()), 3);
+  std::vector<WeightedPoint> points;
   std::vector<double> full;
-  for (const Region& region : kept.regions) {
-    result.points.positions.row(static_cast<Eigen::Index>(full.size())) = region.point.position;
-    result.points.volume.push_back(region.point.volume);
-    result.points.cell.push_back(region.cell);
-    full.push_back(region.full);
+  std::vector<ShapeRows> batches;
+  for (std::size_t from = 0; from < cells.size(); from += cells_per_batch) {
+    Placed batch = place(cells, from, std::min(from + cells_per_batch, cells.size()), shape, rule, points.size());
+    points.insert(points.end(), batch.points.begin(), batch.points.end());
+    full.insert(full.end(), batch.full.begin(), batch.full.end());
+    result.points.cell.insert(result.points.cell.end(), batch.cell.begin(), batch.cell.end());
+    result.capped += batch.capped;
+    batches.push_back(std::move(batch.rows));
+  }
+  result.points.positions.resize(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    result.points.positions.row(static_cast<Eigen::Index>(i)) = points[i].position;
+    result.points.volume.push_back(points[i].volume);
   }
   take_tissues(cells, labels, tissues, result.points);
   const std::vector<MergedPoint> merged = merge_slivers(full, result.points);
-
-  std::vector<std::pair<std::size_t, std::size_t>> source;
   std::vector<Eigen::Index> moved;
   for (std::size_t i = 0; i < merged.size(); ++i) {
-    const Region& from = kept.regions[static_cast<std::size_t>(merged[i].from)];
-    source.emplace_back(from.level, from.row);
     if (merged[i].moved) {
-      source.back() = {kept.rows.size(), moved.size()};
       moved.push_back(static_cast<Eigen::Index>(i));
     }
   }
-  kept.rows.push_back(shape.evaluate(result.points.positions(moved, Eigen::all), true));
-  result.rows = gather(kept.rows, source);
+  result.rows = gather(std::move(batches), merged, shape.evaluate(result.points.positions(moved, Eigen::all), true));
   return result;
 }
 

@@ -42,18 +42,18 @@ void append_points(const BackgroundCells& cells, std::size_t cell, int points, s
   full.resize(out.size(), whole);
 }
 
+}  // namespace
+
+int most_points_per_cell(CellKind kind) {
+  return kind == CellKind::hexahedron ? 8 : kind == CellKind::triangle ? 3 : 4;
+}
+
 void check_points_per_cell(CellKind kind, int points) {
   const int many = most_points_per_cell(kind);
   if (points != 1 && points != many) {
     throw std::invalid_argument("points per cell is " + std::to_string(points) + ", but these cells take 1 or " +
                                 std::to_string(many));
   }
-}
-
-}  // namespace
-
-int most_points_per_cell(CellKind kind) {
-  return kind == CellKind::hexahedron ? 8 : kind == CellKind::triangle ? 3 : 4;
 }
 
 void take_tissues(const BackgroundCells& cells, const LabelMap* labels, const std::vector<std::int32_t>& tissues,

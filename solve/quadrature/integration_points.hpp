@@ -26,6 +26,9 @@ struct IntegrationPoints {
 /// triangle. They integrate quadratics exactly; the other number that each takes is 1.
 int most_points_per_cell(CellKind kind);
 
+/// Throws std::invalid_argument when cells of this kind do not take so many points.
+void check_points_per_cell(CellKind kind, int points);
+
 /// The tissue of each point, from the label map at the point where there is a map and it names one of `tissues` there,
 /// else from its cell.
 void take_tissues(const BackgroundCells& cells, const LabelMap* labels, const std::vector<std::int32_t>& tissues,

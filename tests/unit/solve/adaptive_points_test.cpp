@@ -36,8 +36,8 @@ ShapeFunctions shape_of(const Domain& domain) {
   return {domain.cloud.positions, domain.cloud.spacing, options};
 }
 
-AdaptivePoints adaptive(const Domain& domain, double tolerance, int depth = 3) {
-  return adaptive_points(domain.cells, shape_of(domain), tolerance, depth, nullptr, tissues);
+AdaptivePoints adaptive(const Domain& domain, double tolerance, int depth = 3, int points = 1) {
+  return adaptive_points(domain.cells, shape_of(domain), {tolerance, depth, points}, nullptr, tissues);
 }
 
 double volume_of(const IntegrationPoints& points) {
@@ -108,6 +108,56 @@ TEST(AdaptivePoints, SplitMoreAndIntegrateBetterTheSmallerTheTolerance) {
   }
 }
 
+TEST(AdaptivePoints, IntegratePolynomialsAsTheirGaussPointsDo) {
+  for (const Domain& domain : domains()) {
+    const double area = side * side, thickness = is_planar(domain.cells.kind) ? 1 : side;
+    for (const int points : {1, most_points_per_cell(domain.cells.kind)}) {
+      const AdaptivePoints a = adaptive(domain, 0.2, 3, points);
+      double x = 0, xy = 0, xx = 0;
+      for (std::size_t i = 0; i < a.points.size(); ++i) {
+        const Eigen::RowVector3d at = a.points.positions.row(static_cast<Eigen::Index>(i));
+        x += a.points.volume[i] * at[0];
+        xy += a.points.volume[i] * at[0] * at[1];
+        xx += a.points.volume[i] * at[0] * at[0];
+      }
+      const std::string which = domain.name + ", " + std::to_string(points);
+      EXPECT_NEAR(volume_of(a.points), area * thickness, 1e-9 * area * thickness) << which;
+      const double round = 1e-9 * area * area * thickness;
+      const double quadratic = points == 1 ? 0.02 * area * area * thickness : round;  // one point: linear ones alone
+      EXPECT_NEAR(x, area * side / 2 * thickness, round) << which;
+      EXPECT_NEAR(xy, area * area / 4 * thickness, quadratic) << which;
+      EXPECT_NEAR(xx, area * area / 3 * thickness, quadratic) << which;
+      EXPECT_TRUE(points > 1 || std::abs(xx - area * area / 3 * thickness) > round) << which;
+    }
+  }
+}
+
+TEST(AdaptivePoints, ReachATighterToleranceWithFewerPointsTheMoreGaussPointsAPartHas) {
+  for (const Domain& domain : {domains()[2], domains()[3]}) {
+    const int most = most_points_per_cell(domain.cells.kind);
+    std::size_t before = 0;
+    for (const double tolerance : {0.3, 0.1, 0.03, 0.01}) {
+      const AdaptivePoints many = adaptive(domain, tolerance, 5, most);
+      EXPECT_GE(many.points.size(), before) << domain.name;
+      before = many.points.size();
+    }
+    EXPECT_LT(2 * before, adaptive(domain, 0.01, 5, 1).points.size()) << domain.name;
+  }
+}
+
+TEST(AdaptivePoints, MissTheToleranceTheLessTheDeeperTheyMayGo) {
+  for (const Domain& domain : domains()) {
+    double before = 1;
+    for (const int depth : {1, 2, 3}) {
+      const AdaptivePoints a = adaptive(domain, 0.15, depth);
+      double capped = static_cast<double>(a.capped) / static_cast<double>(a.points.size());
+      EXPECT_LE(capped, before) << domain.name;
+      before = capped;
+    }
+    EXPECT_LT(before, 0.5) << domain.name;
+  }
+}
+
 TEST(AdaptivePoints, StopAtTheDepthAndCountWhatMissedTheTolerance) {
   for (const Domain& domain : domains()) {
     const AdaptivePoints once = adaptive(domain, 1e-9, 1), coarse = adaptive(domain, 1e9, 3);
@@ -142,6 +192,14 @@ TEST(AdaptivePoints, OfACutCellKeepItsVolumeAndStayInside) {
   EXPECT_EQ(a.rows.derivative, again.derivative);
   const auto of_cut = static_cast<std::size_t>(std::count(a.points.cell.begin(), a.points.cell.end(), 0));
   EXPECT_EQ(of_cut, 4u * 8u + 3u);  // whole octants are split again, the others stay, the sliver is gone
+  for (const AdaptivePoints& points : {a, adaptive(domain, 1e-3, 2, 8)}) {
+    EXPECT_NEAR(volume_of(points.points), volume_of(a.points), 1e-9 * side * side * side);
+    for (std::size_t i = 0; i < points.points.size(); ++i) {
+      if (points.points.cell[i] == 0) {
+        EXPECT_LT(points.points.positions(static_cast<Eigen::Index>(i), 0), 0.75 * edge);
+      }
+    }
+  }
 }
 
 TEST(AdaptivePoints, AreTheSameForAnyNumberOfThreads) {
@@ -167,6 +225,7 @@ TEST(AdaptivePoints, RefuseAToleranceOrDepthThatMeansNothing) {
   EXPECT_THROW(adaptive(domain, std::nan("")), std::invalid_argument);
   EXPECT_THROW(adaptive(domain, 0.1, 0), std::invalid_argument);
   EXPECT_THROW(adaptive(domain, 0.1, 7), std::invalid_argument);
+  EXPECT_THROW(adaptive(domain, 0.1, 3, 8), std::invalid_argument);
 }
 
 }  // namespace

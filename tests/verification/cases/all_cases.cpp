@@ -18,7 +18,8 @@ const std::vector<NamedCase>& all_cases() {
                                                {"there_and_back", there_and_back},
                                                {"indentation", indentation},
                                                {"extension", extension},
-                                               {"brain", brain}};
+                                               {"brain", brain},
+                                               {"adaptive_integration", adaptive_integration}};
   return cases;
 }
 

@@ -13,6 +13,7 @@ Outcome there_and_back(bool small);
 Outcome indentation(bool small);
 Outcome extension(bool small);
 Outcome brain(bool small);
+Outcome adaptive_integration(bool small);
 Outcome homogeneous(bool small);
 Outcome cantilever(bool small);
 Outcome pressurised_ball(bool small);

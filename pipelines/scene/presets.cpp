@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/scene/presets.hpp"
+
+#include <array>
+#include <stdexcept>
+
+namespace brainshift::pipelines {
+namespace {
+
+struct Preset {
+  const char* name;
+  const char* use;
+  const char* nodes;
+  const char* points_per_cell;
+  const char* basis;
+  const char* tolerance;
+};
+
+constexpr std::array<Preset, 3> presets = {{
+    {"fast", "a first look", "1500", "1", "linear", "0.1"},
+    {"balanced", "most work", "6000", "auto", "modified_quadratic", "0.03"},
+    {"accurate", "a reference", "24000", "auto", "modified_quadratic", "0.01"},
+}};
+
+}  // namespace
+
+std::string preset_names() {
+  std::string names;
+  for (const Preset& preset : presets) {
+    names += (names.empty() ? "" : " | ") + std::string(preset.name);
+  }
+  return names;
+}
+
+std::string preset_help() {
+  std::string help;
+  for (const Preset& preset : presets) {
+    help += (help.empty() ? "" : ", ") + std::string(preset.name) + " (" + preset.use + ")";
+  }
+  return help;
+}
+
+std::vector<std::string> preset_overrides(const std::string& name) {
+  if (name.empty()) {
+    return {};
+  }
+  for (const Preset& preset : presets) {
+    if (name == preset.name) {
+      return {"discretise.spacing=",
+              std::string("discretise.nodes=") + preset.nodes,
+              std::string("solve.points_per_cell=") + preset.points_per_cell,
+              "solve.integration_tolerance=0",
+              std::string("solve.basis=") + preset.basis,
+              "solve.derivatives=full",
+              "solve.precision=single",
+              std::string("solve.tolerance=") + preset.tolerance};
+    }
+  }
+  throw std::invalid_argument("--preset is '" + name + "', but must be " + preset_names());
+}
+
+}  // namespace brainshift::pipelines
