@@ -16,6 +16,7 @@
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/load_curve.hpp"
 #include "solve/dynamics/precision.hpp"
+#include "solve/held_bytes.hpp"
 #include "solve/material/material.hpp"
 #include "solve/solution.hpp"
 
@@ -57,6 +58,7 @@ struct SolveOptions {
   double time_step = 0;  ///< transient: s; 0: nine tenths of the critical one
   double damping = 0;    ///< transient: c of eq 26, 1/s
   int max_steps = 50000;
+  double region = 0;       ///< mm; only what a coarse solution moves by more is solved, region.hpp; 0: the whole body
   int snapshot_every = 0;  ///< steps between displacements kept for steps.pvd, each 20th at the most; 0: none
 };
 
@@ -118,6 +120,10 @@ struct SolveMeasures {
   double largest_stretch = 0;       ///< largest principal stretch
   double seconds_setup = 0;
   double seconds_stepping = 0;
+  HeldBytes bytes;
+  std::size_t region_nodes = 0;  ///< solved, those at the region's rim too; 0: no region was asked for
+  double seconds_coarse = 0;     ///< of the coarse solution that chose the region
+  double coarse_error = 0;       ///< of it, largest next to the region's rim, mm: what the outside may be wrong by
 };
 
 struct SolveResult {

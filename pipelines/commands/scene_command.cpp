@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "pipelines/after/after_run.hpp"
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/describe_scene.hpp"
@@ -15,6 +16,8 @@ struct SceneArguments {
   std::filesystem::path check;
   std::filesystem::path explain;
   bool defaults = false;
+  std::filesystem::path after;
+  std::optional<double> within;
   std::vector<std::string> overrides;
 };
 
@@ -33,7 +36,17 @@ void look_at_scene(const SceneArguments& arguments, const Settings& settings) {
       std::cout << arguments.check.string() << ": no fault found\n";
     }
   } else {
-    std::cout << explain_scene(checked(arguments.explain, arguments.overrides));
+    const Scene scene = checked(arguments.explain, arguments.overrides);
+    std::cout << explain_scene(scene);
+    if (!arguments.after.empty()) {
+      std::cout << std::flush
+                << explain_after(scene, arguments.after, arguments.within, *settings.interruption,
+                                 [&](const std::string& what) {
+                                   if (!settings.quiet) {
+                                     std::cerr << "solving " << what << " ...\n";
+                                   }
+                                 });
+    }
   }
   std::cout.flush();
   if (!std::cout) {
@@ -48,8 +61,20 @@ void add_scene_command(CLI::App& program, const Settings& settings) {
   auto arguments = std::make_shared<SceneArguments>();
   auto* what = command->add_option_group("what")->require_option(1);
   what->add_option("--check", arguments->check, "look for faults")->type_name("FILE");
-  what->add_option("--explain", arguments->explain, "which parts are active and what they cost")->type_name("FILE");
+  CLI::Option* explain =
+      what->add_option("--explain", arguments->explain, "which parts are active and what they cost")->type_name("FILE");
   what->add_flag("--defaults", arguments->defaults, "a commented scene with every option");
+  CLI::Option* after =
+      command
+          ->add_option("--after", arguments->after,
+                       "the folder of the scene's run: solves it again with each part left out in turn and says which "
+                       "made no difference; writes nothing")
+          ->type_name("DIR")
+          ->needs(explain);
+  command->add_option("--within", arguments->within, "a change that counts as none, mm; else the solve tolerance")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber)
+      ->needs(after);
   command->add_option("--set", arguments->overrides, "override an option of the scene")
       ->type_name("PATH=VALUE")
       ->take_all()

@@ -213,6 +213,7 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
                            "curve",
                            "curve_join",
                            "gravity",
+                           "region",
                            "max_steps",
                            "snapshot_every"}) {
     add_scene_option(*command, arguments->scene, "solve", name);

@@ -87,9 +87,9 @@ StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progres
   return report_of(result.measures);
 }
 
-StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& progress) {
-  report(progress, 0, "reading");
-  solve::Model model;
+SolveInput read_input(const SolveJob& job) {
+  SolveInput input;
+  solve::Model& model = input.model;
   model.cloud = read_node_cloud(job.nodes);
   model.cells = read_background_cells(job.cells);
   model.labels = labels_if(job.labels);
@@ -101,20 +101,30 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
     model.skull = read_surface(job.skull);
   }
   if (job.load) {
-    const solve::CraniotomyLoad load = read_load(*job.load, job.surface);
-    model.cloud.prescribed_displacement = solve::prescribed_on_surface_nodes(model.cloud, load, job.load->opening);
-    solve::write_craniotomy_csv(out / "load.csv", load);
+    input.load = read_load(*job.load, job.surface);
+    model.cloud.prescribed_displacement =
+        solve::prescribed_on_surface_nodes(model.cloud, *input.load, job.load->opening);
   }
-  solve::SolveOptions options = job.options;
-  const bool adaptive = options.integration_tolerance > 0;
-  options.points_per_cell = job.points_per_cell.value_or(adaptive ? 1 : solve::most_points_per_cell(model.cells.kind));
-  const solve::SolveResult result = solve::solve(model, options, progress);
+  input.options = job.options;
+  const bool adaptive = input.options.integration_tolerance > 0;
+  input.options.points_per_cell =
+      job.points_per_cell.value_or(adaptive ? 1 : solve::most_points_per_cell(model.cells.kind));
+  return input;
+}
+
+StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& progress) {
+  report(progress, 0, "reading");
+  const SolveInput input = read_input(job);
+  if (input.load) {
+    solve::write_craniotomy_csv(out / "load.csv", *input.load);
+  }
+  const solve::SolveResult result = solve::solve(input.model, input.options, progress);
   write_solution(out / "solution.vtu", result.solution);
   solve::write_history(out / "history.csv", result.history);
-  if (options.snapshot_every > 0) {
+  if (input.options.snapshot_every > 0) {
     solve::write_steps(out, result.solution.positions, result.snapshots);
   }
-  return report_of(result, options.dynamics);
+  return report_of(result, input.options.dynamics);
 }
 
 StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress& progress) {

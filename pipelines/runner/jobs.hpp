@@ -65,6 +65,14 @@ StageReport run_job(const DiscretiseJob& job, const std::filesystem::path& out, 
 StageReport run_job(const SolveJob& job, const std::filesystem::path& out, const Progress& progress);
 StageReport run_job(const RegisterJob& job, const std::filesystem::path& out, const Progress& progress);
 
+/// What a solve job's files and options say.
+struct SolveInput {
+  solve::Model model;
+  solve::SolveOptions options;
+  std::optional<solve::CraniotomyLoad> load;  ///< as it was read
+};
+SolveInput read_input(const SolveJob& job);
+
 /// The measured displacements of a load. surface: the brain's, for a simulated one.
 solve::CraniotomyLoad read_load(const Load& load, const std::filesystem::path& surface);
 

@@ -61,7 +61,22 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                      {"smallest_jacobian", m.smallest_jacobian},
                      {"largest_stretch", m.largest_stretch},
                      {"seconds_setup", m.seconds_setup},
-                     {"seconds_stepping", m.seconds_stepping}};
+                     {"seconds_stepping", m.seconds_stepping},
+                     {"bytes",
+                      {{"shape_functions", m.bytes.shape_functions},
+                       {"nodal_vectors", m.bytes.nodal_vectors},
+                       {"pressure_patches", m.bytes.pressure_patches},
+                       {"essential_conditions", m.bytes.essential_conditions},
+                       {"contact", m.bytes.contact},
+                       {"viscosity", m.bytes.viscosity},
+                       {"external_forces", m.bytes.external_forces},
+                       {"total", m.bytes.total()}}}};
+  if (m.region_nodes > 0) {
+    report.measures["region"] = {{"nodes", m.region_nodes},
+                                 {"share", static_cast<double>(m.region_nodes) / static_cast<double>(m.nodes)},
+                                 {"coarse_error_mm", m.coarse_error},
+                                 {"seconds_coarse", m.seconds_coarse}};
+  }
   report.measures.erase(dynamics == solve::Dynamics::transient ? "error_bound_mm" : "critical_step_s");
   return report;
 }

@@ -109,23 +109,7 @@ StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
 }
 
 StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
-  SolveJob job{folder / "discretise" / "nodes.vtu",
-               folder / "discretise" / "cells.vtu",
-               if_there(folder / "segment" / "labels.nii.gz"),
-               {},
-               if_there(folder / "segment" / "brain.vtp"),
-               scene.load,
-               {},
-               scene.solve,
-               scene.points_per_cell,
-               scene.loading,
-               solve::Plane::none};
-  if (scene.contact) {
-    job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;
-  }
-  for (const Tissue& tissue : scene.tissues) {
-    job.materials[tissue.label] = tissue.material;
-  }
+  const SolveJob job = solve_job(scene, folder);
   std::vector<std::string> elements = load_elements(scene);
   elements.insert(elements.end(), {"contact", "tissues", "solve"});
   StagePlan plan{StageId::solve, files_of(scene, elements), options_of(scene, elements), {"solution.vtu"}, {}};
@@ -244,6 +228,27 @@ void make_external(StagePlan& plan, const Scene& scene, const fs::path& folder, 
 }
 
 }  // namespace
+
+SolveJob solve_job(const Scene& scene, const fs::path& folder) {
+  SolveJob job{folder / "discretise" / "nodes.vtu",
+               folder / "discretise" / "cells.vtu",
+               if_there(folder / "segment" / "labels.nii.gz"),
+               {},
+               if_there(folder / "segment" / "brain.vtp"),
+               scene.load,
+               {},
+               scene.solve,
+               scene.points_per_cell,
+               scene.loading,
+               solve::Plane::none};
+  if (scene.contact) {
+    job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;
+  }
+  for (const Tissue& tissue : scene.tissues) {
+    job.materials[tissue.label] = tissue.material;
+  }
+  return job;
+}
 
 std::vector<InputFile> scene_files(const Scene& scene) {
   std::vector<InputFile> files;

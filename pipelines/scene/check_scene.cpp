@@ -196,6 +196,17 @@ void check_solve_options(const Scene& scene) {
       }
     }
   }
+  if (scene.solve.region > 0) {
+    const std::pair<const char*, bool> whole_body_only[] = {
+        {"dynamics=\"transient\"", scene.solve.dynamics == solve::Dynamics::transient},
+        {"gravity", !loading.gravity.isZero()},
+        {"integration_tolerance", scene.solve.integration_tolerance > 0}};
+    for (const auto& [name, given] : whole_body_only) {
+      if (given) {
+        fail(scene, "solve.region", std::string("a region does not go with ") + name + "; set region to 0");
+      }
+    }
+  }
   load_curve(loading);
 }
 

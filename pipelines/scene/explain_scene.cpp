@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numbers>
 #include <sstream>
 
 #include "pipelines/scene/scene_table.hpp"
+#include "pipelines/scene/solve_cost.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::pipelines {
@@ -82,10 +84,19 @@ std::string stage_cost(StageId stage, const Cost& cost) {
   return {};
 }
 
+/// Why a part is there: the line that names it.
+std::string reason(const Scene& scene, const std::string& path) {
+  if (path.empty()) {
+    return "always there";
+  }
+  return scene.source.lines.contains(path) ? "named in " + place(scene.source, path) : "the default";
+}
+
 void explain_parts(const Scene& scene, std::ostringstream& text) {
   for (const Element& element : scene_elements()) {
     if (element.optional && element.path != "load") {
-      text << "  " << element.path << ": " << (element.present(scene) ? "active" : "not built") << "\n";
+      const bool active = element.present(scene);
+      text << "  " << element.path << ": " << (active ? "active, " + reason(scene, element.path) : "not built") << "\n";
     }
   }
 }
@@ -136,6 +147,21 @@ void explain_physics(const Scene& scene, std::ostringstream& text) {
        << "\n  gravity: " << (scene.loading.gravity.isZero() ? "not active" : said("gravity") + " m/s2") << "\n";
 }
 
+/// The active parts of the solve stage, what each asks for of its memory and of the time of its steps.
+void explain_shares(const Scene& scene, const Cost& cost, std::ostringstream& text) {
+  const std::vector<PartCost> parts = solve_costs(scene, {cost.volume, cost.nodes, cost.points, cost.pairs});
+  double bytes = 0, time = 0;
+  for (const PartCost& part : parts) {
+    bytes += part.bytes;
+    time += part.nanoseconds;
+  }
+  text << "solve, estimated shares of memory and time while it steps\n" << std::fixed << std::setprecision(1);
+  for (const PartCost& part : parts) {
+    text << "  " << part.part << ": " << 100 * part.bytes / bytes << " % of memory, " << 100 * part.nanoseconds / time
+         << " % of time; " << reason(scene, part.named) << "\n";
+  }
+}
+
 }  // namespace
 
 std::string explain_scene(const Scene& scene) {
@@ -159,6 +185,9 @@ std::string explain_scene(const Scene& scene) {
     } else {
       text << stage_cost(stage, cost) << "\n";
     }
+  }
+  if (scene.commands[index_of(StageId::solve)].empty()) {
+    explain_shares(scene, cost, text);
   }
   return text.str();
 }

@@ -227,6 +227,10 @@ Element solve_element() {
                      "of the curve's rows: by 3-4-5 polynomials or straight lines"),
        vector<Scene>("gravity", MEMBER(loading.gravity), "m/s2, LPS",
                      "on a patient who sits 0,0,-9.81, who lies on the back 0,9.81,0; it comes with the load's curve"),
+       number<Scene>(
+           "region",
+           MEMBER(solve.region), not_negative, "mm",
+           "solve only what a coarse solution moves by more, elsewhere that is the result; 0: the whole body"),
        number<Scene>("max_steps", MEMBER(solve.max_steps), {.low = 1}, "", "give up after so many steps"),
        number<Scene>(
            "snapshot_every", MEMBER(solve.snapshot_every), not_negative, "",

@@ -3,19 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace brainshift::solve {
 
-Contact::Contact(const SignedDistance& skull, const Points& positions, std::vector<std::int32_t> nodes,
-                 const ShapeRows& rows)
-    : skull_(&skull), positions_(static_cast<Eigen::Index>(nodes.size()), 3), begin_{0} {
+Contact::Contact(SignedDistance skull, const Points& positions, std::vector<std::int32_t> nodes, const ShapeRows& rows)
+    : skull_(std::move(skull)), positions_(static_cast<Eigen::Index>(nodes.size()), 3), begin_{0} {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto node = static_cast<std::size_t>(nodes[i]);
     node_.insert(node_.end(), rows.node.begin() + rows.begin[node], rows.node.begin() + rows.begin[node + 1]);
     shape_.insert(shape_.end(), rows.value.begin() + rows.begin[node], rows.value.begin() + rows.begin[node + 1]);
     begin_.push_back(static_cast<std::int64_t>(node_.size()));
     positions_.row(static_cast<Eigen::Index>(i)) = positions.row(nodes[i]);
-    allowed_.push_back(std::max(0.0, skull.value(positions.row(nodes[i]))));
+    allowed_.push_back(std::max(0.0, skull_.value(positions.row(nodes[i]))));
   }
   correction_.resize(3 * nodes.size());
 }
@@ -54,11 +54,11 @@ void Contact::apply(NodalVectors& parameters) {
   for (std::int64_t a = 0; a < nodes; ++a) {
     const auto i = static_cast<std::size_t>(a);
     const Eigen::Vector3d x = place(i, parameters);
-    const double outside = skull_->value(x) - allowed_[i];
+    const double outside = skull_.value(x) - allowed_[i];
     Eigen::Map<Eigen::Vector3d> correction(&correction_[3 * i]);
     correction.setZero();
     if (outside > 0) {
-      correction = -outside * inverse_row_sum_[i] * skull_->gradient(x);
+      correction = -outside * inverse_row_sum_[i] * skull_.gradient(x);
     }
   }
   for (std::size_t i = 0; i < allowed_.size(); ++i) {
@@ -77,11 +77,16 @@ void Contact::apply(NodalVectors& parameters) {
 Contact::Measures Contact::measure(const NodalVectors& parameters) const {
   Measures measures;
   for (std::size_t i = 0; i < allowed_.size(); ++i) {
-    const double outside = skull_->value(place(i, parameters)) - allowed_[i];
+    const double outside = skull_.value(place(i, parameters)) - allowed_[i];
     measures.touching += outside > -0.01 ? 1 : 0;
     measures.largest_penetration = std::max(measures.largest_penetration, outside);
   }
   return measures;
+}
+
+std::size_t Contact::held_bytes() const {
+  return skull_.bytes() + static_cast<std::size_t>(positions_.size()) * sizeof(double) + bytes(begin_) + bytes(node_) +
+         bytes(shape_) + bytes(allowed_) + bytes(inverse_mass_) + bytes(inverse_row_sum_) + bytes(correction_);
 }
 
 }  // namespace brainshift::solve

@@ -19,7 +19,7 @@ namespace brainshift::solve {
 class Contact {
  public:
   /// nodes: those that may touch. rows: shape functions at all nodes' positions.
-  Contact(const SignedDistance& skull, const Points& positions, std::vector<std::int32_t> nodes, const ShapeRows& rows);
+  Contact(SignedDistance skull, const Points& positions, std::vector<std::int32_t> nodes, const ShapeRows& rows);
 
   /// Sets the nodal masses (one a node) that weigh the correction.
   void weigh(std::span<const double> mass);
@@ -33,10 +33,13 @@ class Contact {
   };
   Measures measure(const NodalVectors& parameters) const;
 
+  const SignedDistance& skull() const { return skull_; }
+  std::size_t held_bytes() const;
+
  private:
   Eigen::Vector3d place(std::size_t i, const NodalVectors& parameters) const;
 
-  const SignedDistance* skull_;
+  SignedDistance skull_;
   Points positions_;                 ///< of the contact nodes
   std::vector<std::int64_t> begin_;  ///< V, compressed rows
   std::vector<std::int32_t> node_;

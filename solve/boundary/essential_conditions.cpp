@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/boundary/essential_conditions.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -11,12 +12,18 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double smallest_pivot = 1e-10;  // of V M⁻¹ Vᵀ, relative to its largest
+constexpr double smallest_pivot = 1e-10;  // of V M⁻¹ Vᵀ, over its diagonal: masses may differ by any factor
 
 Eigen::VectorXd component_of(const NodalVectors& vectors, int axis) {
   using Stride = Eigen::InnerStride<4>;
   return Eigen::Map<const Eigen::VectorXd, 0, Stride>(vectors.data() + axis,
                                                       static_cast<Eigen::Index>(vectors.size() / 4));
+}
+
+template <class Matrix>
+std::size_t sparse_bytes(const Matrix& m) {
+  return static_cast<std::size_t>(m.data().allocatedSize()) * (sizeof(double) + sizeof(std::int32_t)) +
+         static_cast<std::size_t>(m.outerSize() + 1) * sizeof(std::int32_t);
 }
 
 }  // namespace
@@ -45,9 +52,19 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
     c.loaded = Eigen::Map<const Eigen::VectorXd>(loaded.data(), static_cast<Eigen::Index>(loaded.size()));
     c.multiplier = Eigen::VectorXd::Zero(c.prescribed.size());
   }
+  if (nothing_prescribed()) {
+    std::vector<std::int32_t>().swap(names_);  // and its memory
+  }
+}
+
+bool EssentialConditions::nothing_prescribed() const {
+  return std::all_of(component_.begin(), component_.end(), [](const Component& c) { return c.node.empty(); });
 }
 
 void EssentialConditions::factorise(std::span<const double> mass) {
+  if (nothing_prescribed()) {
+    return;
+  }
   inverse_mass_.resize(mass.size());
   for (std::size_t a = 0; a < mass.size(); ++a) {
     inverse_mass_[a] = 1 / mass[a];
@@ -69,10 +86,11 @@ void EssentialConditions::factorise(std::span<const double> mass) {
       continue;
     }
     const Eigen::SparseMatrix<double> system = c.shape * inverse.asDiagonal() * c.shape.transpose();
-    c.factor = std::make_shared<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>(system);
+    c.factor = std::make_shared<Factor>(system);
     Eigen::Index worst = 0;
-    const Eigen::VectorXd pivots = c.factor->vectorD();
-    if (!(c.factor->info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot * pivots.maxCoeff())) {
+    const Eigen::VectorXd diagonal = c.factor->permutationP() * system.diagonal();
+    const Eigen::VectorXd pivots = c.factor->vectorD().cwiseQuotient(diagonal);
+    if (!(c.factor->info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot)) {
       const auto at = static_cast<std::size_t>(c.factor->permutationPinv().indices()[worst]);
       throw std::invalid_argument("the prescribed displacements contradict or repeat each other at node " +
                                   std::to_string(names_[static_cast<std::size_t>(c.node[at])]) +
@@ -136,6 +154,35 @@ double EssentialConditions::multiplier_work() const {
     work += c.multiplier.dot(c.prescribed);
   }
   return work;
+}
+
+void EssentialConditions::count_as_held(std::span<const std::int32_t> nodes) {
+  for (Component& c : component_) {
+    for (std::size_t i = 0; i < c.node.size(); ++i) {
+      if (std::binary_search(nodes.begin(), nodes.end(), c.node[i])) {
+        c.loaded[static_cast<Eigen::Index>(i)] = 0;
+      }
+    }
+  }
+}
+
+std::size_t EssentialConditions::held_bytes() const {
+  std::size_t sum = bytes(inverse_mass_) + bytes(names_);
+  const Factor* counted = nullptr;  // components with the same nodes share theirs
+  for (const Component& c : component_) {
+    const auto conditions = c.node.size();
+    if (conditions == 0) {
+      continue;
+    }
+    sum += bytes(c.node) + sparse_bytes(c.shape) + (3 + (c.factor ? 0 : 1)) * conditions * sizeof(double);
+    if (c.factor && c.factor.get() != counted) {
+      counted = c.factor.get();
+      // L, the diagonal, the permutation and its inverse, the elimination tree and the lengths of L's columns
+      sum += sparse_bytes(c.factor->matrixL().nestedExpression()) +
+             conditions * (sizeof(double) + 4 * sizeof(std::int32_t));
+    }
+  }
+  return sum;
 }
 
 }  // namespace brainshift::solve

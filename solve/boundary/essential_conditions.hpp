@@ -51,7 +51,13 @@ class EssentialConditions {
   /// Σ μ·ū over all conditions: the rate of work of the reactions by the load's fraction, times α.
   double multiplier_work() const;
 
+  /// These nodes are held, not loaded, whatever is prescribed there: reaction_of_loaded() leaves them out.
+  void count_as_held(std::span<const std::int32_t> nodes);
+
+  std::size_t held_bytes() const;
+
  private:
+  using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
   using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   struct Component {
     std::vector<std::int32_t> node;
@@ -60,8 +66,10 @@ class EssentialConditions {
     Eigen::VectorXd multiplier;  ///< μ
     Eigen::VectorXd loaded;      ///< 1 where the node is loaded, else 0
     Eigen::VectorXd lumped;      ///< of the simplified form
-    std::shared_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> factor;
+    std::shared_ptr<Factor> factor;
   };
+  bool nothing_prescribed() const;
+
   std::array<Component, 3> component_;
   std::vector<double> inverse_mass_;
   std::vector<std::int32_t> names_;

@@ -33,6 +33,8 @@ class SignedDistance {
   /// (continuous); the zero vector where there is none.
   Eigen::Vector3d gradient(const Eigen::Vector3d& position) const;
 
+  std::size_t bytes() const { return samples_.capacity() * sizeof(float); }
+
  private:
   double spacing_;
   Eigen::Vector3d origin_;

@@ -79,9 +79,7 @@ std::string cause(const Fault& fault, std::int32_t node, const Surroundings& aro
   const Neighbours n = neighbours(around.points, around.laws, node);
   if (n.stiffest >= much_softer * n.softest) {
     std::ostringstream text;
-    const auto tissue = [&](std::int32_t point) {
-      return around.tissue[static_cast<std::size_t>(around.placement[static_cast<std::size_t>(point)])];
-    };
+    const auto tissue = [&](std::int32_t point) { return around.placed.tissue[static_cast<std::size_t>(point)]; };
     text << "tissue " << tissue(n.soft_point) << " is " << n.stiffest / n.softest << " times softer than tissue "
          << tissue(n.stiff_point) << " beside it; check the materials, or put more nodes there";
     return text.str();
@@ -131,15 +129,18 @@ std::string describe(const Fault& fault, const Surroundings& around) {
   const Eigen::IOFormat coordinates(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ") mm");
   text << "at ";
   if (fault.point >= 0) {
-    const auto i = static_cast<std::size_t>(around.placement[static_cast<std::size_t>(fault.point)]);
-    const Eigen::RowVector3d place = around.place.row(static_cast<Eigen::Index>(i));
-    Eigen::Index nearest = 0;
-    (around.cloud.positions.rowwise() - place).rowwise().squaredNorm().minCoeff(&nearest);
-    node = static_cast<std::int32_t>(nearest);
-    text << "the integration point " << place.format(coordinates) << ", tissue " << around.tissue[i] << ", next to ";
+    const Eigen::RowVector3d place = around.placed.position.row(fault.point);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t a = 0; a < around.original.size(); ++a) {
+      const double distance = (around.nodes.row(around.original[a]) - place).squaredNorm();
+      node = distance < nearest ? static_cast<std::int32_t>(a) : node;
+      nearest = std::min(nearest, distance);
+    }
+    text << "the integration point " << place.format(coordinates) << ", tissue "
+         << around.placed.tissue[static_cast<std::size_t>(fault.point)] << ", next to ";
   }
-  text << "node " << around.cloud.original[static_cast<std::size_t>(node)] << ", "
-       << around.cloud.positions.row(node).format(coordinates);
+  const std::int32_t original = around.original[static_cast<std::size_t>(node)];
+  text << "node " << original << ", " << around.nodes.row(original).format(coordinates);
   if (!fault.explained) {
     text << "; likely cause: " << cause(fault, node, around);
   }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "solve/dynamics/internal_force.hpp"
-#include "solve/ordered_cloud.hpp"
+#include "solve/quadrature/integration_points.hpp"
 
 namespace brainshift::solve {
 
@@ -28,14 +28,21 @@ Fault broken_point(const PointBlocks& points, const ForceScratch& scratch, const
 /// A node whose û is not finite, else the one that is accelerated most.
 Fault restless_node(const LastSteps& steps);
 
+/// Where the integration points lie, in the order of the blocks.
+struct PlacedPoints {
+  Points position;                   ///< mm
+  std::vector<std::int32_t> tissue;  ///< label
+
+  std::size_t held_bytes() const { return static_cast<std::size_t>(position.size()) * sizeof(double) + bytes(tissue); }
+};
+
 /// What a sentence about a fault needs to know of the model.
 struct Surroundings {
   const PointBlocks& points;
   const PointLaws& laws;
-  const OrderedCloud& cloud;
-  const Points& place;                         ///< of the integration points, mm, as they were placed
-  const std::vector<std::int32_t>& tissue;     ///< of the integration points, as they were placed
-  const std::vector<std::int32_t>& placement;  ///< where each point of the blocks stands among them
+  const Points& nodes;                        ///< mm, in the cloud's own order
+  const std::vector<std::int32_t>& original;  ///< the cloud's own number of each node
+  const PlacedPoints& placed;
 };
 
 /// "at node 17, (1.2, 3.4, 5.6) mm; likely cause: ...": the node by the cloud's own number.

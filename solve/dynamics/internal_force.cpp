@@ -151,10 +151,12 @@ void patch_force(const PointBlocks& points, const Patch& patch, const ElasticLaw
     const Eigen::Matrix3d stress =
         points.volume[static_cast<std::size_t>(p)] * (viscosity.stress(law, d, p) + pressure * law.dilatation_slope(d));
     scatter_stress(points.slots_of(p), points.derivatives_of<Scalar>(p), stress.data(), force);
-    double& jacobian = scratch.jacobian[static_cast<std::size_t>(p)];
     range.smallest = lesser(range.smallest, d.jacobian);
-    range.least_ratio = lesser(range.least_ratio, d.jacobian / jacobian);
-    jacobian = d.jacobian;
+    if (!scratch.jacobian.empty()) {
+      double& jacobian = scratch.jacobian[static_cast<std::size_t>(p)];
+      range.least_ratio = lesser(range.least_ratio, d.jacobian / jacobian);
+      jacobian = d.jacobian;
+    }
   }
 }
 
@@ -195,13 +197,16 @@ ForceScratch::ForceScratch(const PointBlocks& points, const PointLaws& laws)
     : slot_displacement(4 * points.slots()),
       slot_force(4 * points.slots()),
       gradient(9 * points.points()),
-      jacobian(points.points(), 1.0),
       block_jacobian(points.blocks.size()) {
+  if (laws.in_time) {
+    jacobian.assign(points.points(), 1.0);
+  }
   if (laws.plane_stress) {
     thickness.assign(points.points(), 1.0);
   }
   if (!laws.prony.empty()) {
     std::size_t size = 0;
+    viscous_begin.reserve(points.points());
     for (const Patch& patch : points.patches) {
       const std::size_t terms = laws.prony[static_cast<std::size_t>(patch.material)].terms.size();
       for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {

@@ -12,7 +12,7 @@ namespace brainshift::solve {
 /// What has become of J at the points; NaN where one is.
 struct JacobianRange {
   double smallest = 1;
-  double least_ratio = 1;  ///< of J to that of the internal_force() before
+  double least_ratio = 1;  ///< of J to that of the internal_force() before; 1 where it is not followed
 };
 
 /// Scratch of internal_force(), made once and reused in every step, and what points remember between steps.
@@ -20,13 +20,20 @@ struct ForceScratch {
   std::vector<double> slot_displacement;        ///< 4 a slot
   std::vector<double> slot_force;               ///< 4 a slot
   std::vector<double> gradient;                 ///< 9 a point: F, kept between the two passes over a patch
-  std::vector<double> jacobian;                 ///< J of each point
+  std::vector<double> jacobian;                 ///< transient: J of each point
   std::vector<JacobianRange> block_jacobian;    ///< one a block
   std::vector<double> thickness;                ///< plane stress: F_33 of each point, where the next search starts
   std::vector<std::size_t> viscous_begin = {};  ///< transient with Prony terms: offset of each point's state
   std::vector<double> viscous_state = {};
 
   ForceScratch(const PointBlocks& points, const PointLaws& laws);
+
+  std::size_t viscous_bytes() const { return bytes(viscous_begin) + bytes(viscous_state); }
+  /// All but what relaxing materials remember.
+  std::size_t scratch_bytes() const {
+    return bytes(slot_displacement) + bytes(slot_force) + bytes(gradient) + bytes(jacobian) + bytes(block_jacobian) +
+           bytes(thickness);
+  }
 };
 
 /// f_int,a = Σ_I w P B_a (µN) at parameters û (mm); P the first Piola–Kirchhoff stress. Its volumetric part is K θ̄

@@ -36,6 +36,19 @@ std::string unbalanced(const HistoryRow& row) {
   return text.str();
 }
 
+/// Energy of a strain so small that rounding is a good part of it: one of 1e-6, mJ.
+double rounding_energy(const System& system) {
+  double stiffness = 0;
+  for (const Patch& patch : system.points.patches) {
+    const double modulus = std::visit([](const auto& law) { return law.shear_modulus; },
+                                      system.laws.elastic[static_cast<std::size_t>(patch.material)]);
+    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+      stiffness += modulus * system.points.volume[static_cast<std::size_t>(p)];
+    }
+  }
+  return 1e-12 * stiffness * energy_unit;
+}
+
 }  // namespace
 
 Motion::Motion(const System& system, const PointLaws& laws, int snapshot_every)
@@ -48,6 +61,7 @@ Motion::Motion(const System& system, const PointLaws& laws, int snapshot_every)
       nodes_(system.points.nodes()),
       good_(now),
       good_reactions_(Points::Zero(static_cast<Eigen::Index>(nodes_), 3)),
+      rounding_energy_(rounding_energy(system)),
       snapshot_every_(snapshot_every),
       next_snapshot_(snapshot_every) {}
 
@@ -128,7 +142,8 @@ bool Motion::look(const PointLaws& laws, std::span<const double> mass, double mo
   if (const std::string fault = unsound(state, largest_difference(now, before)); !fault.empty()) {
     note_broken_point(state.smallest_jacobian);
     fail(fault, latest, broken_ ? *broken_ : restless_node(last_steps()));
-  } else if (imbalance(latest) > most_imbalance || latest.kinetic_energy > most_motion * largest_work_) {
+  } else if (imbalance(latest) > most_imbalance ||
+             latest.kinetic_energy > most_motion * std::max(largest_work_, rounding_energy_)) {
     fail(unbalanced(latest), latest, restless_node(last_steps()));
   }
   if (result.unstable) {
@@ -178,10 +193,11 @@ HistoryRow Motion::row(std::span<const double> mass, const PointState& state) co
 double Motion::imbalance(const HistoryRow& row) {
   const double became = row.strain_energy + row.kinetic_energy + row.dissipated_energy;
   largest_energy_ = std::max({largest_energy_, std::abs(row.external_work), became});
-  return largest_energy_ > 0 ? std::abs(row.external_work - became) / largest_energy_ : 0;
+  return largest_energy_ > rounding_energy_ ? std::abs(row.external_work - became) / largest_energy_ : 0;
 }
 
 SteppingResult Motion::finish() {
+  result.held = held();
   result.parameters = std::move(good_);
   result.reactions = std::move(good_reactions_);
   return std::move(result);

@@ -36,6 +36,13 @@ class Motion {
   /// The result, with the last state that was kept.
   SteppingResult finish();
 
+  HeldBytes held() const {
+    const std::size_t reactions = static_cast<std::size_t>(good_reactions_.size()) * sizeof(double);
+    return {.nodal_vectors = bytes(now) + bytes(before) + bytes(next) + bytes(force) + bytes(good_) + reactions +
+                             scratch.scratch_bytes(),
+            .viscosity = scratch.viscous_bytes()};
+  }
+
   /// û now and one step ago; after a step `next` is û two steps ago.
   NodalVectors now, before, next;
   NodalVectors force;    ///< f_int − f_ext at `before`, µN
@@ -65,6 +72,7 @@ class Motion {
   double dissipated_ = 0;
   double largest_energy_ = 0;    // mJ
   double largest_work_ = 0;      // mJ
+  double rounding_energy_;       // mJ; energies below it are not compared
   std::optional<Fault> broken_;  // the first point that turned inside out since the last sound state
   double squeezed_to_ = 1;       // J
   int snapshot_every_;

@@ -90,16 +90,22 @@ PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows,
   } else {
     out.pair_derivative.reserve(rows.derivative.size());
   }
+  out.volume.reserve(order.size());
+  out.pair_begin.reserve(order.size() + 1);
+  out.patches.reserve(patched.size());
   for (const std::int32_t p : order) {
     out.volume.push_back(points.volume[static_cast<std::size_t>(p)]);
   }
-  out.mode.resize(4 * order.size());
+  const bool shared_pressure = patched.size() < order.size();
+  out.mode.resize(shared_pressure ? 4 * order.size() : 0);
   for (std::size_t i = 0; i < patched.size(); ++i) {
     const auto first = static_cast<std::size_t>(patched.begin[i]);
     const auto count = static_cast<std::size_t>(patched.begin[i + 1]) - first;
     out.patches.push_back({patched.begin[i], patched.begin[i + 1], material[static_cast<std::size_t>(order[first])]});
-    pressure_modes(points.positions, points.volume, std::span(order).subspan(first, count),
-                   std::span(out.mode).subspan(4 * first, 4 * count));
+    if (shared_pressure) {
+      pressure_modes(points.positions, points.volume, std::span(order).subspan(first, count),
+                     std::span(out.mode).subspan(4 * first, 4 * count));
+    }
   }
   std::vector<std::int32_t> slot_of_node(nodes, 0);
   Block block{0, 0, 0, 0};

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
 
 #include "solve/dynamics/precision.hpp"
+#include "solve/held_bytes.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
 #include "solve/shape/shape_functions.hpp"
@@ -33,7 +35,8 @@ struct PointBlocks {
   std::vector<Block> blocks;
   std::vector<Patch> patches;
   std::vector<double> volume;            ///< one a point, mm³
-  std::vector<double> mode;              ///< (points × 4) pressure modes, orthonormal in Σ w over a patch
+  std::vector<double> mode;              ///< (points × 4) pressure modes, orthonormal in Σ w over a patch; empty
+                                         ///< where each point is a patch of its own
   std::vector<std::int64_t> pair_begin;  ///< (points + 1)
   std::vector<std::uint16_t> pair_slot;  ///< one a (point, node) pair: local node of the block
   std::vector<double> pair_derivative;   ///< (pairs × 3) ∂φ_a/∂X_J, 1/mm; empty in single precision
@@ -53,8 +56,12 @@ struct PointBlocks {
     const auto p = static_cast<std::size_t>(point);
     return static_cast<std::size_t>(pair_begin[p + 1] - pair_begin[p]);
   }
-  Eigen::Map<const Eigen::Vector4d> modes_of(std::int32_t point) const {
-    return Eigen::Map<const Eigen::Vector4d>(mode.data() + 4 * static_cast<std::size_t>(point));
+  Eigen::Vector4d modes_of(std::int32_t point) const {
+    const auto p = static_cast<std::size_t>(point);
+    if (mode.empty()) {
+      return {1 / std::sqrt(volume[p]), 0, 0, 0};
+    }
+    return Eigen::Map<const Eigen::Vector4d>(mode.data() + 4 * p);
   }
   Precision precision() const {
     return pair_single.empty() ? Precision::double_precision : Precision::single_precision;
@@ -68,6 +75,11 @@ struct PointBlocks {
     } else {
       return pair_derivative.data() + offset;
     }
+  }
+  /// All but the pressure modes.
+  std::size_t shape_bytes() const {
+    return bytes(blocks) + bytes(patches) + bytes(volume) + bytes(pair_begin) + bytes(pair_slot) +
+           bytes(pair_derivative) + bytes(pair_single) + bytes(slot_node) + bytes(node_begin) + bytes(node_slot);
   }
 };
 

@@ -14,6 +14,7 @@ struct PointLaws {
   std::vector<ElasticLaw> elastic;
   std::vector<PronyStep> prony = {};  ///< one a row in a transient run where some material relaxes, else empty
   bool plane_stress = false;          ///< F_33 follows from P_33 = 0; patches are then single points
+  bool in_time = false;               ///< a transient run: it follows how fast J falls at each point
 };
 
 }  // namespace brainshift::solve

@@ -193,7 +193,9 @@ class Relaxation {
 
   SteppingResult finish() {
     motion_.result.error_bound = bound_;
-    return motion_.finish();
+    SteppingResult result = motion_.finish();
+    result.held.nodal_vectors += bytes(force_before_) + bytes(mass_);
+    return result;
   }
 
   static constexpr double smallest_eigenvalue = 1e-8;

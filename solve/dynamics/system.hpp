@@ -36,6 +36,7 @@ struct SteppingResult {
   std::vector<HistoryRow> history;
   std::vector<ParameterSnapshot> snapshots;
   PointState state;
+  HeldBytes held;  ///< of what stepping itself made: nodal vectors and viscosity
   int steps = 0;
   double fraction = 0;         ///< of the load, at the last good state
   double error_bound = 0;      ///< mm; relaxation only

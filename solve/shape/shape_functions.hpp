@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "segmentation/surface/surface.hpp"
+#include "solve/held_bytes.hpp"
 #include "solve/shape/shape_options.hpp"
 
 namespace brainshift::solve {
@@ -23,6 +24,7 @@ struct ShapeRows {
   std::size_t grown = 0;            ///< points whose support had to be grown until it was admissible
 
   std::size_t size() const { return begin.size() - 1; }
+  std::size_t held_bytes() const { return bytes(begin) + bytes(node) + bytes(value) + bytes(derivative); }
 };
 
 /// The shape functions of a cloud: prepared once (search tree), evaluated anywhere. Cheap to copy; const calls may run

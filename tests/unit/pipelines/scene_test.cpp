@@ -316,6 +316,43 @@ TEST_F(SceneFile, ExplainTellsActivePartsFromThoseNotBuilt) {
                       "dilatation 2.2", "dynamics: relaxation to 0.01 mm", "gravity: not active"});
 }
 
+/// The shares that stand before a word, each "  part: M % of memory, T % of time".
+double sum_of_shares(const std::string& text, const std::string& word) {
+  double sum = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t begin = text.find_last_of(":,", at) + 1;
+    sum += std::stod(text.substr(begin, at - begin));
+  }
+  return sum;
+}
+
+TEST_F(SceneFile, ExplainNamesTheLineOfAPartAndSharesAddUp) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  touch("load.csv");
+  const std::string start = R"(<scene><image labels="labels.nii.gz"/>
+  <tissues><tissue label="1"/><tissue label="3"/></tissues>
+  <load><craniotomy file="load.csv"/></load>
+)";
+  const std::string with = explain_scene(parse(start + "<contact/></scene>"));
+  expect_parts(with, {"contact: active, named in ", "scene.xml:4", "pressure patches: ", "the default"});
+  EXPECT_NEAR(sum_of_shares(with, " % of memory"), 100, 0.4);  // each is rounded to a tenth
+  EXPECT_NEAR(sum_of_shares(with, " % of time"), 100, 0.4);
+  const std::string without = explain_scene(parse(start + "</scene>"));
+  EXPECT_EQ(without.find("contact: 1"), std::string::npos);
+  expect_parts(without, {"contact: not built"});
+  EXPECT_NEAR(sum_of_shares(without, " % of memory"), 100, 0.4);
+}
+
+TEST_F(SceneFile, ARegionDoesNotGoWithGravity) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  touch("load.csv");
+  const std::string scene = R"(<scene><image labels="labels.nii.gz"/>
+  <tissues><tissue label="1"/><tissue label="3"/></tissues>
+  <load><craniotomy file="load.csv"/></load><stage name="solve" region="1"/></scene>)";
+  EXPECT_EQ(fault(scene), "");
+  expect_parts(fault(scene, {"solve.gravity=0 0 -9.81"}), {"region", "gravity"});
+}
+
 TEST_F(SceneFile, ExplainSaysWhichPhysicsIsActive) {
   const std::string text = explain_scene(parse(R"(<scene>
   <tissues><tissue label="1" name="brain" material="brain_viscoelastic"/></tissues>

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a part of a model costs that is there, and one that is not: bytes held while stepping and seconds of processor
+// time a step, all threads together, on an ellipsoid as large as a brain. Prints a table in Markdown and writes it as
+// CSV.
+//
+//   parts OUT.csv [nodes [repeats]]
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "discretise/discretise.hpp"
+#include "solve/prepare.hpp"
+#include "tests/unit/discretise/bodies.hpp"
+
+using namespace brainshift;
+using namespace brainshift::solve;
+
+namespace {
+
+constexpr int steps = 200;
+
+/// Adds the part to a model without it, or to one and its options.
+using Add = std::function<void(Model&, SolveOptions&)>;
+
+/// One row of the table. What `with` and `without` share, both are given.
+struct Part {
+  std::string name;
+  std::size_t HeldBytes::*bytes;  ///< of the part; null: all of them
+  Add shared;
+  Add with;
+};
+
+Surface ellipsoid(double larger) {
+  Surface surface = test::ball(1, Eigen::Vector3d::Zero(), 5);
+  surface.vertices *= Eigen::Vector3d(80 + larger, 65 + larger, 60 + larger).asDiagonal();
+  return surface;
+}
+
+/// The top of the ellipsoid sinks by up to 4 mm, the rest is free.
+Model brain(std::size_t nodes) {
+  discretise::DiscretiseOptions options;
+  options.nodes = nodes;
+  auto [cloud, cells, measures] = discretise::discretise(ellipsoid(0), nullptr, options);
+  Model model;
+  model.cloud = std::move(cloud);
+  model.cells = std::move(cells);
+  model.materials[1] = {3000, 0.49, 1000};
+  model.cloud.prescribed_displacement = Points::Constant(model.cloud.positions.rows(), 3, std::nan(""));
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    const double r = model.cloud.positions.row(a).head<2>().norm() / 28;
+    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0 && model.cloud.positions(a, 2) > 0 && r < 1) {
+      model.cloud.prescribed_displacement.row(a) << 0, 0, -4 * (1 - r * r);
+    }
+  }
+  return model;
+}
+
+void nothing(Model&, SolveOptions&) {}
+
+void in_time(Model& model, SolveOptions& options) {
+  options.dynamics = Dynamics::transient;
+  options.damping = 20;
+  model.curve = LoadCurve({0, 0.2}, {0, 1}, LoadCurve::Join::smooth);
+}
+
+void three_materials(Model& model, SolveOptions&) {
+  model.materials[2] = model.materials[3] = model.materials[1];
+  for (std::size_t i = 0; i < model.cells.size(); ++i) {
+    const auto corner = static_cast<Eigen::Index>(model.cells.connectivity[i * 8]);
+    model.cells.label[i] =
+        1 + static_cast<std::int32_t>(std::clamp(model.cells.vertices(corner, 0) / 50 + 1.5, 0.0, 2.9));
+  }
+}
+
+std::vector<Part> parts() {
+  return {{"contact", &HeldBytes::contact, nothing, [](Model& m, SolveOptions&) { m.skull = ellipsoid(0.5); }},
+          {"viscosity, two Prony terms (transient)", &HeldBytes::viscosity, in_time,
+           [](Model& m, SolveOptions&) {
+             m.materials[1].prony = {{0.450, 0.50}, {0.365, 50}};
+           }},
+          {"gravity", &HeldBytes::external_forces, nothing,
+           [](Model& m, SolveOptions&) {
+             m.gravity = {0, 0, -9.81};
+           }},
+          {"forces at nodes", &HeldBytes::external_forces, nothing,
+           [](Model& m, SolveOptions&) { m.cloud.force = Points::Constant(m.cloud.positions.rows(), 3, 1e-6); }},
+          {"pressure patches (absent: pointwise)", &HeldBytes::pressure_patches,
+           [](Model&, SolveOptions& o) { o.volumetric = Volumetric::pointwise; },
+           [](Model&, SolveOptions& o) { o.volumetric = Volumetric::mean_dilatation; }},
+          {"three materials (absent: one of the same constants)", nullptr, nothing, three_materials}};
+}
+
+struct Case {
+  Model model;
+  SolveOptions options;
+  Prepared prepared;
+  HeldBytes bytes;
+  std::vector<double> seconds;  ///< a step, between one report of progress and the next
+
+  Case(const Model& base, const Part& part, bool with) : model(base), prepared(made(part, with)) {}
+
+  /// Once through the steps.
+  void run() {
+    std::vector<std::pair<int, double>> reports;
+    const auto note = [&](double, std::string_view what) {
+      const std::string text(what);
+      if (text.starts_with("step ")) {
+        reports.emplace_back(std::atoi(text.c_str() + 5), static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
+      }
+    };
+    const SolveResult result = step(model, options, prepared, {}, note);
+    bytes = result.measures.bytes;
+    for (std::size_t i = 1; i < reports.size(); ++i) {
+      if (reports[i].first > reports[i - 1].first) {
+        seconds.push_back((reports[i].second - reports[i - 1].second) / (reports[i].first - reports[i - 1].first));
+      }
+    }
+    if (seconds.empty()) {
+      throw std::runtime_error("too few steps to be timed: " + result.failure);
+    }
+  }
+  double median() {
+    std::sort(seconds.begin(), seconds.end());
+    return seconds[seconds.size() / 2];
+  }
+
+ private:
+  Prepared made(const Part& part, bool with) {
+    options.max_steps = steps;
+    part.shared(model, options);
+    if (with) {
+      part.with(model, options);
+    }
+    SolveMeasures measures;
+    return prepare(model, options, {}, measures, {});
+  }
+};
+
+std::size_t bytes_of(const HeldBytes& held, const Part& part) {
+  return part.bytes != nullptr ? held.*part.bytes : held.total();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2 || argc > 4) {
+    std::fprintf(stderr, "usage: parts OUT.csv [nodes [repeats]]\n");
+    return 2;
+  }
+  const Model base = brain(argc > 2 ? static_cast<std::size_t>(std::atoi(argv[2])) : 10000);
+  const int repeats = argc > 3 ? std::atoi(argv[3]) : 5;
+  std::ofstream csv(argv[1]);
+  csv << "part,bytes_absent,bytes_present,seconds_a_step_absent,seconds_a_step_present,ratio\n";
+  std::printf(
+      "| part | bytes, absent | present | processor ms a step, absent | present | ratio |\n| --- | --- | --- | --- | "
+      "--- | --- "
+      "|\n");
+  for (const Part& part : parts()) {
+    Case without(base, part, false), with(base, part, true);
+    for (int i = 0; i < repeats; ++i) {  // in turn, so that what else the machine does falls on both
+      without.run();
+      with.run();
+    }
+    const double absent = without.median(), present = with.median();
+    const std::size_t none = bytes_of(without.bytes, part), some = bytes_of(with.bytes, part);
+    csv << '"' << part.name << "\"," << none << ',' << some << ',' << absent << ',' << present << ','
+        << present / absent << '\n';
+    std::printf("| %s | %zu | %zu | %.2f | %.2f | %.2f |\n", part.name.c_str(), none, some, 1e3 * absent, 1e3 * present,
+                present / absent);
+    std::fflush(stdout);
+  }
+  const auto whole = [&] {
+    Case one(base, parts().front(), true);
+    one.run();
+    return one.bytes;
+  }();
+  std::printf(
+      "\nAll parts with contact, bytes: shape functions %zu, nodal vectors %zu, pressure patches %zu, essential "
+      "conditions %zu, contact %zu\n",
+      whole.shape_functions, whole.nodal_vectors, whole.pressure_patches, whole.essential_conditions, whole.contact);
+  return csv.flush() ? 0 : 1;
+}
