@@ -51,7 +51,6 @@ struct PointState {
   double strain_energy = 0;  ///< 1e-9 J; of the elastic laws, without what relaxation took
   double smallest_jacobian = 1;
   double largest_stretch = 1;
-  std::size_t collapsed = 0;  ///< points of nearly incompressible tissue that rest on their barrier
 };
 PointState point_state(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch);
 

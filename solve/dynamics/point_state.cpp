@@ -19,7 +19,6 @@ void add_patch(const PointBlocks& points, const Patch& patch, const ElasticLaw& 
     state.strain_energy += points.volume[static_cast<std::size_t>(p)] * (law.isochoric_energy(d) + volumetric);
     state.smallest_jacobian = lesser(state.smallest_jacobian, d.jacobian);
     state.largest_stretch = std::max(state.largest_stretch, principal_stretches(d.gradient).maxCoeff());
-    state.collapsed += depth_in_barrier(law, law.dilatation(d)) < 0 ? 1 : 0;
   }
 }
 
@@ -42,7 +41,6 @@ PointState point_state(const PointBlocks& points, const PointLaws& laws, const F
     state.strain_energy += part.strain_energy;
     state.smallest_jacobian = lesser(state.smallest_jacobian, part.smallest_jacobian);
     state.largest_stretch = std::max(state.largest_stretch, part.largest_stretch);
-    state.collapsed += part.collapsed;
   }
   return state;
 }

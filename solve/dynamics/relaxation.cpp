@@ -58,7 +58,6 @@ class Relaxation {
         look();
         report_progress(progress);
         if (motion_.time >= 1 && bound_ <= tolerance()) {
-          check_collapse();
           return finish();
         }
       }
@@ -85,20 +84,6 @@ class Relaxation {
     if (motion_.squeezed()) {
       follow_stiffness();
     }
-  }
-
-  /// At rest, but not where the body would be: its tissue cannot lose so much volume.
-  void check_collapse() {
-    SteppingResult& result = motion_.result;
-    if (result.state.collapsed == 0) {
-      return;
-    }
-    std::ostringstream text;
-    text << result.state.collapsed
-         << " integration points of nearly incompressible tissue have lost about half of their volume (least J = "
-         << result.state.smallest_jacobian << "), which is an error of too few nodes, not to be trusted; worst";
-    result.failure = text.str();
-    result.fault = broken_point(system_.points, motion_.scratch, {motion_.now, motion_.before, motion_.next});
   }
 
   /// Once a window: is the state sound, how far is it from rest, how fast does it get there?

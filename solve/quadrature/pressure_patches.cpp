@@ -62,8 +62,13 @@ class Halving {
     Eigen::Index axis = side[1] > side[0] + level ? 1 : 0;
     axis = side[2] > side[axis] + level ? 2 : axis;
     std::sort(points.begin(), points.end(), [this, axis](std::int32_t a, std::int32_t b) {
-      const double xa = positions_(a, axis), xb = positions_(b, axis);
-      return xa != xb ? xa < xb : a < b;
+      for (Eigen::Index i = axis; i < axis + 3; ++i) {  // points that lie level by the next axis
+        const double xa = positions_(a, i % 3), xb = positions_(b, i % 3);
+        if (xa != xb) {
+          return xa < xb;
+        }
+      }
+      return a < b;
     });
   }
 
