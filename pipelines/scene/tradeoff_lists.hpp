@@ -9,14 +9,14 @@ namespace brainshift::pipelines {
 /// What `brainshift tradeoff` tries: for each setting the values of the scene's option of that name, separated by
 /// blanks or commas; all combinations are solved.
 struct TradeoffLists {
-  std::string nodes = "3000 6000 12000 24000";
+  std::string nodes = "1500 3000 6000 12000";
   std::string points_per_cell = "1 auto";
   std::string integration_tolerance = "0";
   std::string basis = "linear modified_quadratic";
   std::string derivatives = "full diffuse";
   std::string precision = "double single";
   std::string tolerance = "0.1 0.01";
-  int reference_nodes = 60000;  ///< of the solution that they are measured against
+  int reference_nodes = 48000;  ///< of the solution that they are measured against
 };
 
 /// A setting and where the scene has its option.

@@ -46,6 +46,17 @@ Eigen::Matrix3d Block::exact() const {
   return gradient;
 }
 
+double Block::energy() const {
+  constexpr double milli_joule = 1e-6;  // Pa mm³
+  const double density = std::visit(
+      [&](const auto& law) {
+        const solve::Deformation d(exact());
+        return law.isochoric_energy(d) + law.bulk_modulus / 2 * law.dilatation(d) * law.dilatation(d);
+      },
+      solve::elastic_law(material));
+  return milli_joule * density * size.prod();
+}
+
 std::vector<Measured> Block::errors(const solve::SolveResult& result, double most_displacement,
                                     double most_force) const {
   const Eigen::Matrix3d gradient = exact();

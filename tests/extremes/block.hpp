@@ -17,6 +17,9 @@ struct Block {
 
   solve::Model model(NodeCloud cloud, BackgroundCells cells) const;
 
+  /// Strain energy on paper, mJ.
+  double energy() const;
+
   /// Of an answer against the one on paper: the largest error of a displacement, in percent of what is imposed, and
   /// that of the force.
   std::vector<Measured> errors(const solve::SolveResult& result, double most_displacement, double most_force) const;

@@ -334,7 +334,7 @@ TEST_F(BadInput, NodesThatSayTheSame) {
                            [](NodeCloud& cloud) {
                              cloud.positions.row(5) = cloud.positions.row(4) + Eigen::RowVector3d(5e-5, 0, 0);
                            }),
-                 {"contradict or repeat each other", "node"});
+                 {"nodes 4 and 5", "apart", "remove one of them"});
 }
 
 TEST_F(BadInput, PlanesOfTheWrongCells) {
