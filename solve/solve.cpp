@@ -58,6 +58,7 @@ void measure(const Prepared& p, const SteppingResult& stepped, SolveMeasures& m)
   }
   m.smallest_jacobian = stepped.state.smallest_jacobian;
   m.largest_stretch = stepped.state.largest_stretch;
+  m.compressed_share = stepped.state.compressed_share;
   m.bytes = held_bytes(p, stepped.held);
 }
 

@@ -118,6 +118,7 @@ struct SolveMeasures {
   double largest_penetration = 0;   ///< deepest node outside the skull, mm
   double smallest_jacobian = 0;     ///< least det F over integration points
   double largest_stretch = 0;       ///< largest principal stretch
+  double compressed_share = 0;      ///< of the volume, pressed so far that its free faces may crease
   double seconds_setup = 0;
   double seconds_stepping = 0;
   HeldBytes bytes;

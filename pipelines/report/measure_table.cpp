@@ -42,6 +42,8 @@ constexpr Rule rules[] = {
     {"solve", "/solve/measures/largest_displacement_mm", "mm", -infinity, infinity, false, "",
      "largest displacement of a node"},
     {"solve", "/solve/measures/largest_stretch", "", -infinity, infinity, false, "", "largest stretch of the tissue"},
+    {"solve", "/solve/measures/compressed_share", "", -infinity, 0.01, false, "at most 0.01",
+     "share of the tissue pressed so far, below 56 % of a length, that free faces of it would fold"},
     {"register", "/register/measures/jacobian_min", "", 0, infinity, true, "above 0",
      "smallest local volume ratio of the field in the brain; below 0 the image is folded"},
     {"register", "/register/measures/inverse_mean_mm", "mm", -infinity, 0.05, false, "at most 0.05 mm",

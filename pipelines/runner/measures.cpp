@@ -60,6 +60,7 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                      {"largest_penetration_mm", m.largest_penetration},
                      {"smallest_jacobian", m.smallest_jacobian},
                      {"largest_stretch", m.largest_stretch},
+                     {"compressed_share", m.compressed_share},
                      {"seconds_setup", m.seconds_setup},
                      {"seconds_stepping", m.seconds_stepping},
                      {"bytes",

@@ -11,15 +11,13 @@ struct Preset {
   const char* name;
   const char* use;
   const char* nodes;
-  const char* points_per_cell;
-  const char* basis;
   const char* tolerance;
 };
 
 constexpr std::array<Preset, 3> presets = {{
-    {"fast", "a first look", "1500", "1", "linear", "0.1"},
-    {"balanced", "most work", "6000", "auto", "modified_quadratic", "0.03"},
-    {"accurate", "a reference", "24000", "auto", "modified_quadratic", "0.01"},
+    {"fast", "a first look", "1500", "0.1"},
+    {"balanced", "most work", "6000", "0.01"},
+    {"accurate", "a reference", "24000", "0.01"},
 }};
 
 }  // namespace
@@ -48,9 +46,9 @@ std::vector<std::string> preset_overrides(const std::string& name) {
     if (name == preset.name) {
       return {"discretise.spacing=",
               std::string("discretise.nodes=") + preset.nodes,
-              std::string("solve.points_per_cell=") + preset.points_per_cell,
+              "solve.points_per_cell=auto",
               "solve.integration_tolerance=0",
-              std::string("solve.basis=") + preset.basis,
+              "solve.basis=linear",
               "solve.derivatives=full",
               "solve.precision=single",
               std::string("solve.tolerance=") + preset.tolerance};

@@ -43,7 +43,7 @@ Scene scene_of_level(const Scene& scene, std::size_t nodes, double tolerance) {
   level.discretise.nodes = nodes;
   level.points_per_cell.reset();
   level.solve.integration_tolerance = 0;
-  level.solve.shape.basis = Basis::modified_quadratic;
+  level.solve.shape.basis = Basis::linear;
   level.solve.shape.derivatives = Derivatives::full;
   level.solve.precision = solve::Precision::single_precision;
   level.solve.tolerance = stop_share * tolerance;

@@ -46,11 +46,15 @@ void internal_force(const PointBlocks& points, const PointLaws& laws, const Noda
 /// Over all points, at the last internal_force().
 JacobianRange jacobian_range(const ForceScratch& scratch);
 
+/// Below this stretch a free face of soft matter creases under uniaxial compression (Hong, Zhao & Suo 2009).
+inline constexpr double crease_stretch = 0.56;
+
 /// State of the points at the parameters of the last internal_force().
 struct PointState {
   double strain_energy = 0;  ///< 1e-9 J; of the elastic laws, without what relaxation took
   double smallest_jacobian = 1;
   double largest_stretch = 1;
+  double compressed_share = 0;  ///< of the volume, with a principal stretch below crease_stretch
 };
 PointState point_state(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "solve/dynamics/patch_dilatation.hpp"
 #include "solve/material/principal.hpp"
@@ -16,9 +17,12 @@ void add_patch(const PointBlocks& points, const Patch& patch, const ElasticLaw& 
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const Deformation d(gradient_of(scratch, p));
     const double volumetric = point_energy(law, dilatations.dot(points.modes_of(p)), law.dilatation(d));
-    state.strain_energy += points.volume[static_cast<std::size_t>(p)] * (law.isochoric_energy(d) + volumetric);
+    const double volume = points.volume[static_cast<std::size_t>(p)];
+    state.strain_energy += volume * (law.isochoric_energy(d) + volumetric);
     state.smallest_jacobian = lesser(state.smallest_jacobian, d.jacobian);
-    state.largest_stretch = std::max(state.largest_stretch, principal_stretches(d.gradient).maxCoeff());
+    const Eigen::Vector3d stretches = principal_stretches(d.gradient);
+    state.largest_stretch = std::max(state.largest_stretch, stretches.maxCoeff());
+    state.compressed_share += stretches.minCoeff() < crease_stretch ? volume : 0;
   }
 }
 
@@ -41,7 +45,9 @@ PointState point_state(const PointBlocks& points, const PointLaws& laws, const F
     state.strain_energy += part.strain_energy;
     state.smallest_jacobian = lesser(state.smallest_jacobian, part.smallest_jacobian);
     state.largest_stretch = std::max(state.largest_stretch, part.largest_stretch);
+    state.compressed_share += part.compressed_share;
   }
+  state.compressed_share /= std::accumulate(points.volume.begin(), points.volume.end(), 0.0);
   return state;
 }
 

@@ -194,48 +194,68 @@ std::size_t fewest_points(const BackgroundCells& cells, const AdaptiveRule& rule
   return (cells.size() - cells.cut_parts.size()) * parts * static_cast<std::size_t>(rule.points_per_part);
 }
 
-/// Splits the cells from..to; the points of each come by level. before: points of the cells before these.
-Placed place(const BackgroundCells& cells, std::size_t from, std::size_t to, const ShapeFunctions& shape,
-             const AdaptiveRule& rule, std::size_t before) {
-  struct Source {
-    std::int32_t cell;
-    std::size_t level, point;
-  };
+/// A point that is kept, and the level that it comes from.
+struct Source {
+  std::int32_t cell;
+  std::size_t level, point;
+};
+
+/// Cells as they were split: what is kept of each level.
+struct Refined {
+  std::vector<Level> levels;
   std::vector<Source> sources;
-  std::vector<Level> levels = {whole_cells(cells, from, to, rule.points_per_part)};
-  levels.back().evaluate(shape);
-  Placed placed;
-  placed.rows.grown = levels.back().rows.grown;
-  while (!levels.back().regions.empty()) {
-    const Level& whole = levels.back();
+  std::size_t capped = 0;
+};
+
+/// Keeps the parts that are good enough, or that are not split again; the others are the next level's regions.
+void keep_parts(const std::vector<std::uint8_t>& good, std::span<const std::size_t> begin, bool deepest, Level& parts,
+                Refined& out) {
+  std::vector<Region> unfinished;
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    for (std::size_t part = begin[i]; part < begin[i + 1]; ++part) {
+      const Region& region = parts.regions[part];
+      if (good[i] == 0 && !deepest && region.corners.rows() > 0) {
+        unfinished.push_back(region);
+        continue;
+      }
+      for (std::size_t point = region.first; point < region.last; ++point) {
+        out.sources.push_back({region.cell, out.levels.size(), point});
+        out.capped += good[i] == 0 ? 1 : 0;
+      }
+    }
+  }
+  parts.regions = std::move(unfinished);
+}
+
+/// Splits the cells from..to. before: points of the cells before these.
+Refined refine(const BackgroundCells& cells, std::size_t from, std::size_t to, const ShapeFunctions& shape,
+               const AdaptiveRule& rule, std::size_t before) {
+  Refined refined;
+  refined.levels.push_back(whole_cells(cells, from, to, rule.points_per_part));
+  refined.levels.back().evaluate(shape);
+  while (!refined.levels.back().regions.empty()) {
+    const Level& whole = refined.levels.back();
     Level parts;
     std::vector<std::size_t> begin = {0};
     for (const Region& region : whole.regions) {
       append_parts(cells, region, rule.points_per_part, parts);
       begin.push_back(parts.regions.size());
     }
-    check_affordable(before + sources.size() + parts.points.size(), rule);
+    check_affordable(before + refined.sources.size() + parts.points.size(), rule);
     parts.evaluate(shape);
-    placed.rows.grown += parts.rows.grown;
     const std::vector<std::uint8_t> good = compare(whole, parts, begin, shape.nodes(), rule.tolerance);
-    std::vector<Region> unfinished;
-    for (std::size_t i = 0; i < good.size(); ++i) {
-      for (std::size_t part = begin[i]; part < begin[i + 1]; ++part) {
-        const Region& region = parts.regions[part];
-        const bool ends = levels.size() == static_cast<std::size_t>(rule.depth) || region.corners.rows() == 0;
-        if (good[i] == 0 && !ends) {
-          unfinished.push_back(region);
-          continue;
-        }
-        for (std::size_t point = region.first; point < region.last; ++point) {
-          sources.push_back({region.cell, levels.size(), point});
-          placed.capped += good[i] == 0 ? 1 : 0;
-        }
-      }
-    }
-    parts.regions = std::move(unfinished);
-    levels.push_back(std::move(parts));
+    const bool deepest = refined.levels.size() == static_cast<std::size_t>(rule.depth);
+    keep_parts(good, begin, deepest, parts, refined);
+    refined.levels.push_back(std::move(parts));
   }
+  return refined;
+}
+
+/// The kept points, cell by cell, those of a cell by level.
+Placed collect(Refined refined) {
+  auto& [levels, sources, capped] = refined;
+  Placed placed;
+  placed.capped = capped;
   std::stable_sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) { return a.cell < b.cell; });
   std::size_t pairs = 0;
   for (const Source& s : sources) {
@@ -243,6 +263,9 @@ Placed place(const BackgroundCells& cells, std::size_t from, std::size_t to, con
     pairs += static_cast<std::size_t>(rows.begin[s.point + 1] - rows.begin[s.point]);
   }
   reserve(sources.size(), pairs, placed.rows);
+  for (const Level& level : levels) {
+    placed.rows.grown += level.rows.grown;
+  }
   for (const Source& s : sources) {
     const Level& level = levels[s.level];
     placed.points.push_back(level.points[s.point]);
@@ -301,7 +324,8 @@ AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunction
   std::vector<double> full;
   std::vector<ShapeRows> batches;
   for (std::size_t from = 0; from < cells.size(); from += cells_per_batch) {
-    Placed batch = place(cells, from, std::min(from + cells_per_batch, cells.size()), shape, rule, points.size());
+    const std::size_t to = std::min(from + cells_per_batch, cells.size());
+    Placed batch = collect(refine(cells, from, to, shape, rule, points.size()));
     points.insert(points.end(), batch.points.begin(), batch.points.end());
     full.insert(full.end(), batch.full.begin(), batch.full.end());
     result.points.cell.insert(result.points.cell.end(), batch.cell.begin(), batch.cell.end());

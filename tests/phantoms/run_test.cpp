@@ -95,6 +95,21 @@ TEST_F(Run, RecordsWhatItDid) {
   EXPECT_GT(run["stages"]["solve"]["sizes"]["loaded_nodes"], 0);
 }
 
+TEST_F(Run, ExplainsWhatEachPartChanged) {
+  const std::string command = "brainshift scene --explain " + head_folder() + "/scene.xml" + small;
+  const ProgramResult before = run_shell(command);
+  ASSERT_EQ(before.code, 0) << before.err;
+  EXPECT_NE(before.out.find("% of time"), std::string::npos) << before.out;
+  const ProgramResult after = run_shell(command + "--after " + finished().string());
+  ASSERT_EQ(after.code, 0) << after.err;
+  EXPECT_NE(after.out.find("contact (left out): needed"), std::string::npos) << after.out;
+  EXPECT_NE(after.out.find("you can take it"), std::string::npos) << "single precision:\n" << after.out;
+  const ProgramResult other = run_shell(command + "--set tissues.1.youngs_modulus=2000 --after " + finished().string());
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("not that of this scene"), std::string::npos) << other.err;
+  EXPECT_EQ(run_shell(command + "--after " + head_folder()).code, 2) << "a folder that is no run";
+}
+
 TEST_F(Run, RunsNothingAgainThatHasNotChanged) {
   const fs::path out = copy_of_finished("unchanged");
   const std::string before = read_text(out / "solve/stage.json");
