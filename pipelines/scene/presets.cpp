@@ -44,14 +44,10 @@ std::vector<std::string> preset_overrides(const std::string& name) {
   }
   for (const Preset& preset : presets) {
     if (name == preset.name) {
-      return {"discretise.spacing=",
-              std::string("discretise.nodes=") + preset.nodes,
-              "solve.points_per_cell=auto",
-              "solve.integration_tolerance=0",
-              "solve.basis=linear",
-              "solve.derivatives=full",
-              "solve.precision=single",
-              std::string("solve.tolerance=") + preset.tolerance};
+      return {"discretise.spacing=",        std::string("discretise.nodes=") + preset.nodes,
+              "solve.points_per_cell=auto", "solve.integration_tolerance=0",
+              "solve.basis=linear",         "solve.derivatives=full",
+              "solve.precision=single",     std::string("solve.tolerance=") + preset.tolerance};
     }
   }
   throw std::invalid_argument("--preset is '" + name + "', but must be " + preset_names());
