@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include <regex>
+#include <cstdio>
 
 #include "solve/dynamics/diagnosis.hpp"
 #include "tests/unit/solve/models.hpp"
@@ -13,14 +13,15 @@ constexpr double side = model_side;
 
 /// The node that a sentence names, after having found that its place is the cloud's.
 Eigen::Index named_node(const std::string& sentence, const NodeCloud& cloud) {
-  std::smatch found;
-  const std::regex pattern(R"(node (\d+), \((\S+), (\S+), (\S+)\) mm)");
-  if (!std::regex_search(sentence, found, pattern)) {
+  long node = 0;
+  double x = 0, y = 0, z = 0;
+  const std::size_t at = sentence.rfind("node ");
+  if (at == std::string::npos ||
+      std::sscanf(sentence.c_str() + at, "node %ld, (%lf, %lf, %lf) mm", &node, &x, &y, &z) != 4) {
     ADD_FAILURE() << sentence;
     return 0;
   }
-  const Eigen::Index node = std::stol(found[1]);
-  const Eigen::RowVector3d place(std::stod(found[2]), std::stod(found[3]), std::stod(found[4]));
+  const Eigen::RowVector3d place(x, y, z);
   EXPECT_LE((cloud.positions.row(node) - place).norm(), 1e-3) << sentence;
   return node;
 }
