@@ -52,7 +52,7 @@ struct SolveOptions {
   Precision precision = Precision::double_precision;  ///< of the derivatives that stepping reads
   int points_per_cell = 8;  ///< or part of one: hexahedra 1 or 8, tetrahedra and quads 1 or 4, triangles 1 or 3
   Dynamics dynamics = Dynamics::relaxation;
-  /// Relaxation: stop when the bound of the remaining error is below this, mm, and below 1/500 of the displacement.
+  /// Relaxation: stop when the bound of the remaining error is below this, mm, and below 1/50 of the displacement.
   double tolerance = 0.01;
   int load_steps = 400;  ///< relaxation: steps over the load's curve
   double time_step = 0;  ///< transient: s; 0: nine tenths of the critical one

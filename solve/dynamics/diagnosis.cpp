@@ -6,6 +6,8 @@
 #include <limits>
 #include <sstream>
 
+#include "solve/dynamics/patch_dilatation.hpp"
+
 namespace brainshift::solve {
 
 namespace {
@@ -91,10 +93,15 @@ std::string cause(const Fault& fault, std::int32_t node, const Surroundings& aro
 }  // namespace
 
 Fault broken_point(const PointBlocks& points, const ForceScratch& scratch, const LastSteps& steps) {
-  const auto worst = std::min_element(scratch.jacobian.begin(), scratch.jacobian.end(),
-                                      [](double a, double b) { return a < b || (std::isnan(a) && !std::isnan(b)); });
   Fault fault;
-  fault.point = static_cast<std::int32_t>(worst - scratch.jacobian.begin());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t p = 0; p < static_cast<std::int32_t>(points.points()) && !std::isnan(least); ++p) {
+    const double jacobian = gradient_of(scratch, p).determinant();
+    if (!(jacobian >= least)) {
+      least = jacobian;
+      fault.point = p;
+    }
+  }
   std::vector<std::int32_t> support;
   for_each_pair(points, [&](const Patch&, std::int32_t point, std::int32_t node) {
     if (point == fault.point) {

@@ -4,6 +4,8 @@
 #include <cstdio>
 
 #include "solve/dynamics/diagnosis.hpp"
+#include "solve/dynamics/patch_dilatation.hpp"
+#include "tests/unit/solve/body.hpp"
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve {
@@ -34,6 +36,24 @@ TEST(Diagnosis, NamesTheNodeNextToAPointThatTurnedInsideOut) {
   named_node(result.failure, model.cloud);
   EXPECT_TRUE(result.solution.displacement.allFinite());
   EXPECT_GT(result.measures.smallest_jacobian, 0);
+}
+
+/// Of a body at rest and one in time, which alone remembers J.
+TEST(Diagnosis, FindsThePointThatTurnedInsideOut) {
+  for (const bool in_time : {false, true}) {
+    Body body{test::irregular_box(5, side), test::box_cells(4, side), {Material{}}, BodyOptions{}};
+    body.laws.in_time = in_time;
+    body.scratch = ForceScratch(body.points, body.laws);
+    constexpr std::size_t pushed = 62;  // an inner node
+    NodalVectors u = body.rest();
+    u[4 * pushed + 2] = side;
+    body.force(u);
+    const Fault fault = broken_point(body.points, body.scratch, {u, u, u});
+    ASSERT_GE(fault.point, 0);
+    const double found = gradient_of(body.scratch, fault.point).determinant();
+    EXPECT_LT(found, 0);
+    EXPECT_DOUBLE_EQ(found, jacobian_range(body.scratch).smallest) << "in time " << in_time;
+  }
 }
 
 TEST(Diagnosis, NamesTheSoftTissueBesideAStiffOne) {
