@@ -15,6 +15,7 @@
 #include "solve/boundary/essential_conditions.hpp"
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/load_curve.hpp"
+#include "solve/cut/cut.hpp"
 #include "solve/dynamics/precision.hpp"
 #include "solve/held_bytes.hpp"
 #include "solve/material/material.hpp"
@@ -75,6 +76,10 @@ struct Model {
   Plane plane = Plane::none;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s²
   BodyForce body_force = {};                          ///< N/mm³ undeformed; empty: none
+  std::vector<Cut> cuts = {};
+  bool face_contact = false;  ///< of cuts: their faces do not pass through each other
+  std::optional<Rupture> rupture = {};
+  std::optional<Resection> resection = {};
   LoadCurve curve = {};  ///< of prescribed displacements and all forces; in a transient run its times are seconds
 };
 
