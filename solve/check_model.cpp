@@ -24,7 +24,7 @@ void check_held(const OrderedCloud& cloud, Plane plane, bool contact) {
     const Eigen::Vector3d x = (cloud.positions.row(a) - centre) / size;
     const Eigen::Matrix3d turn{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
     for (int axis = 0; axis < (plane == Plane::none ? 3 : 2); ++axis) {
-      if (!std::isnan(cloud.prescribed(a, axis))) {
+      if (!std::isnan(cloud.prescribed_displacement(a, axis))) {
         Eigen::Matrix<double, 1, 6> row;
         row << Eigen::RowVector3d::Unit(axis), turn.row(axis);
         rows.push_back(row);
@@ -66,15 +66,14 @@ void check_plane(const Model& model) {
 
 /// Nodes in nearly one place have nearly the same shape functions: their difference strains nothing, so it never comes
 /// to rest.
-void check_apart(const OrderedCloud& cloud) {
+void check_apart(const NodeCloud& cloud) {
   constexpr double least = 0.01;  // of the spacing
   const NearestNeighbours nearest = nearest_neighbours(cloud.positions, 1);
   for (std::size_t a = 0; a < nearest.distance.size(); ++a) {
     if (nearest.distance[a] < least * cloud.spacing[a]) {
       std::ostringstream text;
-      text << "nodes " << cloud.original[a] << " and " << cloud.original[static_cast<std::size_t>(nearest.index[a])]
-           << " lie only " << nearest.distance[a] << " mm apart, where the spacing is " << cloud.spacing[a]
-           << " mm; remove one of them";
+      text << "nodes " << a << " and " << nearest.index[a] << " lie only " << nearest.distance[a]
+           << " mm apart, where the spacing is " << cloud.spacing[a] << " mm; remove one of them";
       throw std::invalid_argument(text.str());
     }
   }
@@ -82,12 +81,13 @@ void check_apart(const OrderedCloud& cloud) {
 
 }  // namespace
 
-void check_model(const Model& model, const OrderedCloud& cloud, Dynamics dynamics) {
+void check_model(const Model& model) {
   check_plane(model);
-  check_apart(cloud);
-  if (dynamics == Dynamics::relaxation) {
-    check_held(cloud, model.plane, model.skull.has_value());
-  }
+  check_apart(model.cloud);
+}
+
+void check_held(const OrderedCloud& cloud, const Model& model) {
+  check_held(cloud, model.plane, model.skull.has_value());
 }
 
 }  // namespace brainshift::solve

@@ -6,9 +6,10 @@
 
 namespace brainshift::solve {
 
-/// Throws std::invalid_argument when two nodes lie nearly in one place, when cells, contact or a material do not go
-/// with the plane, or when the steady state is sought and the cloud's prescribed displacements leave the body free to
-/// move as a whole with no skull to stop it.
-void check_model(const Model& model, const OrderedCloud& cloud, Dynamics dynamics);
+/// Throws std::invalid_argument when plane, cells and materials do not go together, or nodes lie in one place.
+void check_model(const Model& model);
+
+/// Throws std::invalid_argument when the conditions leave the body free to move as a whole.
+void check_held(const OrderedCloud& cloud, const Model& model);
 
 }  // namespace brainshift::solve

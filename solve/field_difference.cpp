@@ -10,7 +10,7 @@
 namespace brainshift::solve {
 
 Points displacement_at(const Solution& solution, const Points& points) {
-  const ShapeFunctions shape(solution.positions, solution.spacing, solution.shape);
+  const ShapeFunctions shape = shape_functions(solution);
   return shape.interpolate(points, parameters_from_displacement(shape, solution.positions, solution.displacement));
 }
 

@@ -10,7 +10,7 @@ namespace brainshift::solve {
 namespace {
 
 bool is_prescribed(const OrderedCloud& cloud, Eigen::Index node) {
-  return !cloud.prescribed.row(node).array().isNaN().all();
+  return !cloud.prescribed_displacement.row(node).array().isNaN().all();
 }
 
 }  // namespace
@@ -20,15 +20,18 @@ OrderedCloud order_nodes(const NodeCloud& cloud) {
   ordered.original = space_filling_order(cloud.positions);
   const auto n = static_cast<Eigen::Index>(cloud.size());
   ordered.positions.resize(n, 3);
-  ordered.prescribed = Points::Constant(n, 3, std::nan(""));
+  ordered.prescribed_displacement = Points::Constant(n, 3, std::nan(""));
   ordered.force.resize(cloud.force.rows(), 3);
   for (Eigen::Index a = 0; a < n; ++a) {
     const std::int32_t from = ordered.original[static_cast<std::size_t>(a)];
     ordered.positions.row(a) = cloud.positions.row(from);
     ordered.spacing.push_back(cloud.spacing[static_cast<std::size_t>(from)]);
     ordered.on_surface.push_back(cloud.on_surface[static_cast<std::size_t>(from)]);
+    if (cloud.label.size() == cloud.size()) {
+      ordered.label.push_back(cloud.label[static_cast<std::size_t>(from)]);
+    }
     if (cloud.prescribed_displacement.rows() == n) {
-      ordered.prescribed.row(a) = cloud.prescribed_displacement.row(from);
+      ordered.prescribed_displacement.row(a) = cloud.prescribed_displacement.row(from);
     }
     if (cloud.force.rows() == n) {
       ordered.force.row(a) = cloud.force.row(from);

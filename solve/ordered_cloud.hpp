@@ -9,16 +9,11 @@
 namespace brainshift::solve {
 
 /// The cloud with its nodes along a space-filling curve, and where each came from.
-struct OrderedCloud {
-  Points positions;
-  Points prescribed;
-  Points force;  ///< N; no rows: none
-  std::vector<double> spacing;
-  std::vector<std::uint8_t> on_surface;
+struct OrderedCloud : NodeCloud {
   std::vector<std::int32_t> original;  ///< the cloud's node
 };
 
-/// prescribed is NaN and force has no rows where the cloud has none.
+/// prescribed_displacement is NaN where the cloud has none.
 OrderedCloud order_nodes(const NodeCloud& cloud);
 
 std::vector<std::int32_t> surface_nodes(const OrderedCloud& cloud);

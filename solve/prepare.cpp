@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/prepare.hpp"
 
-#include <cmath>
-#include <stdexcept>
-
 #include "solve/check_model.hpp"
-#include "solve/dynamics/stiffness_bound.hpp"
-#include "solve/material/material_table.hpp"
-#include "solve/ordered_cloud.hpp"
+#include "solve/cut/cut_patches.hpp"
+#include "solve/lay_out.hpp"
 #include "solve/quadrature/adaptive_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
 #include "solve/shape/consistent_derivatives.hpp"
@@ -36,60 +32,12 @@ std::vector<double> nodes_per_point(const IntegrationPoints& points, const Shape
   return share;
 }
 
-/// A node that no integration point sees has no mass, and nothing would hold it.
-void check_supported(const PointBlocks& blocks, const OrderedCloud& cloud) {
-  for (std::size_t a = 0; a < blocks.nodes(); ++a) {
-    if (blocks.node_begin[a] == blocks.node_begin[a + 1]) {
-      throw std::invalid_argument(
-          "node " + std::to_string(cloud.original[a]) +
-          " lies in the support of no integration point: the cells do not cover the cloud there, "
-          "or are too coarse for its spacing");
-    }
-  }
-}
-
 std::vector<std::int32_t> tissues_of(const std::map<std::int32_t, Material>& materials) {
   std::vector<std::int32_t> tissues;
   for (const auto& [label, material] : materials) {
     tissues.push_back(label);
   }
   return tissues;
-}
-
-/// Forces on the parameters under the full load, µN; empty when nothing pushes.
-NodalVectors external_force(const Model& model, const OrderedCloud& cloud, const ShapeRows& nodal_rows,
-                            const IntegrationPoints& points, const ShapeRows& point_rows) {
-  const bool gravity = !model.gravity.isZero();
-  if (cloud.force.rows() == 0 && !gravity && !model.body_force) {
-    return {};
-  }
-  NodalVectors force(4 * model.cloud.size(), 0.0);
-  if (cloud.force.rows() > 0) {
-    add_nodal_force(cloud.force, nodal_rows, force);
-  }
-  if (gravity) {
-    constexpr double per_cubic_millimetre = 1e-9;  // kg/m³ m/s² to N/mm³
-    add_body_force(
-        [&](const Eigen::Vector3d&, std::int32_t label) -> Eigen::Vector3d {
-          return per_cubic_millimetre * model.materials.at(label).density * model.gravity;
-        },
-        points, point_rows, force);
-  }
-  if (model.body_force) {
-    add_body_force(model.body_force, points, point_rows, force);
-  }
-  return force;
-}
-
-/// The laws as stepping needs them: at rest relaxed materials have relaxed.
-PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics) {
-  PointLaws laws;
-  for (const Material& m : table.material) {
-    laws.elastic.push_back(elastic_law(dynamics == Dynamics::relaxation ? long_term(m) : m));
-  }
-  laws.plane_stress = plane == Plane::stress;
-  laws.in_time = dynamics == Dynamics::transient;
-  return laws;
 }
 
 AdaptivePoints place_points(const Model& model, const ShapeFunctions& shape, const SolveOptions& options) {
@@ -134,23 +82,28 @@ ShapeRows with_pinned(const ShapeRows& rows, std::span<const std::int32_t> pinne
   return result;
 }
 
-PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::int32_t>& order) {
-  PlacedPoints placed{points.positions(order, Eigen::all), {}};
-  for (const std::int32_t p : order) {
-    placed.tissue.push_back(points.label[static_cast<std::size_t>(p)]);
-  }
-  return placed;
+void measure_sizes(const Pieces& pieces, std::size_t capped, SolveMeasures& m) {
+  m.nodes = pieces.cloud.size();
+  m.integration_points = pieces.points.size();
+  m.capped_points = capped;
+  m.pairs = pieces.point_rows.node.size();
+  m.mean_support = static_cast<double>(m.pairs) / static_cast<double>(m.integration_points);
+  m.grown_supports = pieces.point_rows.grown;
+  m.outside_label = pieces.points.labelled_by_cell;
+  m.loaded_nodes = count_loaded(pieces.cloud);
 }
 
-void measure_sizes(const OrderedCloud& cloud, const AdaptivePoints& placed, SolveMeasures& m) {
-  m.nodes = cloud.original.size();
-  m.integration_points = placed.points.size();
-  m.capped_points = placed.capped;
-  m.pairs = placed.rows.node.size();
-  m.mean_support = static_cast<double>(m.pairs) / static_cast<double>(m.integration_points);
-  m.grown_supports = placed.rows.grown;
-  m.outside_label = placed.points.labelled_by_cell;
-  m.loaded_nodes = count_loaded(cloud);
+PressurePatches patches_of(const Model& model, const SolveOptions& options, const Pieces& pieces,
+                           const Visibility* visibility) {
+  const bool shared_pressure = options.volumetric == Volumetric::mean_dilatation && model.plane != Plane::stress;
+  const auto& [cloud, nodal_rows, points, point_rows, none, materials] = pieces;
+  PressurePatches patches = pressure_patches(points.positions, nodes_per_point(points, point_rows, cloud.spacing),
+                                             materials.row_of_point, shared_pressure ? options.nodes_per_patch : 0);
+  return visibility != nullptr && shared_pressure ? part_patches(*visibility, points.positions, patches) : patches;
+}
+
+bool cuts_go_on(const Model& model) {
+  return last_time(model.cuts) > 0;
 }
 
 }  // namespace
@@ -162,51 +115,42 @@ SolveOptions completed(SolveOptions options, const Model& model) {
 
 Prepared prepare(const Model& model, const SolveOptions& options, std::span<const std::uint8_t> pinned,
                  SolveMeasures& measures, const Progress& progress) {
-  const OrderedCloud cloud = order_nodes(model.cloud);
-  check_model(model, cloud, options.dynamics);
+  check_model(model);
+  std::optional<CutBody> cut;
+  if (!model.cuts.empty()) {
+    cut = cut_body(model);
+  }
+  const std::shared_ptr<const Visibility> visibility = cut ? cut->visibility : nullptr;
+  Pieces pieces;
+  pieces.cloud = order_nodes(cut ? cut->cloud : model.cloud);
+  if (options.dynamics == Dynamics::relaxation) {
+    check_held(pieces.cloud, model);
+  }
   report(progress, 0, "evaluating shape functions");
-  const ShapeFunctions shape(cloud.positions, cloud.spacing, options.shape);
-  const std::vector<std::int32_t> held = pinned_nodes(cloud, pinned);
-  ShapeRows nodal_rows = shape.evaluate(cloud.positions, false);
+  const ShapeFunctions shape(pieces.cloud.positions, pieces.cloud.spacing, options.shape, visibility);
+  const std::vector<std::int32_t> held = pinned_nodes(pieces.cloud, pinned);
+  pieces.nodal_rows = shape.evaluate(pieces.cloud.positions, false);
   if (!held.empty()) {
-    nodal_rows = with_pinned(nodal_rows, held);
+    pieces.nodal_rows = with_pinned(pieces.nodal_rows, held);
   }
   AdaptivePoints placed = place_points(model, shape, options);
-  auto& [points, point_rows, capped] = placed;
-  MaterialTable materials = material_table(model.materials, points.label);
-  measure_sizes(cloud, placed, measures);
+  pieces.points = std::move(placed.points);
+  pieces.point_rows = std::move(placed.rows);
+  pieces.materials = material_table(model.materials, pieces.points.label);
+  measure_sizes(pieces, placed.capped, measures);
   if (options.integration == Integration::consistent) {
-    const ConsistencyMeasures done = make_derivatives_consistent(cloud.positions, surface_nodes(cloud), nodal_rows,
-                                                                 points.volume, options.consistency_defect, point_rows);
+    const ConsistencyMeasures done =
+        make_derivatives_consistent(pieces.cloud.positions, surface_nodes(pieces.cloud), pieces.nodal_rows,
+                                    pieces.points.volume, options.consistency_defect, pieces.point_rows);
     measures.consistency_iterations = done.iterations;
   }
-  const bool shared_pressure = options.volumetric == Volumetric::mean_dilatation && model.plane != Plane::stress;
-  const PressurePatches patches =
-      pressure_patches(points.positions, nodes_per_point(points, point_rows, cloud.spacing), materials.row_of_point,
-                       shared_pressure ? options.nodes_per_patch : 0);
-  PointBlocks blocks =
-      point_blocks(points, point_rows, materials.row_of_point, model.cloud.size(), patches, options.precision);
-  check_supported(blocks, cloud);
-
-  EssentialConditions essential(cloud.prescribed, nodal_rows, cloud.original, options.imposition);
-  essential.count_as_held(held);
-  std::optional<Contact> contact;
-  if (model.skull) {
-    contact.emplace(SignedDistance(*model.skull), cloud.positions, free_surface_nodes(cloud), nodal_rows);
+  pieces.patches = patches_of(model, options, pieces, visibility.get());
+  Prepared prepared = lay_out(model, options, pieces, held);
+  prepared.cut = std::move(cut);
+  if (cuts_go_on(model)) {
+    prepared.pieces = std::move(pieces);
   }
-  const bool in_time = options.dynamics == Dynamics::transient;
-  std::vector<double> mass = in_time ? physical_mass(blocks, materials.density) : std::vector<double>();
-  NodalVectors external = external_force(model, cloud, nodal_rows, points, point_rows);
-  return {cloud.original,
-          std::move(nodal_rows),
-          std::move(blocks),
-          in_order(points, patches.order),
-          point_laws(materials, model.plane, options.dynamics),
-          in_time ? std::move(materials.prony) : std::vector<std::vector<PronyTerm>>(),
-          std::move(mass),
-          std::move(essential),
-          std::move(contact),
-          std::move(external)};
+  return prepared;
 }
 
 }  // namespace brainshift::solve

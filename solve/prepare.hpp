@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "solve/boundary/contact.hpp"
+#include "solve/cut/cut_body.hpp"
 #include "solve/dynamics/diagnosis.hpp"
 #include "solve/dynamics/system.hpp"
+#include "solve/pieces.hpp"
 #include "solve/solve.hpp"
 
 namespace brainshift::solve {
@@ -25,6 +27,8 @@ struct Prepared {
   EssentialConditions essential;
   std::optional<Contact> contact;
   NodalVectors external;
+  std::optional<CutBody> cut;    ///< absent: a scene without one
+  std::optional<Pieces> pieces;  ///< where cuts go on; else they are gone
 };
 
 /// pinned: one a node of the cloud, not 0 where the prescribed displacement is that of the node's parameter û (and the

@@ -56,6 +56,49 @@ ShapeOptions shape_options(const std::filesystem::path& file, vtkFieldData& data
   return options;
 }
 
+/// Rows of a field array, as many as the file has; none: no rows.
+Eigen::MatrixXd field_rows(const std::filesystem::path& file, vtkFieldData& data, const char* name, int components) {
+  vtkAbstractArray* array = data.GetAbstractArray(name);
+  const auto rows = array == nullptr ? 0 : static_cast<std::size_t>(array->GetNumberOfTuples());
+  const std::vector<double> values = vtu::array(file, data, name, rows, components);
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      values.data(), static_cast<Eigen::Index>(rows), components);
+}
+
+/// The cut of the file; empty where it has none.
+solve::CutFacets cut_of(const std::filesystem::path& file, vtkFieldData& data) {
+  solve::CutFacets cut;
+  cut.vertices = field_rows(file, data, "cut_vertices", 3);
+  cut.facets = field_rows(file, data, "cut_facets", 3).cast<std::int32_t>();
+  const Eigen::MatrixXi front = field_rows(file, data, "cut_front", 2).cast<int>();
+  for (Eigen::Index i = 0; i < front.rows(); ++i) {
+    cut.front.push_back({front(i, 0), front(i, 1)});
+  }
+  cut.planar = !cut.empty() && cut.facets.col(2).maxCoeff() < 0;
+  const auto beyond = static_cast<std::int32_t>(cut.vertices.rows());
+  const bool facets_fit =
+      cut.empty() || (cut.facets.leftCols(cut.planar ? 2 : 3).minCoeff() >= 0 && cut.facets.maxCoeff() < beyond);
+  const bool front_fits = front.rows() == 0 || (front.minCoeff() >= 0 && front.maxCoeff() < beyond);
+  if (!facets_fit || !front_fits || !cut.vertices.allFinite()) {
+    refuse(file, "cut_facets or cut_front names a vertex that cut_vertices has not, or one is not finite.");
+  }
+  return cut;
+}
+
+void add_cut(const solve::CutFacets& cut, vtkFieldData& data) {
+  if (cut.empty()) {
+    return;
+  }
+  const Points facets = cut.facets.cast<double>();
+  std::vector<double> front;
+  for (const auto& edge : cut.front) {
+    front.insert(front.end(), edge.begin(), edge.end());
+  }
+  vtu::add_array(data, "cut_vertices", {cut.vertices.data(), static_cast<std::size_t>(cut.vertices.size())}, 3);
+  vtu::add_array(data, "cut_facets", {facets.data(), static_cast<std::size_t>(facets.size())}, 3);
+  vtu::add_array(data, "cut_front", front, 2);
+}
+
 void check_plane(const std::filesystem::path& file, const Points& positions) {
   if (const auto fault = off_plane(positions, "node")) {
     refuse(file, "shape_planar is 1, but " + *fault);
@@ -64,10 +107,16 @@ void check_plane(const std::filesystem::path& file, const Points& positions) {
 
 }  // namespace
 
+solve::ShapeFunctions shape_functions(const Solution& solution) {
+  const auto visibility = solution.cut.empty() ? nullptr : std::make_shared<const solve::Visibility>(solution.cut);
+  return {solution.positions, solution.spacing, solution.shape, visibility};
+}
+
 Solution read_solution(const std::filesystem::path& file) {
   const auto grid = vtu::read(file);
   Solution solution;
   solution.shape = shape_options(file, *grid->GetFieldData());
+  solution.cut = cut_of(file, *grid->GetFieldData());
   solution.positions = vtu::points(file, *grid, "node");
   if (solution.shape.planar) {
     check_plane(file, solution.positions);
@@ -116,6 +165,7 @@ void write_solution(const std::filesystem::path& file, const Solution& solution)
   vtu::add_array(*grid->GetFieldData(), "shape_planar", std::span<const std::uint8_t>(planar));
   vtu::add_array(*grid->GetFieldData(), "shape_basis", std::span<const std::int32_t>(basis));
   vtu::add_array(*grid->GetFieldData(), "shape_dilatation", std::span<const double>(dilatation));
+  add_cut(solution.cut, *grid->GetFieldData());
   vtu::write(file, *grid);
 }
 

@@ -3,9 +3,11 @@
 
 #include <chrono>
 
+#include "solve/cut/dissection.hpp"
 #include "solve/dynamics/diagnosis.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/transient.hpp"
+#include "solve/nodal_displacement.hpp"
 #include "solve/ordered_cloud.hpp"
 #include "solve/prepare.hpp"
 #include "solve/region/region.hpp"
@@ -18,20 +20,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Displacement at the nodes, u = Σφû, in the cloud's order.
-Points nodal_displacement(const ShapeRows& rows, const NodalVectors& parameters,
-                          const std::vector<std::int32_t>& original) {
-  Points displacement(static_cast<Eigen::Index>(rows.size()), 3);
-  for (std::size_t a = 0; a < rows.size(); ++a) {
-    Eigen::Vector3d u = Eigen::Vector3d::Zero();
-    for (auto k = static_cast<std::size_t>(rows.begin[a]); k < static_cast<std::size_t>(rows.begin[a + 1]); ++k) {
-      u += rows.value[k] * Eigen::Map<const Eigen::Vector3d>(&parameters[4 * static_cast<std::size_t>(rows.node[k])]);
-    }
-    displacement.row(original[a]) = u;
-  }
-  return displacement;
 }
 
 HeldBytes held_bytes(const Prepared& p, HeldBytes stepping) {
@@ -62,30 +50,48 @@ void measure(const Prepared& p, const SteppingResult& stepped, SolveMeasures& m)
   m.bytes = held_bytes(p, stepped.held);
 }
 
+CutMeasures measure(const CutBody& cut, std::size_t nodes, CutMeasures measures) {
+  measures.split_nodes = cut.split;
+  measures.added_nodes = cut.cloud.size() - nodes;
+  measures.extent = cut.visibility ? extent(cut.visibility->facets()) : 0;
+  return measures;
+}
+
 }  // namespace
 
 SolveResult step(const Model& model, const SolveOptions& options, Prepared prepared, SolveMeasures measures,
                  const Progress& progress) {
   const auto start = Clock::now();
   Prepared& p = prepared;
-  const System system{p.points, p.laws, p.essential, p.contact ? &*p.contact : nullptr, p.external, model.curve};
+  std::optional<Dissection> dissection;
+  if (p.pieces) {
+    dissection.emplace(model, options, p);
+  }
+  const System system{p.points,    p.laws,       p.essential, p.contact ? &*p.contact : nullptr,  p.external,
+                      model.curve, p.nodal_rows, p.original,  dissection ? &*dissection : nullptr};
   SteppingResult stepped = options.dynamics == Dynamics::relaxation ? relax(system, options, progress)
                                                                     : march(system, p.prony, p.mass, options, progress);
+  const NodeCloud& cloud = p.cut ? p.cut->cloud : model.cloud;
   SolveResult result;
   result.failure = stepped.failure;
   if (stepped.fault) {
     result.failure += ' ';
-    result.failure += describe(*stepped.fault, {p.points, p.laws, model.cloud.positions, p.original, p.placed});
+    result.failure += describe(*stepped.fault, {p.points, p.laws, cloud.positions, p.original, p.placed});
   }
   result.history = std::move(stepped.history);
   constexpr double newton = 1e-6;  // µN to N
-  result.solution = {model.cloud.positions, nodal_displacement(p.nodal_rows, stepped.parameters, p.original),
-                     newton * in_original_order(stepped.reactions, p.original), model.cloud.spacing, options.shape};
-  for (const ParameterSnapshot& s : stepped.snapshots) {
-    result.snapshots.push_back({s.step, s.time, nodal_displacement(p.nodal_rows, s.parameters, p.original)});
-  }
+  result.solution = {cloud.positions,
+                     nodal_displacement(p.nodal_rows, stepped.parameters, p.original),
+                     newton * in_original_order(stepped.reactions, p.original),
+                     cloud.spacing,
+                     options.shape,
+                     p.cut && p.cut->visibility ? p.cut->visibility->facets() : CutFacets()};
+  result.snapshots = std::move(stepped.snapshots);
   result.measures = measures;
   measure(p, stepped, result.measures);
+  if (p.cut) {
+    result.measures.cut = measure(*p.cut, model.cloud.size(), dissection ? dissection->measures() : CutMeasures());
+  }
   result.measures.largest_displacement = result.solution.displacement.rowwise().norm().maxCoeff();
   result.measures.seconds_stepping = seconds_since(start);
   return result;

@@ -100,7 +100,18 @@ struct HistoryRow {
 struct Snapshot {
   int step = 0;
   double time = 0;                     ///< as in HistoryRow
-  Points displacement = Points(0, 3);  ///< mm, in the cloud's order
+  Points displacement = Points(0, 3);  ///< mm, in the cloud's order, then the nodes that a cut added
+  Points positions = Points(0, 3);     ///< undeformed, mm, of a body that is cut; else no rows: the solution's
+};
+
+/// What cutting took.
+struct CutMeasures {
+  std::size_t split_nodes = 0;       ///< nodes of the cloud that were split in two
+  std::size_t added_nodes = 0;       ///< their twins, and pairs where there was no node to split
+  std::size_t advances = 0;          ///< times the body was cut further while it moved
+  std::size_t touched_supports = 0;  ///< of integration points, evaluated again; over all advances
+  double extent = 0;                 ///< length, mm, or area, mm²
+  double seconds = 0;                ///< of the advances
 };
 
 struct SolveMeasures {
@@ -124,6 +135,7 @@ struct SolveMeasures {
   double smallest_jacobian = 0;     ///< least det F over integration points
   double largest_stretch = 0;       ///< largest principal stretch
   double compressed_share = 0;      ///< of the volume, pressed so far that its free faces may crease
+  std::optional<CutMeasures> cut;   ///< absent: nothing was cut
   double seconds_setup = 0;
   double seconds_stepping = 0;
   HeldBytes bytes;

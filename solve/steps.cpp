@@ -19,7 +19,7 @@ void write_steps(const std::filesystem::path& folder, const Points& positions, c
   for (const Snapshot& snapshot : snapshots) {
     std::ostringstream name;
     name << "steps/" << std::setw(6) << std::setfill('0') << snapshot.step << ".vtu";
-    const auto grid = vtu::vertex_grid(positions);
+    const auto grid = vtu::vertex_grid(snapshot.positions.rows() > 0 ? snapshot.positions : positions);
     const Points& u = snapshot.displacement;
     vtu::add_array(*grid->GetPointData(), "displacement", {u.data(), static_cast<std::size_t>(u.size())}, 3);
     vtu::write(folder / name.str(), *grid);

@@ -54,7 +54,7 @@ double mean(const std::vector<double>& values) {
 /// reach, as shape functions extrapolate out there.
 void evaluate(const Solution& solution, const BrainZones& zones, const std::vector<Voxel>& voxels, double reach,
               VectorImage& field, const Progress& progress) {
-  const solve::ShapeFunctions shape(solution.positions, solution.spacing, solution.shape);
+  const solve::ShapeFunctions shape = shape_functions(solution);
   const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
   for (std::size_t begin = 0; begin < voxels.size(); begin += chunk) {
     report(progress, 0.8 * static_cast<double>(begin) / static_cast<double>(voxels.size()),

@@ -34,6 +34,7 @@ class Contact {
   Measures measure(const NodalVectors& parameters) const;
 
   const SignedDistance& skull() const { return skull_; }
+  SignedDistance take_skull() { return std::move(skull_); }
   std::size_t held_bytes() const;
 
  private:

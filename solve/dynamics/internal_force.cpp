@@ -218,6 +218,24 @@ ForceScratch::ForceScratch(const PointBlocks& points, const PointLaws& laws)
   }
 }
 
+void ForceScratch::remember(const ForceScratch& other, std::span<const std::int32_t> from) {
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const auto k = static_cast<std::size_t>(from[i]);
+    if (!jacobian.empty() && !other.jacobian.empty()) {
+      jacobian[i] = other.jacobian[k];
+    }
+    if (!thickness.empty()) {
+      thickness[i] = other.thickness[k];
+    }
+    if (!viscous_begin.empty()) {
+      const std::size_t end = k + 1 < from.size() ? other.viscous_begin[k + 1] : other.viscous_state.size();
+      std::copy(other.viscous_state.begin() + static_cast<std::ptrdiff_t>(other.viscous_begin[k]),
+                other.viscous_state.begin() + static_cast<std::ptrdiff_t>(end),
+                viscous_state.begin() + static_cast<std::ptrdiff_t>(viscous_begin[i]));
+    }
+  }
+}
+
 JacobianRange jacobian_range(const ForceScratch& scratch) {
   JacobianRange range;
   for (const JacobianRange& of_block : scratch.block_jacobian) {

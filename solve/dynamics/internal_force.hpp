@@ -28,6 +28,9 @@ struct ForceScratch {
 
   ForceScratch(const PointBlocks& points, const PointLaws& laws);
 
+  /// Takes over what the points of another remember; from: the number there of each point here.
+  void remember(const ForceScratch& other, std::span<const std::int32_t> from);
+
   std::size_t viscous_bytes() const { return bytes(viscous_begin) + bytes(viscous_state); }
   /// All but what relaxing materials remember.
   std::size_t scratch_bytes() const {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "solve/cut/dissection.hpp"
+#include "solve/nodal_displacement.hpp"
+
 namespace brainshift::solve {
 
 namespace {
@@ -157,7 +160,8 @@ bool Motion::look(const PointLaws& laws, std::span<const double> mass, double mo
   good_reactions_ = system_.essential.reactions(alpha_, nodes_);
   result.history.push_back(latest);
   if (snapshot_every_ > 0 && result.steps >= next_snapshot_) {
-    result.snapshots.push_back({result.steps, time, now});
+    result.snapshots.push_back({result.steps, time, nodal_displacement(system_.nodal_rows, now, system_.original),
+                                system_.dissection != nullptr ? system_.dissection->positions() : Points(0, 3)});
     next_snapshot_ += snapshot_every_;
   }
   return true;
@@ -194,6 +198,28 @@ double Motion::imbalance(const HistoryRow& row) {
   const double became = row.strain_energy + row.kinetic_energy + row.dissipated_energy;
   largest_energy_ = std::max({largest_energy_, std::abs(row.external_work), became});
   return largest_energy_ > rounding_energy_ ? std::abs(row.external_work - became) / largest_energy_ : 0;
+}
+
+void Motion::carry_over(const PointLaws& laws, const std::function<NodalVectors(const NodalVectors&)>& map,
+                        std::span<const std::int32_t> point_from) {
+  for (NodalVectors* v : {&now, &before, &next, &good_}) {
+    *v = map(*v);
+  }
+  nodes_ = system_.points.nodes();
+  force.assign(4 * nodes_, 0.0);
+  const Eigen::Index more = static_cast<Eigen::Index>(nodes_) - good_reactions_.rows();
+  good_reactions_.conservativeResize(static_cast<Eigen::Index>(nodes_), 3);
+  good_reactions_.bottomRows(more).setZero();
+  ForceScratch fresh(system_.points, laws);
+  fresh.remember(scratch, point_from);
+  scratch = std::move(fresh);
+}
+
+double Motion::energy(const PointLaws& laws, std::span<const double> mass) {
+  internal_force(system_.points, laws, now, scratch, force);
+  const double motion = sum_over_nodes(
+      nodes_, [this, mass](std::size_t a) { return mass[a] * (at(now, a) - at(before, a)).squaredNorm(); });
+  return point_state(system_.points, laws, scratch).strain_energy + motion * (1 + beta_) / (4 * alpha_);
 }
 
 SteppingResult Motion::finish() {

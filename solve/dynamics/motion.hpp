@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "solve/dynamics/system.hpp"
@@ -32,6 +33,17 @@ class Motion {
   /// most_imbalance: of the work and what became of it, over the largest of them so far; infinite: not looked at.
   /// Unsound, too, is a motion with more energy than was put in. Returns whether it is sound.
   bool look(const PointLaws& laws, std::span<const double> mass, double most_imbalance);
+
+  /// Goes on with another body, as one that was cut further: map gives its parameters from those before; point_from
+  /// its integration points' numbers before.
+  void carry_over(const PointLaws& laws, const std::function<NodalVectors(const NodalVectors&)>& map,
+                  std::span<const std::int32_t> point_from);
+
+  /// Strain and kinetic energy now, 1e-9 J. Of laws that do not relax: else it would be a step of theirs.
+  double energy(const PointLaws& laws, std::span<const double> mass);
+
+  /// Energy that left the body, 1e-9 J, as when it is cut.
+  void lose(double energy) { dissipated_ += energy; }
 
   /// The result, with the last state that was kept.
   SteppingResult finish();

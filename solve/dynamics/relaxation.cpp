@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "solve/cut/dissection.hpp"
 #include "solve/dynamics/largest_eigenvalue.hpp"
 #include "solve/dynamics/motion.hpp"
 #include "solve/dynamics/stiffness_bound.hpp"
@@ -53,11 +54,14 @@ class Relaxation {
   SteppingResult run(const Progress& progress) {
     SteppingResult& result = motion_.result;
     while (result.failure.empty() && result.steps < options_.max_steps) {
+      if (result.steps % window == 0) {
+        cut_if_due();
+      }
       step();
       if (result.steps % window == 0) {
         look();
         report_progress(progress);
-        if (motion_.time >= 1 && bound_ <= tolerance()) {
+        if (motion_.time >= 1 && bound_ <= tolerance() && all_cut()) {
           return finish();
         }
       }
@@ -74,6 +78,32 @@ class Relaxation {
   }
 
  private:
+  bool all_cut() const { return system_.dissection == nullptr || system_.dissection->is_done(); }
+
+  /// Between two windows, so that no difference over steps has a cut in it.
+  void cut_if_due() {
+    const double time = motion_.time * system_.curve.duration();
+    if (system_.dissection == nullptr || !system_.dissection->is_due(time)) {
+      return;
+    }
+    system_.dissection->cut(time, motion_);
+    nodes_ = system_.points.nodes();
+    force_before_.assign(4 * nodes_, 0.0);
+    internal_force(system_.points, system_.laws, motion_.now, motion_.scratch, motion_.force);
+    const std::vector<double> bound = stiffness_bound(system_.points, system_.laws, motion_.scratch);
+    mass_.resize(nodes_, 0.0);
+    for (std::size_t a = 0; a < nodes_; ++a) {
+      if (mass_margin * mass_scale_ * bound[a] > mass_[a]) {
+        mass_[a] = mass_margin * bound[a];  // in full: how tight it is was measured for other supports
+      }
+    }
+    motion_.weigh(mass_);
+    moved_.clear();
+    rates_.clear();
+    bounds_.clear();
+    bound_ = std::numeric_limits<double>::infinity();
+  }
+
   void step() {
     if (motion_.result.steps % window == window - 1) {
       std::swap(motion_.force, force_before_);
@@ -203,7 +233,7 @@ class Relaxation {
 
 SteppingResult relax(const System& system, const SolveOptions& options, const Progress& progress) {
   SteppingResult result = Relaxation(system, options, false).run(progress);
-  if (result.unstable) {
+  if (result.unstable && system.dissection == nullptr) {  // a body that was cut does not heal
     result = Relaxation(system, options, true).run(progress);
     if (result.unstable) {
       result.failure = "tried twice, the second time with the smallest steps: " + result.failure;

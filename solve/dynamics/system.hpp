@@ -12,21 +12,19 @@
 
 namespace brainshift::solve {
 
+class Dissection;
+
 /// What time stepping moves: points and laws that resist, conditions that hold, forces that push.
 struct System {
   const PointBlocks& points;
   const PointLaws& laws;
   EssentialConditions& essential;
-  Contact* contact;              ///< null: nothing is stepped over
-  const NodalVectors& external;  ///< forces on the parameters under the full load, µN; empty: none
-  const LoadCurve& curve;        ///< of the prescribed displacements and of the forces
-};
-
-/// Parameters on the way.
-struct ParameterSnapshot {
-  int step;
-  double time;
-  NodalVectors parameters;
+  Contact* contact;                           ///< null: nothing is stepped over
+  const NodalVectors& external;               ///< forces on the parameters under the full load, µN; empty: none
+  const LoadCurve& curve;                     ///< of the prescribed displacements and of the forces
+  const ShapeRows& nodal_rows;                ///< at the nodes
+  const std::vector<std::int32_t>& original;  ///< the cloud's node of each
+  Dissection* dissection;                     ///< null: nothing is cut on the way
 };
 
 /// What time stepping leaves behind.
@@ -34,7 +32,7 @@ struct SteppingResult {
   NodalVectors parameters;          ///< û of the last good state, mm
   Points reactions = Points(0, 3);  ///< µN
   std::vector<HistoryRow> history;
-  std::vector<ParameterSnapshot> snapshots;
+  std::vector<Snapshot> snapshots;
   PointState state;
   HeldBytes held;  ///< of what stepping itself made: nodal vectors and viscosity
   int steps = 0;

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "solve/cut/dissection.hpp"
 #include "solve/dynamics/motion.hpp"
 #include "solve/dynamics/stiffness_bound.hpp"
 
@@ -25,7 +26,7 @@ bool balances(const System& system, const std::vector<std::vector<PronyTerm>>& p
 
 class Transient {
  public:
-  Transient(const System& system, const std::vector<std::vector<PronyTerm>>& prony, std::span<const double> mass,
+  Transient(const System& system, const std::vector<std::vector<PronyTerm>>& prony, const std::vector<double>& mass,
             const SolveOptions& options, double safety)
       : system_(system),
         laws_(system.laws),
@@ -58,6 +59,7 @@ class Transient {
                          std::to_string(motion_.time) + " s of " + std::to_string(end) + " s; allow more steps";
         break;
       }
+      cut_if_due();
       step();
       if (result.steps % look_every == 0 || motion_.time >= end - step_ / 2 || motion_.squeezed()) {
         look();
@@ -68,6 +70,19 @@ class Transient {
   }
 
  private:
+  void cut_if_due() {
+    if (system_.dissection == nullptr || !system_.dissection->is_due(motion_.time)) {
+      return;
+    }
+    const double before = prony_.empty() ? motion_.energy(laws_, mass_) : 0;
+    system_.dissection->cut(motion_.time, motion_);
+    motion_.weigh(mass_);
+    if (prony_.empty()) {
+      motion_.lose(before - motion_.energy(laws_, mass_));
+    }
+    follow_stiffness();
+  }
+
   /// Rigorous: strains may be large, and an eigenvalue measured at rest says nothing of them.
   double critical_now() const {
     return critical_step(stiffness_bound(system_.points, system_.laws, motion_.scratch), mass_);
@@ -137,7 +152,7 @@ class Transient {
   const System& system_;
   PointLaws laws_;  ///< with the Prony factors of the step
   const std::vector<std::vector<PronyTerm>>& prony_;
-  std::span<const double> mass_;
+  const std::vector<double>& mass_;
   const SolveOptions& options_;
   Motion motion_;  // its time is in seconds
   double safety_;  // of the critical step
@@ -149,10 +164,10 @@ class Transient {
 }  // namespace
 
 SteppingResult march(const System& system, const std::vector<std::vector<PronyTerm>>& prony,
-                     std::span<const double> mass, const SolveOptions& options, const Progress& progress) {
+                     const std::vector<double>& mass, const SolveOptions& options, const Progress& progress) {
   constexpr double safety = 0.9;
   SteppingResult result = Transient(system, prony, mass, options, safety).run(progress);
-  if (result.unstable && options.time_step == 0) {
+  if (result.unstable && options.time_step == 0 && system.dissection == nullptr) {
     result = Transient(system, prony, mass, options, safety / 2).run(progress);
     if (result.unstable) {
       result.failure = "tried twice, the second time with half the step: " + result.failure;

@@ -16,6 +16,6 @@ namespace brainshift::solve {
 /// stiffens past it later. A run that turns unstable (points inside out, displacements that are not finite, energies
 /// that do not balance) ends with its last good state; when the step is the solver's it is tried once more with half.
 SteppingResult march(const System& system, const std::vector<std::vector<PronyTerm>>& prony,
-                     std::span<const double> mass, const SolveOptions& options, const Progress& progress);
+                     const std::vector<double>& mass, const SolveOptions& options, const Progress& progress);
 
 }  // namespace brainshift::solve

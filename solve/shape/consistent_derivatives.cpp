@@ -14,6 +14,7 @@ namespace brainshift::solve {
 namespace {
 
 constexpr int most_iterations = 2000;
+constexpr int most_iterations_of_part = 200;
 
 using Coefficients = Eigen::Matrix<double, 4, 3>;
 
@@ -21,30 +22,38 @@ using Coefficients = Eigen::Matrix<double, 4, 3>;
 /// positive semi-definite: S of the header's system.
 class FitResidual {
  public:
-  FitResidual(const Points& positions, std::span<const double> volume, const ShapeRows& rows)
+  /// points: those whose derivatives may be corrected.
+  FitResidual(const Points& positions, std::span<const double> volume, const ShapeRows& rows,
+              std::span<const std::int32_t> points)
       : positions_(positions),
         volume_(volume),
         rows_(rows),
+        points_(points),
         centre_(rows.size()),
         inverse_(rows.size()),
         coefficients_(rows.size()) {
-    const auto points = static_cast<std::int64_t>(rows.size());
+    const auto count = static_cast<std::int64_t>(points_.size());
 #pragma omp parallel for schedule(static)
-    for (std::int64_t i = 0; i < points; ++i) {
-      prepare(static_cast<std::size_t>(i));
+    for (std::int64_t i = 0; i < count; ++i) {
+      prepare(static_cast<std::size_t>(points_[static_cast<std::size_t>(i)]));
     }
     list_points_of_nodes();
   }
 
+  /// Whether a derivative of the node may be corrected.
+  bool reaches(std::size_t node) const {
+    return node_begin_[node] < node_begin_[node + 1];
+  }
+
   /// S λ; afterwards the fits of λ are those that correction() takes.
   void apply(const Points& lambda, Points& result) {
-    const auto points = static_cast<std::int64_t>(rows_.size());
+    const auto count = static_cast<std::int64_t>(points_.size());
     const auto nodes = static_cast<std::int64_t>(lambda.rows());
 #pragma omp parallel
     {
 #pragma omp for schedule(static)
-      for (std::int64_t i = 0; i < points; ++i) {
-        fit(static_cast<std::size_t>(i), lambda);
+      for (std::int64_t i = 0; i < count; ++i) {
+        fit(static_cast<std::size_t>(points_[static_cast<std::size_t>(i)]), lambda);
       }
 #pragma omp for schedule(static)
       for (std::int64_t a = 0; a < nodes; ++a) {
@@ -106,15 +115,17 @@ class FitResidual {
 
   void list_points_of_nodes() {
     node_begin_.assign(static_cast<std::size_t>(positions_.rows()) + 1, 0);
-    for (const std::int32_t a : rows_.node) {
-      ++node_begin_[static_cast<std::size_t>(a) + 1];
+    for (const std::int32_t point : points_) {
+      for (const std::int32_t a : support(static_cast<std::size_t>(point))) {
+        ++node_begin_[static_cast<std::size_t>(a) + 1];
+      }
     }
     std::partial_sum(node_begin_.begin(), node_begin_.end(), node_begin_.begin());
     std::vector<std::int64_t> next(node_begin_.begin(), node_begin_.end() - 1);
-    node_point_.resize(rows_.node.size());
-    for (std::size_t point = 0; point < rows_.size(); ++point) {
-      for (const std::int32_t a : support(point)) {
-        node_point_[static_cast<std::size_t>(next[static_cast<std::size_t>(a)]++)] = static_cast<std::int32_t>(point);
+    node_point_.resize(static_cast<std::size_t>(node_begin_.back()));
+    for (const std::int32_t point : points_) {
+      for (const std::int32_t a : support(static_cast<std::size_t>(point))) {
+        node_point_[static_cast<std::size_t>(next[static_cast<std::size_t>(a)]++)] = point;
       }
     }
   }
@@ -122,6 +133,7 @@ class FitResidual {
   const Points& positions_;
   std::span<const double> volume_;
   const ShapeRows& rows_;
+  std::span<const std::int32_t> points_;
   std::vector<Eigen::Vector3d> centre_;
   std::vector<Eigen::Matrix4d> inverse_;
   std::vector<Coefficients> coefficients_;
@@ -171,12 +183,12 @@ double mean_magnitude(std::span<const double> volume, const ShapeRows& rows, Eig
 }
 
 /// Conjugate gradients on the three columns at once, within the unbalanced vectors.
-int conjugate_gradients(FitResidual& system, const Unbalanced& unbalanced, Points residual, double goal,
+int conjugate_gradients(FitResidual& system, const Unbalanced& unbalanced, Points residual, double goal, int most,
                         Points& lambda) {
   Points direction = residual, image(residual.rows(), 3);
   Eigen::RowVector3d squared = residual.colwise().squaredNorm();
   int iteration = 0;
-  while (iteration < most_iterations && residual.cwiseAbs().maxCoeff() > goal) {
+  while (iteration < most && residual.cwiseAbs().maxCoeff() > goal) {
     system.apply(direction, image);
     unbalanced.apply(image);
     const Eigen::RowVector3d curvature = direction.cwiseProduct(image).colwise().sum();
@@ -195,40 +207,57 @@ int conjugate_gradients(FitResidual& system, const Unbalanced& unbalanced, Point
   return iteration;
 }
 
+/// What surface forces do not balance of the integrated derivatives, at the nodes that a correction reaches.
+Points unbalanced_defect(const FitResidual& system, const Unbalanced& unbalanced, std::span<const double> volume,
+                         const ShapeRows& rows, Eigen::Index nodes) {
+  Points defect = integrated_derivatives(volume, rows, nodes);
+  unbalanced.apply(defect);
+  for (Eigen::Index a = 0; a < nodes; ++a) {
+    if (!system.reaches(static_cast<std::size_t>(a))) {
+      defect.row(a).setZero();
+    }
+  }
+  return defect;
+}
+
 }  // namespace
 
 ConsistencyMeasures make_derivatives_consistent(const Points& positions, std::span<const std::int32_t> surface,
                                                 const ShapeRows& nodal_rows, std::span<const double> volume,
-                                                double tolerance, ShapeRows& rows) {
+                                                double tolerance, ShapeRows& rows, std::span<const std::int32_t> part) {
   if (surface.empty()) {
     throw std::invalid_argument(
         "no node is on the surface: consistent derivatives need to know where forces may act; give the nodes the "
         "array on_surface");
   }
-  FitResidual system(positions, volume, rows);
+  std::vector<std::int32_t> points(part.begin(), part.end());
+  if (part.empty()) {
+    points.resize(rows.size());
+    std::iota(points.begin(), points.end(), 0);
+  }
+  FitResidual system(positions, volume, rows, points);
   const Unbalanced unbalanced(surface, nodal_rows, positions.rows());
   const double unit = mean_magnitude(volume, rows, positions.rows());
-  Points defect = integrated_derivatives(volume, rows, positions.rows());
-  unbalanced.apply(defect);
+  const Points defect = unbalanced_defect(system, unbalanced, volume, rows, positions.rows());
   ConsistencyMeasures measures;
   measures.defect_before = defect.cwiseAbs().maxCoeff() / unit;
 
   Points lambda = Points::Zero(positions.rows(), 3);
-  measures.iterations = conjugate_gradients(system, unbalanced, -defect, tolerance * unit, lambda);
+  measures.iterations = conjugate_gradients(system, unbalanced, -defect, tolerance * unit,
+                                            part.empty() ? most_iterations : most_iterations_of_part, lambda);
   Points image(positions.rows(), 3);
   system.apply(lambda, image);
-  const auto points = static_cast<std::int64_t>(rows.size());
+  const auto count = static_cast<std::int64_t>(points.size());
 #pragma omp parallel for schedule(static)
-  for (std::int64_t i = 0; i < points; ++i) {
-    const auto point = static_cast<std::size_t>(i);
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto point = static_cast<std::size_t>(points[static_cast<std::size_t>(i)]);
     for (auto k = static_cast<std::size_t>(rows.begin[point]); k < static_cast<std::size_t>(rows.begin[point + 1]);
          ++k) {
       Eigen::Map<Eigen::RowVector3d>(&rows.derivative[3 * k]) += system.correction(point, rows.node[k], lambda);
     }
   }
-  defect = integrated_derivatives(volume, rows, positions.rows());
-  unbalanced.apply(defect);
-  measures.defect_after = defect.cwiseAbs().maxCoeff() / unit;
+  const Points after = unbalanced_defect(system, unbalanced, volume, rows, positions.rows());
+  measures.defect_after = after.cwiseAbs().maxCoeff() / unit;
   return measures;
 }
 

@@ -26,10 +26,12 @@ struct ConsistencyMeasures {
 /// and trial functions: forces stay the gradient of an energy, and a time step costs nothing more.
 ///
 /// One sparse system in the nodes by conjugate gradients. positions: of the nodes; surface: the nodes that may carry
-/// forces; nodal_rows: shape functions at all nodes; volume: one an integration point. Throws std::invalid_argument
+/// forces; nodal_rows: shape functions at all nodes; volume: one an integration point. part: the points whose
+/// derivatives may change, as where a cut goes on; empty: all. Throws std::invalid_argument
 /// when no node is on the surface.
 ConsistencyMeasures make_derivatives_consistent(const Points& positions, std::span<const std::int32_t> surface,
                                                 const ShapeRows& nodal_rows, std::span<const double> volume,
-                                                double tolerance, ShapeRows& rows);
+                                                double tolerance, ShapeRows& rows,
+                                                std::span<const std::int32_t> part = {});
 
 }  // namespace brainshift::solve

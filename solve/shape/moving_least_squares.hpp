@@ -61,8 +61,10 @@ class MovingLeastSquares {
 
   /// Builds the moment matrix at x; false where the support does not determine the basis. penalty: µ of MMLS on the
   /// quadratic coefficients, 0 for plain MLS; leave_to_penalty: accept quadratic terms that only the penalty holds.
+  /// distance_gradient: ∂distance/∂x of each supporter where a cut makes it other than straight; else empty.
   bool build(const Eigen::Vector3d& x, std::span<const Supporter> support, const Points& positions,
-             std::span<const double> radius, double scale, double penalty, bool leave_to_penalty) {
+             std::span<const double> radius, double scale, double penalty, bool leave_to_penalty,
+             std::span<const Eigen::Vector3d> distance_gradient = {}) {
     count_ = static_cast<int>(support.size());
     if (count_ < (leave_to_penalty ? linear_terms : m)) {
       return false;
@@ -85,6 +87,10 @@ class MovingLeastSquares {
       weight_[a] = w.value;
       weighted_radii += w.value * r;
       weight_gradient_.col(a) = -w.slope_over_d / (r * r) * away;
+      if (!distance_gradient.empty()) {
+        weight_gradient_.col(a) = w.slope_over_d * s.distance / (r * r) *
+                                  distance_gradient[static_cast<std::size_t>(a)].template head<dimensions>();
+      }
       moment_.template selfadjointView<Eigen::Lower>().rankUpdate(basis_.col(a), w.value);
     }
     return factorise(penalty, leave_to_penalty, weighted_radii / (weight_.sum() * length_));

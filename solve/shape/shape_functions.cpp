@@ -17,6 +17,7 @@ namespace {
 constexpr double growth = 1.1;        // of a support that is not admissible, each try
 constexpr double largest_growth = 8;  // beyond it the cloud is degenerate
 constexpr double patience = 1.5;      // up to this growth MMLS looks for a support that needs no penalty
+constexpr int opacity = 4;            // λ of the diffraction method
 constexpr Eigen::Index batch = 256;   // points handled by one thread at a time
 
 std::vector<double> support_radius(std::span<const double> spacing, double dilatation) {
@@ -43,9 +44,13 @@ struct ShapeFunctions::Impl {
   Points positions;
   ShapeOptions options;
   SupportSearch search;
+  std::shared_ptr<const Visibility> visibility;
 
-  Impl(const Points& p, std::span<const double> spacing, const ShapeOptions& o)
-      : positions(p), options(o), search(positions, support_radius(spacing, solve::dilatation(o))) {}
+  Impl(const Points& p, std::span<const double> spacing, const ShapeOptions& o, std::shared_ptr<const Visibility> v)
+      : positions(p),
+        options(o),
+        search(positions, support_radius(spacing, solve::dilatation(o))),
+        visibility(std::move(v)) {}
 };
 
 namespace {
@@ -61,8 +66,10 @@ class Evaluator {
   bool move_to(const Eigen::Vector3d& x) {
     for (scale_ = 1; scale_ < largest_growth; scale_ *= growth) {
       impl_.search.find(x, scale_, support_);
+      look_past_cut(x);
       const bool leave_to_penalty = penalty_ > 0 && scale_ > patience;
-      if (mls_.build(x, support_, impl_.positions, impl_.search.radius(), scale_, penalty_, leave_to_penalty)) {
+      if (mls_.build(x, support_, impl_.positions, impl_.search.radius(), scale_, penalty_, leave_to_penalty,
+                     detour_)) {
         phi_.resize(support_.size());
         mls_.values(phi_);
         return true;
@@ -81,10 +88,38 @@ class Evaluator {
   }
 
  private:
+  /// Takes the nodes that the cut hides out of the support, and counts those behind its front as farther.
+  void look_past_cut(const Eigen::Vector3d& x) {
+    detour_.clear();
+    const auto farther = [](const Supporter& a, const Supporter& b) { return a.distance < b.distance; };
+    if (!impl_.visibility || support_.empty() ||
+        !impl_.visibility->near(x, std::max_element(support_.begin(), support_.end(), farther)->distance)) {
+      return;
+    }
+    std::size_t seen = 0;
+    for (Supporter s : support_) {
+      const Eigen::Vector3d node = impl_.positions.row(s.node), away = node - x;
+      Eigen::Vector3d gradient = s.distance > 0 ? Eigen::Vector3d(-away / s.distance) : Eigen::Vector3d::Zero();
+      const double radius = scale_ * impl_.search.radius()[static_cast<std::size_t>(s.node)];
+      if (const std::optional<Detour> detour = impl_.visibility->detour(x, node)) {
+        const double ratio = detour->length / s.distance;
+        gradient = opacity * std::pow(ratio, opacity - 1) * detour->gradient -
+                   (opacity - 1) * std::pow(ratio, opacity) * gradient;
+        s.distance *= std::pow(ratio, opacity);
+      }
+      if (s.distance < radius) {
+        support_[seen++] = s;
+        detour_.push_back(gradient);
+      }
+    }
+    support_.resize(seen);
+  }
+
   const ShapeFunctions::Impl& impl_;
   double penalty_;
   double scale_ = 1;
   std::vector<Supporter> support_;
+  std::vector<Eigen::Vector3d> detour_;  ///< ∂distance/∂x of each supporter where a cut is near, else empty
   std::vector<double> phi_, gradient_;
   MovingLeastSquares<dimensions, order> mls_;
 };
@@ -200,14 +235,15 @@ auto with_basis(const ShapeOptions& options, const Use& use) {
 
 }  // namespace
 
-ShapeFunctions::ShapeFunctions(const Points& positions, std::span<const double> spacing, const ShapeOptions& options) {
+ShapeFunctions::ShapeFunctions(const Points& positions, std::span<const double> spacing, const ShapeOptions& options,
+                               std::shared_ptr<const Visibility> visibility) {
   const Eigen::Index least = monomial_count(options.planar ? 2 : 3, options.basis == Basis::quadratic ? 2 : 1);
   if (positions.rows() < least) {
     throw std::invalid_argument("the cloud has " + std::to_string(positions.rows()) + " nodes, but this basis needs " +
                                 std::to_string(least) + " in a support; add nodes");
   }
   check_plane(positions, options, "node");
-  impl_ = std::make_shared<const Impl>(positions, spacing, options);
+  impl_ = std::make_shared<const Impl>(positions, spacing, options, std::move(visibility));
 }
 
 std::size_t ShapeFunctions::nodes() const {

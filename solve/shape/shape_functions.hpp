@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "segmentation/surface/surface.hpp"
+#include "solve/cut/visibility.hpp"
 #include "solve/held_bytes.hpp"
 #include "solve/shape/shape_options.hpp"
 
@@ -31,9 +32,12 @@ struct ShapeRows {
 /// on many threads.
 class ShapeFunctions {
  public:
-  /// positions (n × 3) mm, spacing one a node, mm. Throws std::invalid_argument when there are fewer nodes than the
-  /// basis needs, and, naming the node, when the basis is planar and a node's z is not 0.
-  ShapeFunctions(const Points& positions, std::span<const double> spacing, const ShapeOptions& options);
+  /// positions (n × 3) mm, spacing one a node, mm. visibility: of a cut, or none. A node that it hides counts as at the
+  /// distance s (l/s)⁴, s in a straight line and l over the cut's front: the diffraction method (Organ et al. 1996), by
+  /// which shape functions are continuous but across the cut. Throws std::invalid_argument when there are fewer nodes
+  /// than the basis needs, and, naming the node, when the basis is planar and a node's z is not 0.
+  ShapeFunctions(const Points& positions, std::span<const double> spacing, const ShapeOptions& options,
+                 std::shared_ptr<const Visibility> visibility = nullptr);
 
   /// Values, and derivatives if asked, at points (m × 3). Uses all threads; the result does not depend on their number.
   /// Of a planar basis the derivatives by z are exactly 0. Throws std::invalid_argument, naming the point, where no

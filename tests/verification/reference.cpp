@@ -76,7 +76,7 @@ Reference read_reference(const std::string& name, const std::string& force_name)
 }
 
 Points displacement_at(const Solution& solution, const Points& positions) {
-  const solve::ShapeFunctions shape(solution.positions, solution.spacing, solution.shape);
+  const solve::ShapeFunctions shape = shape_functions(solution);
   return shape.interpolate(positions,
                            solve::parameters_from_displacement(shape, solution.positions, solution.displacement));
 }

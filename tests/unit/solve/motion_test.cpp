@@ -20,6 +20,8 @@ struct Marched {
   EssentialConditions essential{Points::Constant(125, 3, std::nan("")), {}, {}, Imposition::exact};
   LoadCurve curve;
   NodalVectors external = body.rest();
+  ShapeRows rows;
+  std::vector<std::int32_t> original;
   SteppingResult result;
   int sound_steps = 0;
 
@@ -27,7 +29,7 @@ struct Marched {
     for (std::size_t a = 0; a < body.cloud.size(); ++a) {
       external[4 * a + 2] = pull * (body.cloud.positions(static_cast<Eigen::Index>(a), 2) - side / 2);
     }
-    const System system{body.points, body.laws, essential, nullptr, external, curve};
+    const System system{body.points, body.laws, essential, nullptr, external, curve, rows, original, nullptr};
     Motion motion(system, body.laws, 0);
     motion.weigh(mass);
     const double h = of_critical * 2 / std::sqrt(largest_eigenvalue(body.points, body.laws, mass, 300));

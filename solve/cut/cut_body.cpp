@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/cut/cut_body.hpp"
+
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "solve/quadrature/integration_points.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr int samples = 200;  // of a path or sheet, to find whether it meets the body
+
+bool meets(const Cut& cut, const InsideBody& inside) {
+  const Eigen::Index facets = cut.is_path() ? cut.vertices.rows() - 1 : cut.triangles.rows();
+  for (Eigen::Index f = 0; f < facets; ++f) {
+    const Eigen::Vector3d a = cut.vertices.row(cut.is_path() ? f : cut.triangles(f, 0));
+    const Eigen::Vector3d b = cut.vertices.row(cut.is_path() ? f + 1 : cut.triangles(f, 1));
+    const Eigen::Vector3d c = cut.vertices.row(cut.is_path() ? f + 1 : cut.triangles(f, 2));
+    const int steps = facets > samples ? 2 : samples;
+    for (int i = 0; i <= steps; ++i) {
+      const double share = static_cast<double>(i) / steps;
+      if (inside(a + share * (b - a)) || (!cut.is_path() && inside(a + share * ((b + c) / 2 - a)))) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void check(const Cut& cut, bool planar, const InsideBody& inside) {
+  if (cut.is_path() != planar) {
+    throw std::invalid_argument(cut.name + (planar
+                                                ? ": a sheet cuts a body in space; in a plane problem give a path"
+                                                : ": a path cuts a plane body; in space give a sheet (.vtp or .stl)"));
+  }
+  if (!meets(cut, inside)) {
+    throw std::invalid_argument(cut.name +
+                                ": the cut does not meet the body; are its coordinates in mm and in the body's frame?");
+  }
+}
+
+}  // namespace
+
+double mean_spacing(const NodeCloud& cloud) {
+  return std::accumulate(cloud.spacing.begin(), cloud.spacing.end(), 0.0) / static_cast<double>(cloud.size());
+}
+
+CutBody cut_body(const Model& model) {
+  const bool planar = model.plane != Plane::none;
+  const IntegrationPoints points = integration_points(model.cells, most_points_per_cell(model.cells.kind), nullptr, {});
+  CutBody body{InsideBody(points.positions, points.volume, planar), model.cloud, {}, 0, nullptr};
+  for (const Cut& cut : model.cuts) {
+    check(cut, planar, body.inside);
+  }
+  cut_further(facets_at(model.cuts, 0, body.inside, mean_spacing(model.cloud)), body);
+  return body;
+}
+
+void cut_further(CutFacets facets, CutBody& body) {
+  if (facets.empty()) {
+    return;
+  }
+  body.split += add_face_nodes(facets, body.inside, body.cloud, body.pairs);
+  body.visibility = std::make_shared<const Visibility>(std::move(facets));
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/cut/dissection.hpp"
+
+#include <chrono>
+#include <numeric>
+#include <stdexcept>
+
+#include "solve/cut/cut_patches.hpp"
+#include "solve/cut/matching.hpp"
+#include "solve/cut/touched_rows.hpp"
+#include "solve/dynamics/motion.hpp"
+#include "solve/shape/consistent_derivatives.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr double stride = 0.5;  // of the spacing: how far the cut goes on each time
+
+/// A copy of a node of one cloud as that of another, appended where it is new there.
+void copy_node(const NodeCloud& from, std::int32_t node, NodeCloud& to, std::size_t as) {
+  const auto a = static_cast<std::size_t>(node);
+  if (as == to.size()) {
+    const auto rows = static_cast<Eigen::Index>(as) + 1;
+    to.positions.conservativeResize(rows, 3);
+    to.prescribed_displacement.conservativeResize(rows, 3);
+    to.spacing.push_back(0);
+    to.on_surface.push_back(0);
+    if (to.force.rows() > 0) {
+      to.force.conservativeResize(rows, 3);
+    }
+  }
+  const auto row = static_cast<Eigen::Index>(as);
+  to.positions.row(row) = from.positions.row(node);
+  to.spacing[as] = from.spacing[a];
+  to.on_surface[as] = from.on_surface[a];
+  if (from.prescribed_displacement.rows() > 0) {
+    to.prescribed_displacement.row(row) = from.prescribed_displacement.row(node);
+  } else {
+    to.prescribed_displacement.row(row).setConstant(std::nan(""));
+  }
+  if (to.force.rows() > 0) {
+    to.force.row(row) = from.force.row(node);
+  }
+}
+
+std::vector<double> support_radii(const NodeCloud& cloud, const ShapeOptions& options) {
+  std::vector<double> radius = cloud.spacing;
+  for (double& r : radius) {
+    r *= dilatation(options);
+  }
+  return radius;
+}
+
+Points rows_of(const Points& points, std::span<const std::int32_t> rows) {
+  return points(std::vector<Eigen::Index>(rows.begin(), rows.end()), Eigen::all);
+}
+
+std::vector<std::int32_t> inverse(const std::vector<std::int32_t>& order) {
+  std::vector<std::int32_t> place(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
+  }
+  return place;
+}
+
+}  // namespace
+
+Dissection::Dissection(const Model& model, const SolveOptions& options, Prepared& prepared)
+    : model_(model),
+      options_(options),
+      prepared_(prepared),
+      spacing_(mean_spacing(model.cloud)),
+      times_(times_of_advance(model.cuts, stride * spacing_)) {}
+
+/// Nodes that were split or added, by the solver's numbers; the pieces' cloud follows the body's.
+std::vector<std::int32_t> Dissection::take_over_nodes(std::size_t first_pair) {
+  const CutBody& body = *prepared_.cut;
+  OrderedCloud& cloud = prepared_.pieces->cloud;
+  std::vector<std::int32_t> ordered = inverse(cloud.original), changed;
+  for (std::size_t i = first_pair; i < body.pairs.size(); ++i) {
+    for (const std::int32_t node : {body.pairs[i].above, body.pairs[i].below}) {
+      if (static_cast<std::size_t>(node) == ordered.size()) {
+        ordered.push_back(node);
+        cloud.original.push_back(node);
+      }
+      changed.push_back(ordered[static_cast<std::size_t>(node)]);
+      copy_node(body.cloud, node, cloud, static_cast<std::size_t>(changed.back()));
+    }
+  }
+  return changed;
+}
+
+std::vector<std::int32_t> Dissection::update_points(const Advance& advance, const ShapeFunctions& shape,
+                                                    Matching& match) {
+  Pieces& pieces = *prepared_.pieces;
+  const std::vector<std::int32_t> touched = touched_rows(pieces.point_rows, pieces.points.positions, advance);
+  const ShapeRows before = rows_at(pieces.point_rows, touched);
+  pieces.point_rows =
+      with_rows(pieces.point_rows, touched, shape.evaluate(rows_of(pieces.points.positions, touched), true));
+  if (options_.integration == Integration::consistent) {
+    make_derivatives_consistent(pieces.cloud.positions, surface_nodes(pieces.cloud), pieces.nodal_rows,
+                                pieces.points.volume, options_.consistency_defect, pieces.point_rows, touched);
+           touched.size());
+  }
+  match.agree_in_gradient(before, rows_at(pieces.point_rows, touched), spacing_);
+  measures_.touched_supports += touched.size();
+  const std::vector<std::int32_t> place = inverse(pieces.patches.order);
+  if (pieces.patches.size() < pieces.points.size()) {
+    pieces.patches = part_patches(*prepared_.cut->visibility, pieces.points.positions, pieces.patches);
+  }
+  std::vector<std::int32_t> from;
+  for (const std::int32_t point : pieces.patches.order) {
+    from.push_back(place[static_cast<std::size_t>(point)]);
+  }
+  return from;
+}
+
+void Dissection::lay_out_again() {
+  std::optional<SignedDistance> skull;
+  if (prepared_.contact) {
+    skull = prepared_.contact->take_skull();
+  }
+  Prepared fresh = lay_out(model_, options_, *prepared_.pieces, {}, std::move(skull));
+  fresh.cut = std::move(prepared_.cut);
+  fresh.pieces = std::move(prepared_.pieces);
+  prepared_ = std::move(fresh);
+}
+
+void Dissection::cut(double time, Motion& motion) {
+  const auto start = std::chrono::steady_clock::now();
+  const double after = next_ > 0 ? times_[next_ - 1] : 0;
+  while (is_due(time)) {
+    ++next_;
+  }
+  const double until = times_[next_ - 1];
+  CutBody& body = *prepared_.cut;
+  Pieces& pieces = *prepared_.pieces;
+  const ShapeFunctions before(pieces.cloud.positions, pieces.cloud.spacing, options_.shape, body.visibility);
+  const std::size_t pairs = body.pairs.size();
+  cut_further(facets_at(model_.cuts, until, body.inside, spacing_), body);
+  const std::vector<std::int32_t> nodes = take_over_nodes(pairs);
+  const ShapeFunctions shape(pieces.cloud.positions, pieces.cloud.spacing, options_.shape, body.visibility);
+  const Visibility fresh(facets_between(model_.cuts, after, until));
+  const std::vector<double> radius = support_radii(pieces.cloud, options_.shape);
+  const Advance advance{fresh, nodes, pieces.cloud.positions, radius};
+
+  const std::size_t old_nodes = pieces.nodal_rows.size();
+  std::vector<std::int32_t> touched =
+      touched_rows(pieces.nodal_rows, pieces.cloud.positions.topRows(static_cast<Eigen::Index>(old_nodes)), advance);
+  for (std::size_t a = old_nodes; a < pieces.cloud.size(); ++a) {
+    touched.push_back(static_cast<std::int32_t>(a));
+  }
+  const Points places = rows_of(pieces.cloud.positions, touched);
+  const ShapeRows nodal = shape.evaluate(places, false);
+  pieces.nodal_rows = with_rows(pieces.nodal_rows, touched, nodal);
+  Matching match(touched, pieces.cloud.size());
+  match.agree_in_value(before.evaluate(places, false), nodal);
+  const std::vector<std::int32_t> point_from = update_points(advance, shape, match);
+  match.factorise();
+  lay_out_again();
+  motion.carry_over(
+      prepared_.laws, [&match](const NodalVectors& v) { return match(v); }, point_from);
+  ++measures_.advances;
+  measures_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace brainshift::solve

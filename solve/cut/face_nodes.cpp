@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/cut/face_nodes.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+
+#include "discretise/neighbours/point_tree.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+// all in spacings
+constexpr double split_within = 0.33;
+constexpr double off_face = 1e-3;
+constexpr double split_apart = 0.6;
+constexpr double added_apart = 0.85;
+constexpr double from_front = 0.5;
+constexpr double sampling = 0.05;
+
+constexpr std::int32_t none = -1;
+
+struct Place {
+  std::int32_t node;  ///< that is split; none: two are added
+  std::int32_t like;  ///< the nearest node
+  Eigen::Vector3d x, normal;
+};
+
+class Faces {
+ public:
+  Faces(const CutFacets& cut, const InsideBody& inside, const NodeCloud& cloud, const std::vector<FacePair>& pairs)
+      : cut_(cut), inside_(inside), cloud_(cloud), tree_(cloud.positions), is_face_(cloud.size(), 0) {
+    for (const FacePair& p : pairs) {
+      taken_.push_back(p.place);
+      is_face_[static_cast<std::size_t>(p.above)] = is_face_[static_cast<std::size_t>(p.below)] = 1;
+    }
+  }
+
+  std::vector<Place> places() {
+    split_nodes(true);
+    split_nodes(false);
+    for (Eigen::Index f = 0; f < cut_.facets.rows(); ++f) {
+      add_pairs(f);
+    }
+    return std::move(places_);
+  }
+
+ private:
+  Eigen::Vector3d corner(Eigen::Index facet, int i) const { return cut_.vertices.row(cut_.facets(facet, i)); }
+  double spacing(std::int32_t node) const { return cloud_.spacing[static_cast<std::size_t>(node)]; }
+
+  Eigen::Vector3d normal(Eigen::Index f) const {
+    const Eigen::Vector3d along = corner(f, 1) - corner(f, 0);
+    return (cut_.planar ? Eigen::Vector3d(-along.y(), along.x(), 0)
+                        : Eigen::Vector3d(along.cross(corner(f, 2) - corner(f, 0))))
+        .normalized();
+  }
+
+  /// The foot of x on the facet; false where the perpendicular misses it.
+  bool project(Eigen::Index f, const Eigen::Vector3d& x, Eigen::Vector3d& foot) const {
+    const Eigen::Vector3d a = corner(f, 0), n = normal(f);
+    foot = x - n * n.dot(x - a);
+    constexpr double slack = 1e-6;
+    const int corners = cut_.planar ? 2 : 3;
+    for (int i = 0; i < corners; ++i) {
+      const Eigen::Vector3d from = corner(f, i), along = corner(f, (i + 1) % corners) - from;
+      const Eigen::Vector3d in = cut_.planar ? along : Eigen::Vector3d(n.cross(along));
+      if ((foot - from).dot(in) < -slack * in.squaredNorm()) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool clear_of_front(const Eigen::Vector3d& x, double h) const {
+    return std::all_of(cut_.front.begin(), cut_.front.end(), [&](const auto& edge) {
+      const Eigen::Vector3d a = cut_.vertices.row(edge[0]), along = Eigen::Vector3d(cut_.vertices.row(edge[1])) - a;
+      const double squared = along.squaredNorm();
+      const double share = squared > 0 ? std::clamp((x - a).dot(along) / squared, 0.0, 1.0) : 0;
+      return (a + share * along - x).norm() > from_front * h;
+    });
+  }
+
+  void take(std::int32_t node, std::int32_t like, const Eigen::Vector3d& x, Eigen::Index facet, double apart) {
+    const double h = spacing(like);
+    const bool crowded = std::any_of(taken_.begin(), taken_.end(), [&](const Eigen::Vector3d& other) {
+      return (other - x).squaredNorm() < apart * apart * h * h;
+    });
+    if (crowded) {
+      return;
+    }
+    const bool clear = clear_of_front(x, h);
+    if (clear || node != none) {
+      taken_.push_back(x);  // a node too near to the front is split later, and the place kept for it
+    }
+    if (clear) {
+      places_.push_back({node, like, x, normal(facet)});
+    }
+  }
+
+  void split_nodes(bool on_surface) {
+    for (Eigen::Index a = 0; a < cloud_.positions.rows(); ++a) {
+      const auto node = static_cast<std::int32_t>(a);
+      const auto k = static_cast<std::size_t>(a);
+      if ((cloud_.on_surface[k] != 0) != on_surface || is_face_[k] != 0) {
+        continue;
+      }
+      Eigen::Index nearest = none;
+      double distance = split_within * cloud_.spacing[k];
+      Eigen::Vector3d place, foot;
+      for (Eigen::Index f = 0; f < cut_.facets.rows(); ++f) {
+        const Eigen::Vector3d x = cloud_.positions.row(a);
+        if (project(f, x, foot) && (foot - x).norm() <= distance) {
+          distance = (foot - x).norm();
+          nearest = f;
+          place = foot;
+        }
+      }
+      if (nearest != none) {
+        take(node, node, place, nearest, split_apart);
+      }
+    }
+  }
+
+  /// Tries places close together over the facet.
+  void add_pairs(Eigen::Index f) {
+    const Eigen::Vector3d a = corner(f, 0), first = corner(f, 1) - a;
+    const Eigen::Vector3d second = cut_.planar ? Eigen::Vector3d::Zero().eval() : Eigen::Vector3d(corner(f, 2) - a);
+    const double h = spacing(nearest_node(a + first / 3 + second / 3));
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::max(first.norm(), second.norm()) / (sampling * h))));
+    for (int i = 0; i <= steps; ++i) {
+      for (int j = 0; j <= (cut_.planar ? 0 : steps - i); ++j) {
+        const Eigen::Vector3d x =
+            a + first * (i / static_cast<double>(steps)) + second * (j / static_cast<double>(steps));
+        if (inside_(x)) {
+          take(none, nearest_node(x), x, f, added_apart);
+        }
+      }
+    }
+  }
+
+  std::int32_t nearest_node(const Eigen::Vector3d& x) const {
+    return static_cast<std::int32_t>(tree_.nearest(x.data()).first);
+  }
+
+  const CutFacets& cut_;
+  const InsideBody& inside_;
+  const NodeCloud& cloud_;
+  PointTree tree_;
+  std::vector<std::uint8_t> is_face_;
+  std::vector<Eigen::Vector3d> taken_;
+  std::vector<Place> places_;
+};
+
+/// A node like another, at a place; returns its row.
+std::int32_t append_node(NodeCloud& cloud, std::int32_t like, const Eigen::Vector3d& x, bool held_alike) {
+  const Eigen::Index row = cloud.positions.rows();
+  const auto from = static_cast<std::size_t>(like);
+  cloud.positions.conservativeResize(row + 1, 3);
+  cloud.positions.row(row) = x;
+  cloud.spacing.push_back(cloud.spacing[from]);
+  cloud.on_surface.push_back(1);
+  if (!cloud.label.empty()) {
+    cloud.label.push_back(cloud.label[from]);
+  }
+  if (cloud.prescribed_displacement.rows() == row) {
+    cloud.prescribed_displacement.conservativeResize(row + 1, 3);
+    cloud.prescribed_displacement.row(row).setConstant(std::nan(""));
+    if (held_alike) {
+      cloud.prescribed_displacement.row(row) = cloud.prescribed_displacement.row(like);
+    }
+  }
+  if (cloud.force.rows() == row) {
+    cloud.force.conservativeResize(row + 1, 3);
+    cloud.force.row(row).setZero();
+  }
+  return static_cast<std::int32_t>(row);
+}
+
+}  // namespace
+
+std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeCloud& cloud,
+                           std::vector<FacePair>& pairs) {
+  std::size_t split = 0;
+  for (const Place& p : Faces(cut, inside, cloud, pairs).places()) {
+    const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;
+    FacePair pair{p.node, none, p.x, p.normal};
+    const bool was_there = p.node != none;
+    if (was_there) {
+      ++split;
+      cloud.positions.row(p.node) = p.x + off;
+      cloud.on_surface[static_cast<std::size_t>(p.node)] = 1;
+    } else {
+      pair.above = append_node(cloud, p.like, p.x + off, false);
+    }
+    pair.below = append_node(cloud, pair.above, p.x - off, was_there);
+    if (cloud.force.rows() > 0) {
+      cloud.force.row(pair.above) /= 2;
+      cloud.force.row(pair.below) = cloud.force.row(pair.above);
+    }
+    pairs.push_back(pair);
+  }
+  return split;
+}
+
+}  // namespace brainshift::solve
