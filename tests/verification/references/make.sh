@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the finite-element references (the CSV files beside this script) again: about three quarters of an hour on one core, 2 GB.
+# Makes the finite-element references (the CSV files beside this script) again: about an hour on one core, 2 GB.
 # usage: make.sh [folder for decks and results, kept, so that a second call only solves what changed] [case ...]
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -16,7 +16,7 @@ fi
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 cd "$here"
-[ $# -gt 0 ] || set -- cylinder_compression cylinder_shear extension indentation cylinder_compression_nu0499 brain
+[ $# -gt 0 ] || set -- cylinder_compression cylinder_shear extension indentation cylinder_compression_nu0499 brain cut_path cut_block
 for case in "$@"; do
     nice -n 5 /usr/bin/python3 -B -m "fe.$case" "$folder" .
 done

@@ -48,6 +48,15 @@ def prescribed_samples(samples, load):
     return check(f"{samples} has the displacements of {load} at {there.sum()} vertices", there.any() and error < 2e-4, f"{error:.1e}")
 
 
+def faces_open(table, first, component, count=40):
+    """Samples of the upper face of a cut, from row `first` (0 is the first), move away from those of the lower face that follow."""
+    rows = tables.read(os.path.join(HERE, table))
+    upper, lower = rows[first:first + count], rows[first + count:first + 2 * count]
+    apart = (upper - lower)[:, 3 + component]
+    places = np.abs(upper - lower)[:, :3].max()
+    return check(f"{table}: faces go apart", places < 0.021 and bool((apart > 0).all()), f"by {apart.min():.3f} to {apart.max():.3f} mm")
+
+
 def main():
     random = np.random.default_rng(3)
     square = meshes.rectangle(50 * meshes.graded(4, 1.5), 100 * meshes.graded(5, 1.5, both_ends=True))
@@ -73,12 +82,17 @@ def main():
     rigid_punch = 2 * 5 * 5000 / (1 - 0.49 ** 2) * 1e-6
     good.append(between("indentation, stiffer than a punch on a half-space, N/mm", rigid_punch,
                         stiffness("indentation_force.csv"), 4 * rigid_punch))
+    # Between half the width, which is what the cut leaves, and the whole, both free to narrow at their ends.
+    for table, whole in (("cut_path_force.csv", strip * 1e-6), ("cut_block_force.csv", 30 * free * 1e-6)):
+        good.append(between(f"{table}, first row, N/mm", 0.97 * 0.5 * whole, stiffness(table), whole))
+    good += [faces_open("cut_path.csv", 700, 1), faces_open("cut_block.csv", 600, 2)]
     for path in sorted(glob.glob(os.path.join(HERE, "*.csv"))):
         rows, name = tables.read(path), os.path.basename(path)
         if name.endswith("_force.csv"):
             good.append(check(f"{name} rises", bool((np.diff(rows, axis=0) > 0).all())))
         else:
-            good.append(check(f"{name} is finite, {len(rows)} rows", bool(np.isfinite(rows).all()) and rows.shape[1] == 6))
+            columns = 3 if name == "extension_nodes.csv" else 6
+            good.append(check(f"{name} is finite, {len(rows)} rows", bool(np.isfinite(rows).all()) and rows.shape[1] == columns))
     good.append(prescribed_samples("brain.csv", "brain_load.csv"))
     raise SystemExit(not all(good))
 

@@ -27,6 +27,12 @@ def error_line(force_percent, lengths):
             f"mean_mm={lengths[2]:.3g}")
 
 
+def row_ranges(groups):
+    """Comment that says which rows (from 1) hold which named group of samples, in the order of the groups."""
+    ends = np.cumsum([len(points) for points in groups.values()])
+    return "rows: " + "; ".join(f"{end - len(points) + 1}-{end} {name}" for (name, points), end in zip(groups.items(), ends))
+
+
 def write_samples(path, comments, points, displacements):
     write(path, comments, "x,y,z,ux,uy,uz", np.hstack([points, displacements]), "%.4f")
 

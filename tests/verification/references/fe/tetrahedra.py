@@ -1,11 +1,11 @@
-"""Tetrahedra inside a closed triangulated surface by gmsh, whose triangles stay; their quadratic and refined forms."""
+"""Tetrahedra inside a closed triangulated surface by gmsh, whose triangles stay; their quadratic and refined forms.
+What reads gmsh's files and adds the nodes of edges serves flat triangles, too."""
 import subprocess
 
 import numpy as np
 
+from .evaluate import SIMPLEX_EDGES
 from .meshes import Mesh
-
-EDGES = np.array([(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)])
 
 
 def fill(points, triangles, stem, growth=1.0):
@@ -31,7 +31,8 @@ def write_msh(path, points, triangles):
         mesh.write("$EndElements\n")
 
 
-def read_msh(path):
+def read_msh(path, corners=4):
+    """The tetrahedra of a file of gmsh's, or (3 corners) its triangles in the plane."""
     with open(path) as file:
         lines = file.read().split("\n")
     start = lines.index("$Nodes") + 1
@@ -39,20 +40,22 @@ def read_msh(path):
     start = lines.index("$Elements") + 1
     rows = [line.split() for line in lines[start + 1:start + 1 + int(lines[start])]]
     renumber = {int(a): i for i, a in enumerate(table[:, 0])}
-    elements = np.array([[renumber[int(a)] for a in row[-4:]] for row in rows if row[1] == "4"])
-    corners = table[:, 1:][elements]
-    volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
-    elements[volumes < 0] = elements[volumes < 0][:, [0, 2, 1, 3]]
+    kind = {3: "2", 4: "4"}[corners]
+    elements = np.array([[renumber[int(a)] for a in row[-corners:]] for row in rows if row[1] == kind])
+    places = table[:, 1:corners]
+    edges = places[elements[:, 1:]] - places[elements[:, :1]]
+    wrong = np.linalg.det(edges) < 0
+    elements[wrong] = elements[wrong][:, [0, 2, 1, 3][:corners]]
     used, elements = np.unique(elements, return_inverse=True)
-    return Mesh(table[used, 1:], elements.reshape(-1, 4))
+    return Mesh(places[used], elements.reshape(-1, corners))
 
 
 def quadratic(mesh):
-    """10-node tetrahedra with straight edges, and the ends (first, second) of the edge of each added node."""
-    pairs = np.sort(mesh.elements[:, EDGES].reshape(-1, 2), axis=1)
+    """10-node tetrahedra (6-node triangles) with straight edges, and the ends (first, second) of the edge of each added node."""
+    pairs = np.sort(mesh.elements[:, SIMPLEX_EDGES[mesh.nodes.shape[1]]].reshape(-1, 2), axis=1)
     edges, which = np.unique(pairs, axis=0, return_inverse=True)
     nodes = np.vstack([mesh.nodes, mesh.nodes[edges].mean(1)])
-    return Mesh(nodes, np.hstack([mesh.elements, len(mesh.nodes) + which.reshape(-1, 6)])), edges
+    return Mesh(nodes, np.hstack([mesh.elements, len(mesh.nodes) + which.reshape(len(mesh.elements), -1)])), edges
 
 
 def refined(mesh):
