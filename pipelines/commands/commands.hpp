@@ -40,8 +40,9 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
                       const std::function<StageReport(const std::filesystem::path& folder, const Progress&)>& work);
 
 /// Adds an option of the scene's table to a command, under the same name with dashes, help and default:
-/// "--edge-length". Its text goes into `scene` when the command line is parsed; a text that is not allowed is an error
-/// of the command line.
-void add_scene_option(CLI::App& command, Scene& scene, const std::string& element, const std::string& name);
+/// "--edge-length", or under another flag. Its text goes into `scene` when the command line is parsed; a text that is
+/// not allowed is an error of the command line.
+CLI::Option* add_scene_option(CLI::App& command, Scene& scene, const std::string& element, const std::string& name,
+                              const std::string& other_flag = {});
 
 }  // namespace brainshift::pipelines

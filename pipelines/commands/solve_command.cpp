@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "pipelines/commands/commands.hpp"
+#include "pipelines/commands/cut_arguments.hpp"
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "solve/material/named_materials.hpp"
@@ -20,6 +21,7 @@ struct SolveArguments {
   std::vector<std::filesystem::path> markups;
   std::vector<std::filesystem::path> surfaces;
   std::string plane;
+  CutArguments cuts;
   std::filesystem::path out;
 };
 
@@ -143,19 +145,25 @@ std::optional<Load> load_of(const SolveArguments& arguments) {
 }
 
 void solve(const SolveArguments& arguments, const Settings& settings) {
-  check_solve_options(arguments.scene);
+  Scene scene = arguments.scene;
   SolveJob job = arguments.job;
-  job.options = arguments.scene.solve;
-  job.points_per_cell = arguments.scene.points_per_cell;
-  job.loading = arguments.scene.loading;
   job.plane = plane_of(arguments.plane);
+  read_cut_arguments(arguments.cuts, scene, job);
+  check_solve_options(scene);
+  job.options = scene.solve;
+  job.points_per_cell = scene.points_per_cell;
+  job.loading = scene.loading;
   job.load = load_of(arguments);
+  job.cuts = scene.cuts;
+  job.resection = scene.resection;
   for (const std::string& text : arguments.materials) {
-    const Tissue tissue = read_material(text);
+    scene.tissues.push_back(read_material(text));
+    const Tissue& tissue = scene.tissues.back();
     if (!job.materials.emplace(tissue.label, tissue.material).second) {
       throw std::invalid_argument("--material names label " + std::to_string(tissue.label) + " twice");
     }
   }
+  check_resection(scene);
   run_single_stage(StageId::solve, arguments.out, settings,
                    [&](const auto& folder, const Progress& progress) { return run_job(job, folder, progress); });
 }
@@ -221,6 +229,7 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
   for (const char* name : {"margin", "depth", "farthest"}) {
     add_scene_option(*command, arguments->scene, "load", name);
   }
+  add_cut_options(*command, arguments->scene, arguments->cuts);
   command->add_option("--out", arguments->out, "folder for the artefacts")->required()->type_name("DIR");
   command->callback([arguments, &settings] { solve(*arguments, settings); });
 }

@@ -34,6 +34,16 @@ void warp_file(const fs::path& file, const fs::path& out, const registration::Wa
   registration::warp_any(file, out, target, options);
 }
 
+void read_cuts(const SolveJob& job, solve::Model& model) {
+  model.cuts = job.cut_paths;
+  if (job.cuts) {
+    model.face_contact = job.cuts->contact;
+    for (const CutFile& cut : job.cuts->files) {
+      model.cuts.push_back(read_cut(cut, job.plane));
+    }
+  }
+}
+
 }  // namespace
 
 solve::CraniotomyLoad read_load(const Load& load, const fs::path& surface) {
@@ -97,6 +107,9 @@ SolveInput read_input(const SolveJob& job) {
   model.plane = job.plane;
   model.gravity = job.loading.gravity;
   model.curve = load_curve(job.loading);
+  model.rupture = job.rupture;
+  model.resection = job.resection;
+  read_cuts(job, model);
   if (!job.skull.empty()) {
     model.skull = read_surface(job.skull);
   }

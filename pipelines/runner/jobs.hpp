@@ -38,6 +38,10 @@ struct SolveJob {
   std::optional<int> points_per_cell;  ///< absent: the most that the cells take; adaptive 1
   Loading loading;
   solve::Plane plane = solve::Plane::none;
+  std::optional<Cuts> cuts = {};
+  std::vector<solve::Cut> cut_paths = {};  ///< of a plane problem, those that are in no file
+  std::optional<solve::Rupture> rupture = {};
+  std::optional<solve::Resection> resection = {};
 };
 
 struct RegisterJob {

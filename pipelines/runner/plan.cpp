@@ -36,6 +36,11 @@ nlohmann::ordered_json options_of(const Scene& scene, const std::vector<std::str
         }
       }
     }
+    if (name == "cuts") {
+      for (std::size_t i = 0; i < scene.cuts->files.size(); ++i) {
+        options[name][std::to_string(i + 1)].erase("file");
+      }
+    }
   }
   return options;
 }
@@ -44,7 +49,8 @@ std::vector<InputFile> files_of(const Scene& scene, const std::vector<std::strin
   std::vector<InputFile> files;
   for (const InputFile& file : scene_files(scene)) {
     const std::string element = file.role.substr(0, file.role.rfind('.'));
-    if (std::find(elements.begin(), elements.end(), element) != elements.end()) {
+    const auto holds = [&](const std::string& name) { return element == name || element.starts_with(name + "."); };
+    if (std::any_of(elements.begin(), elements.end(), holds)) {
       files.push_back(file);
     }
   }
@@ -111,7 +117,7 @@ StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
 StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
   const SolveJob job = solve_job(scene, folder);
   std::vector<std::string> elements = load_elements(scene);
-  elements.insert(elements.end(), {"contact", "tissues", "solve"});
+  elements.insert(elements.end(), {"contact", "tissues", "cuts", "resection", "solve"});
   StagePlan plan{StageId::solve, files_of(scene, elements), options_of(scene, elements), {"solution.vtu"}, {}};
   add_artefacts(plan, folder, {"discretise/nodes.vtu", "discretise/cells.vtu", "segment/labels.nii.gz"});
   if (scene.load && scene.load->simulated) {
@@ -244,6 +250,8 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
   if (scene.contact) {
     job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;
   }
+  job.cuts = scene.cuts;
+  job.resection = scene.resection;
   for (const Tissue& tissue : scene.tissues) {
     job.materials[tissue.label] = tissue.material;
   }
@@ -257,6 +265,11 @@ std::vector<InputFile> scene_files(const Scene& scene) {
       if (option.is_path && element.present(scene) && !option.get(scene).empty()) {
         files.push_back({element.path + "." + option.name, option.get(scene)});
       }
+    }
+  }
+  if (scene.cuts) {
+    for (std::size_t i = 0; i < scene.cuts->files.size(); ++i) {
+      files.push_back({"cuts." + std::to_string(i + 1) + ".file", scene.cuts->files[i].file});
     }
   }
   return files;

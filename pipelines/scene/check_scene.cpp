@@ -72,6 +72,22 @@ void check_load(const Scene& scene) {
   }
 }
 
+void check_cuts(const Scene& scene) {
+  if (!scene.cuts) {
+    return;
+  }
+  if (scene.cuts->files.empty()) {
+    fail(scene, "cuts", "<cuts> names no cut; name one, as <cut file=\"sheet.vtp\"/>, or leave <cuts> out");
+  }
+  for (std::size_t i = 0; i < scene.cuts->files.size(); ++i) {
+    try {
+      read_cut(scene.cuts->files[i], solve::Plane::none);
+    } catch (const std::invalid_argument& error) {
+      fail(scene, "cuts." + std::to_string(i + 1), error.what());
+    }
+  }
+}
+
 void check_options(const Scene& scene) {
   if (scene.discretise.nodes && scene.discretise.spacing) {
     fail(scene, "discretise", "stage discretise has both nodes and spacing; give one of them");
@@ -171,6 +187,8 @@ void check_scene(const Scene& scene) {
   check_options(scene);
   check_solve_options(scene);
   check_tissues(scene);
+  check_cuts(scene);
+  check_resection(scene);
 }
 
 void check_solve_options(const Scene& scene) {
@@ -200,6 +218,8 @@ void check_solve_options(const Scene& scene) {
     const std::pair<const char*, bool> whole_body_only[] = {
         {"dynamics=\"transient\"", scene.solve.dynamics == solve::Dynamics::transient},
         {"gravity", !loading.gravity.isZero()},
+        {"cuts", scene.cuts.has_value()},
+        {"a resection", scene.resection.has_value()},
         {"integration_tolerance", scene.solve.integration_tolerance > 0}};
     for (const auto& [name, given] : whole_body_only) {
       if (given) {
@@ -208,6 +228,30 @@ void check_solve_options(const Scene& scene) {
     }
   }
   load_curve(loading);
+}
+
+void check_resection(const Scene& scene) {
+  if (!scene.resection) {
+    return;
+  }
+  std::set<std::int32_t> left;
+  for (const Tissue& tissue : scene.tissues) {
+    left.insert(tissue.label);
+  }
+  const std::string labels = write_numbers(left);
+  if (scene.resection->labels.empty()) {
+    fail(scene, "resection.labels", "the resection names no label; the tissues' labels are " + labels);
+  }
+  for (const std::int32_t label : scene.resection->labels) {
+    if (left.erase(label) == 0) {
+      fail(scene, "resection.labels",
+           "the resection names label " + std::to_string(label) +
+               ", which no tissue has or which is named twice; the tissues' labels are " + labels);
+    }
+  }
+  if (left.empty()) {
+    fail(scene, "resection.labels", "the resection takes out every tissue (" + labels + "); leave one");
+  }
 }
 
 void check_material(const Tissue& tissue) {

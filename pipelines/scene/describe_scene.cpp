@@ -48,6 +48,13 @@ std::string optional_part(const Element& element, const Scene& scene) {
                  help_lines(element.options, "       ") + "       " + example + "\n");
 }
 
+std::string cuts_part(const Element& cuts, const Scene& scene) {
+  return comment("Not built unless named. " + cuts.help, help_lines(cuts.options, "       ") + "       Each cut:\n" +
+                                                             help_lines(cut_options(), "       ") + "       <cuts" +
+                                                             attributes(cuts.options, scene) + "><cut" +
+                                                             attributes(cut_options(), CutFile{}) + "/></cuts>\n");
+}
+
 std::string tissues_part() {
   Tissue tissue;
   tissue.label = 1;
@@ -72,6 +79,10 @@ std::string default_scene() {
       "<!-- A brainshift scene with every option at its default. File names are relative to this file. -->\n"
       "<scene version=\"1\">\n";
   for (const Element& element : scene_elements()) {
+    if (element.path == "cuts") {
+      text += cuts_part(element, everything);
+      continue;
+    }
     if (element.optional) {
       text += optional_part(element, everything);
       continue;
@@ -96,6 +107,13 @@ nlohmann::ordered_json effective_options(const Scene& scene) {
     auto& part = json[element.path] = nlohmann::ordered_json::object();
     for (const auto& option : element.options) {
       part[option.name] = option.get(scene);
+    }
+    if (element.path == "cuts") {
+      for (std::size_t i = 0; i < scene.cuts->files.size(); ++i) {
+        for (const auto& option : cut_options()) {
+          part[std::to_string(i + 1)][option.name] = option.get(scene.cuts->files[i]);
+        }
+      }
     }
     if (element.path == "image") {
       auto& tissues = json["tissues"] = nlohmann::ordered_json::object();

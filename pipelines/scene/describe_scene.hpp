@@ -12,8 +12,8 @@ namespace brainshift::pipelines {
 /// parses, and gives the defaults.
 std::string default_scene();
 
-/// What the scene asks for, option by option as text: {"image": {"t1": "...", ...}, "tissues": {"1": {...}}, ...}; only
-/// parts that are present.
+/// What the scene asks for, option by option as text: {"image": {"t1": "...", ...}, "tissues": {"1": {...}}, ...},
+/// tissues by their labels and cuts counted from 1; only parts that are present.
 nlohmann::ordered_json effective_options(const Scene& scene);
 
 }  // namespace brainshift::pipelines

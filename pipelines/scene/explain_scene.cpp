@@ -118,6 +118,21 @@ void explain_material(const Tissue& tissue, bool in_time, std::ostringstream& te
   text << "\n";
 }
 
+void explain_cuts(const Scene& scene, std::ostringstream& text) {
+  for (const CutFile& cut : scene.cuts->files) {
+    const auto said = [&](const char* name) { return find_option(cut_options(), name)->get(cut); };
+    text << "  cut " << cut.file.string() << ": ";
+    if (!cut.timing.start && !cut.timing.speed) {
+      text << "from the start, or as its file says\n";
+      continue;
+    }
+    text << (cut.timing.speed ? "from time " : "at time ") << write_number(cut.timing.start.value_or(0))
+         << (cut.timing.speed ? " on, " + said("speed") + " mm in a unit of it along " + said("direction") : "")
+         << "\n";
+  }
+  text << "  faces of cuts: " << (scene.cuts->contact ? "in contact" : "may pass through each other") << "\n";
+}
+
 void explain_physics(const Scene& scene, std::ostringstream& text) {
   const auto said = [&](const char* name) { return find_option(find_element("solve")->options, name)->get(scene); };
   const bool in_time = scene.solve.dynamics == solve::Dynamics::transient;
@@ -145,6 +160,13 @@ void explain_physics(const Scene& scene, std::ostringstream& text) {
   text << "\n  load's curve: "
        << (scene.loading.curve.empty() ? "3-4-5" : said("curve") + ", joined " + said("curve_join"))
        << "\n  gravity: " << (scene.loading.gravity.isZero() ? "not active" : said("gravity") + " m/s2") << "\n";
+  if (scene.cuts) {
+    explain_cuts(scene, text);
+  }
+  if (scene.resection) {
+    text << "  resection: labels " << write_numbers(scene.resection->labels) << ", pressure in the cavity "
+         << write_number(scene.resection->pressure) << " Pa\n";
+  }
 }
 
 /// The active parts of the solve stage, what each asks for of its memory and of the time of its steps.

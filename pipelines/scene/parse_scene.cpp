@@ -109,29 +109,6 @@ std::string allowed_children(const std::string& parent) {
   return names.empty() ? "none" : names;
 }
 
-void read_tissues(const tinyxml2::XMLElement& xml, Scene& scene) {
-  if (const auto* attribute = xml.FirstAttribute()) {
-    Where{scene.source, attribute->GetLineNum(), ""}.fail("<tissues> has no attribute '" +
-                                                          std::string(attribute->Name()) + "'; allowed: none");
-  }
-  for (const auto* child = xml.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
-    const Where where{scene.source, child->GetLineNum(), ""};
-    if (std::string(child->Name()) != "tissue") {
-      where.fail("<tissues> has no element <" + std::string(child->Name()) + ">; allowed: tissue");
-    }
-    const char* label = child->Attribute("label");
-    const std::string path = "tissues." + std::string(label == nullptr ? "" : label);
-    Tissue tissue;
-    read_attributes(*child, tissue_options(), tissue, path, scene.source);
-    const auto same = [&](const Tissue& other) { return other.label == tissue.label; };
-    if (std::any_of(scene.tissues.begin(), scene.tissues.end(), same)) {
-      where.fail("there are two tissues of label " + std::to_string(tissue.label));
-    }
-    scene.source.lines[path] = child->GetLineNum();
-    scene.tissues.push_back(std::move(tissue));
-  }
-}
-
 void refuse_text(const tinyxml2::XMLElement& xml, const SceneSource& source) {
   for (const auto* node = xml.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (node->ToText() != nullptr) {
@@ -139,6 +116,53 @@ void refuse_text(const tinyxml2::XMLElement& xml, const SceneSource& source) {
                                                  "', but takes attributes and elements only");
     }
   }
+}
+
+/// Reads a list, whose elements all have one name.
+template <class Read>
+void read_list(const tinyxml2::XMLElement& xml, const std::string& name, const SceneSource& source, const Read& read) {
+  refuse_text(xml, source);
+  for (const auto* child = xml.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+    const Where where{source, child->GetLineNum(), ""};
+    if (child->Name() != name) {
+      where.fail("<" + std::string(xml.Name()) + "> has no element <" + child->Name() + ">; allowed: " + name);
+    }
+    read(*child, where);
+  }
+}
+
+void read_tissues(const tinyxml2::XMLElement& xml, Scene& scene) {
+  if (const auto* attribute = xml.FirstAttribute()) {
+    Where{scene.source, attribute->GetLineNum(), ""}.fail("<tissues> has no attribute '" +
+                                                          std::string(attribute->Name()) + "'; allowed: none");
+  }
+  read_list(xml, "tissue", scene.source, [&](const tinyxml2::XMLElement& child, const Where& where) {
+    const char* label = child.Attribute("label");
+    const std::string path = "tissues." + std::string(label == nullptr ? "" : label);
+    Tissue tissue;
+    read_attributes(child, tissue_options(), tissue, path, scene.source);
+    const auto same = [&](const Tissue& other) { return other.label == tissue.label; };
+    if (std::any_of(scene.tissues.begin(), scene.tissues.end(), same)) {
+      where.fail("there are two tissues of label " + std::to_string(tissue.label));
+    }
+    scene.source.lines[path] = where.line;
+    scene.tissues.push_back(std::move(tissue));
+  });
+}
+
+void read_cuts(const tinyxml2::XMLElement& xml, Scene& scene) {
+  read_list(xml, "cut", scene.source, [&](const tinyxml2::XMLElement& child, const Where& where) {
+    if (child.Attribute("path") != nullptr) {
+      where.fail(
+          "<cut> has a path, which cuts a plane problem ('brainshift solve --plane'); a scene is in space: give a "
+          "sheet, as <cut file=\"sheet.vtp\"/>");
+    }
+    const std::string path = "cuts." + std::to_string(scene.cuts->files.size() + 1);
+    CutFile cut;
+    read_attributes(child, cut_options(), cut, path, scene.source);
+    scene.source.lines[path] = where.line;
+    scene.cuts->files.push_back(std::move(cut));
+  });
 }
 
 void read_children(const tinyxml2::XMLElement& xml, const std::string& parent, Scene& scene) {
@@ -157,13 +181,16 @@ void read_children(const tinyxml2::XMLElement& xml, const std::string& parent, S
       where.fail(where.element + " '" + path + "' is there twice");
     }
     if (tissues) {
-      refuse_text(*child, scene.source);
       read_tissues(*child, scene);
       continue;
     }
     element->add(scene);
     read_attributes(*child, element->options, scene, path, scene.source);
-    read_children(*child, path, scene);
+    if (path == "cuts") {
+      read_cuts(*child, scene);
+    } else {
+      read_children(*child, path, scene);
+    }
   }
 }
 

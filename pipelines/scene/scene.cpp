@@ -3,6 +3,8 @@
 
 #include <stdexcept>
 
+#include "solve/cut/read_cut.hpp"
+
 namespace brainshift::pipelines {
 
 std::string_view stage_name(StageId stage) {
@@ -27,6 +29,18 @@ solve::LoadCurve load_curve(const Loading& loading) {
     return solve::read_load_curve(loading.curve, loading.curve_join);
   }
   return {{0, loading.duration.value_or(1)}, {0, 1}, solve::LoadCurve::Join::smooth};
+}
+
+solve::Cut read_cut(const CutFile& cut, solve::Plane plane) {
+  solve::Cut read = solve::read_cut(cut.file, cut.timing);
+  const bool planar = plane != solve::Plane::none;
+  if (read.is_path() != planar) {
+    throw std::invalid_argument(
+        read.name + (planar ? ": this is a sheet, but a plane problem is cut along paths (.csv, x,y)"
+                            : ": this is a path, which cuts a plane problem ('brainshift solve --plane'); a body in "
+                              "space is cut along sheets (.vtp, .stl)"));
+  }
+  return read;
 }
 
 std::string place(const SceneSource& source, const std::string& path) {

@@ -15,6 +15,7 @@
 #include "pipelines/scene/tradeoff_lists.hpp"
 #include "register/registration.hpp"
 #include "segmentation/segment.hpp"
+#include "solve/cut/cut_timing.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/solve.hpp"
 
@@ -69,6 +70,20 @@ struct Contact {
   std::filesystem::path skull;  ///< empty: the skull of the segment stage
 };
 
+struct CutFile {
+  std::filesystem::path file;
+  solve::CutTiming timing;
+};
+
+struct Cuts {
+  bool contact = false;  ///< their faces do not pass through each other
+  std::vector<CutFile> files;
+};
+
+/// Reads a cut. Throws std::invalid_argument, naming the file, when it is at fault, a path of a body in space or a
+/// sheet of a plane problem.
+solve::Cut read_cut(const CutFile& cut, solve::Plane plane);
+
 /// Finer nodes towards the load.
 struct CraniotomyRefinement {
   double factor = 1;   ///< spacing at the load / uniform spacing; 1: no refinement
@@ -105,6 +120,8 @@ struct Scene {
   std::vector<Tissue> tissues;
   std::optional<Load> load;
   std::optional<Contact> contact;
+  std::optional<Cuts> cuts;
+  std::optional<solve::Resection> resection;
   std::optional<std::filesystem::path> landmarks;
   std::optional<TradeoffLists> tradeoff;
   segmentation::SegmentOptions segment;  ///< brain_labels and skull_label are filled in from tissues and image

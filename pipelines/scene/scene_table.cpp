@@ -53,6 +53,22 @@ Element load_part(std::string name, std::string help, std::optional<Member> Load
           std::move(options)};
 }
 
+/// A part that is one member of the scene.
+template <class Member>
+Element part(std::string path, std::string help, std::optional<Member> Scene::*member,
+             std::vector<Option<Scene>> options) {
+  return {std::move(path),
+          std::move(help),
+          true,
+          [member](const Scene& s) { return (s.*member).has_value(); },
+          [member](Scene& s) {
+            if (!(s.*member)) {
+              (s.*member).emplace();
+            }
+          },
+          std::move(options)};
+}
+
 Element image_element() {
   return {"image",
           "What comes in: labels, or a T1 with a brain mask, or a brain surface; a T1 is needed to warp it.",
@@ -102,6 +118,20 @@ std::vector<Element> load_elements() {
                  number<Scene>("radius", MEMBER(load->simulated->radius), above_zero, "mm", "of the opening"),
                  number<Scene>("depth", MEMBER(load->simulated->depth), above_zero, "mm",
                                "inward displacement at the centre")})};
+}
+
+Element cuts_element() {
+  return part("cuts", "Cuts of the body, one element each.", &Scene::cuts,
+              {choice<Scene>("contact", MEMBER(cuts->contact),
+                             std::vector<std::pair<std::string, bool>>{{"no", false}, {"yes", true}},
+                             "whether the faces of cuts are kept from passing through each other")});
+}
+
+Element resection_element() {
+  return part("resection", "Tissue that is taken out; the rest relaxes.", &Scene::resection,
+              {required(labels<Scene>("labels", MEMBER(resection->labels), "of the tissues that are taken out")),
+               number<Scene>("pressure", MEMBER(resection->pressure), any_number, "Pa",
+                             "in the cavity, on its undeformed wall")});
 }
 
 Element segment_element() {
@@ -279,16 +309,8 @@ Option<Scene> values_of(const TradeoffSetting& setting) {
 }
 
 Element tradeoff_element() {
-  Element element{"tradeoff",
-                  "What the command tradeoff tries: all combinations of these values.",
-                  true,
-                  [](const Scene& s) { return s.tradeoff.has_value(); },
-                  [](Scene& s) {
-                    if (!s.tradeoff) {
-                      s.tradeoff.emplace();
-                    }
-                  },
-                  {}};
+  Element element =
+      part("tradeoff", "What the command tradeoff tries: all combinations of these values.", &Scene::tradeoff, {});
   for (const TradeoffSetting& setting : tradeoff_settings) {
     element.options.push_back(values_of(setting));
   }
@@ -303,27 +325,13 @@ std::vector<Element> make_elements() {
   for (Element& element : load_elements()) {
     elements.push_back(std::move(element));
   }
-  elements.push_back(
-      {"contact",
-       "The brain slides in the rigid skull, without friction.",
-       true,
-       [](const Scene& s) { return s.contact.has_value(); },
-       [](Scene& s) {
-         if (!s.contact) {
-           s.contact.emplace();
-         }
-       },
-       {file<Scene>("skull", MEMBER(contact->skull), "surface of the skull's inside; empty: the segment stage's")}});
-  elements.push_back({"landmarks",
-                      "Points to move with the brain.",
-                      true,
-                      [](const Scene& s) { return s.landmarks.has_value(); },
-                      [](Scene& s) {
-                        if (!s.landmarks) {
-                          s.landmarks.emplace();
-                        }
-                      },
-                      {required(file<Scene>("file", MEMBER(landmarks.value()), "markups: .mrk.json or .fcsv"))}});
+  elements.push_back(part(
+      "contact", "The brain slides in the rigid skull, without friction.", &Scene::contact,
+      {file<Scene>("skull", MEMBER(contact->skull), "surface of the skull's inside; empty: the segment stage's")}));
+  elements.push_back(cuts_element());
+  elements.push_back(resection_element());
+  elements.push_back(part("landmarks", "Points to move with the brain.", &Scene::landmarks,
+                          {required(file<Scene>("file", MEMBER(landmarks.value()), "markups: .mrk.json or .fcsv"))}));
   elements.push_back(segment_element());
   elements.push_back(discretise_element());
   elements.push_back(solve_element());
@@ -378,6 +386,18 @@ std::vector<Option<Tissue>> make_tissue_options() {
                         "1 and s", "how the isochoric stress relaxes, as 0.450,0.50; 0.365,50")};
 }
 
+std::vector<Option<CutFile>> make_cut_options() {
+  return {required(file<CutFile>("file", MEMBER(file),
+                                 "the sheet, a surface: .vtp, .stl, .ply, .obj; a .vtp may say "
+                                 "in the point array time when the cut gets to each point")),
+          number<CutFile>("start", MEMBER(timing.start), not_negative, "time of the load's curve",
+                          "when it begins; without it and a speed the body is cut from the start"),
+          number<CutFile>("speed", MEMBER(timing.speed), above_zero, "mm in a unit of that time",
+                          "at which it goes on; without it the whole cut is there at its start"),
+          vector<CutFile>("direction", MEMBER(timing.direction), "any length",
+                          "in which a sheet is cut at that speed; 0 0 0: none")};
+}
+
 #undef MEMBER
 
 }  // namespace
@@ -389,6 +409,11 @@ const std::vector<Element>& scene_elements() {
 
 const std::vector<Option<Tissue>>& tissue_options() {
   static const std::vector<Option<Tissue>> options = make_tissue_options();
+  return options;
+}
+
+const std::vector<Option<CutFile>>& cut_options() {
+  static const std::vector<Option<CutFile>> options = make_cut_options();
   return options;
 }
 

@@ -21,12 +21,16 @@ struct Element {
   std::vector<Option<Scene>> options;
 };
 
-/// Every element but the tissues, in the order in which a scene lists them. The one description of the scene: reading,
+/// Every element but the tissues and single cuts, in the order in which a scene lists them. The one description of the
+/// scene: reading,
 /// --set, --defaults, --check, --explain and the stamps of a run come from it.
 const std::vector<Element>& scene_elements();
 
 /// The options of a <tissue> inside <tissues>; paths "tissues.LABEL.NAME".
 const std::vector<Option<Tissue>>& tissue_options();
+
+/// The options of a <cut> inside <cuts>; paths "cuts.NUMBER.NAME", counted from 1.
+const std::vector<Option<CutFile>>& cut_options();
 
 const Element* find_element(const std::string& path);
 

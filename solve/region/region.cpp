@@ -38,6 +38,8 @@ void check(const Model& model, const SolveOptions& options) {
       {!model.gravity.isZero(), "gravity: it moves the whole body"},
       {model.cloud.force.rows() > 0 || model.body_force, "forces: take prescribed displacements alone"},
       {options.integration_tolerance > 0, "adaptive integration"},
+      {!model.cuts.empty() || model.rupture, "cuts or rupture"},
+      {model.resection.has_value(), "a resection: the rest of the body relaxes"},
       {model.plane != Plane::none, "a plane problem"}};
   for (const auto& [given, what] : refused) {
     if (given) {

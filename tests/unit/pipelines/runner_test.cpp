@@ -105,6 +105,10 @@ TEST_F(Stamps, ChangeForTheStagesThatDependOnAnOptionAlone) {
   EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.prony.push_back({0.5, 1}); }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.loading.gravity.z() = -9.81; }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.contact.emplace(); }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.cuts.emplace().files.push_back({write("cut.vtp", "cut"), {}}); }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.cuts->contact = true; }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.cuts->files[0].timing.start = 0.5; }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.resection = solve::Resection{{1}, 0}; }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.registration.fade = 3; }), "---r");
   EXPECT_EQ(changed_by([&] { scene_.tissues.push_back({3, "", "", {}}); }), "sdv-");
 }
@@ -117,6 +121,9 @@ TEST_F(Stamps, ChangeWithTheContentsOfFilesNotTheirNames) {
   EXPECT_EQ(changed_by([&] { scene_.load->craniotomy = write("moved.csv", "another"); }), "----");
   EXPECT_EQ(changed_by([&] { scene_.loading.curve = write("curve.csv", "one"); }), "--v-");
   EXPECT_EQ(changed_by([&] { write("curve.csv", "two"); }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.cuts.emplace().files.push_back({write("cut.vtp", "one"), {}}); }), "--v-");
+  EXPECT_EQ(changed_by([&] { write("cut.vtp", "two"); }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.cuts->files[0].file = write("moved.vtp", "two"); }), "----");
 }
 
 TEST_F(Stamps, ACommandCountsWithTheScriptThatItNames) {

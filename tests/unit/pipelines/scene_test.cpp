@@ -72,7 +72,7 @@ TEST_F(SceneFile, DefaultsNameEveryOption) {
 
 TEST_F(SceneFile, PartsInTheCommentsOfTheDefaultsParseToo) {
   std::string text = default_scene();
-  for (const std::string part : {"<contact", "<tissues", "<load><simulated"}) {
+  for (const std::string part : {"<contact", "<tissues", "<load><simulated", "<cuts", "<resection"}) {
     const std::size_t begin = text.find(part);
     const std::string example = text.substr(begin, text.find('\n', begin) - begin);
     text.insert(text.find("</scene>"), example + "\n");
@@ -82,6 +82,16 @@ TEST_F(SceneFile, PartsInTheCommentsOfTheDefaultsParseToo) {
   EXPECT_TRUE(scene.load && scene.load->simulated);
   ASSERT_EQ(scene.tissues.size(), 1U);
   EXPECT_EQ(scene.tissues[0].material.youngs_modulus, solve::Material{}.youngs_modulus);
+  EXPECT_TRUE(scene.resection);
+  ASSERT_TRUE(scene.cuts);
+  EXPECT_EQ(scene.cuts->files.size(), 1U);
+}
+
+TEST_F(SceneFile, DefaultsExplainEveryOptionOfACut) {
+  const std::string text = default_scene();
+  for (const auto& option : cut_options()) {
+    expect_parts(text, {" " + option.name + "=\"", option.name + ": " + option.help});
+  }
 }
 
 TEST_F(SceneFile, DefaultsExplainEveryOptionOfATissue) {
@@ -188,12 +198,37 @@ TEST_F(SceneFile, ThePhysicsOfTheSolveStageArrives) {
   EXPECT_EQ(scene.points_per_cell, 3);
 }
 
+TEST_F(SceneFile, CutsAndResectionArrive) {
+  const Scene scene = parse(R"(<scene>
+  <cuts contact="yes">
+    <cut file="corpus.vtp"/>
+    <cut file="sulcus.stl" start="0.25" speed="40" direction="0 -1 2"/>
+  </cuts>
+  <resection labels="2 3" pressure="120"/></scene>)");
+  EXPECT_TRUE(scene.cuts->contact);
+  ASSERT_EQ(scene.cuts->files.size(), 2U);
+  EXPECT_EQ(scene.cuts->files[0].file, folder_ / "corpus.vtp") << "files are relative to the scene's";
+  EXPECT_FALSE(scene.cuts->files[0].timing.start);
+  EXPECT_EQ(scene.cuts->files[1].timing.start, 0.25);
+  EXPECT_EQ(scene.cuts->files[1].timing.speed, 40);
+  EXPECT_EQ(scene.cuts->files[1].timing.direction, Eigen::Vector3d(0, -1, 2));
+  EXPECT_EQ(scene.resection->labels, (std::vector<std::int32_t>{2, 3}));
+  EXPECT_EQ(scene.resection->pressure, 120);
+  const auto options = effective_options(scene);
+  EXPECT_EQ(options["cuts"]["contact"], "yes");
+  EXPECT_EQ(options["cuts"]["2"]["speed"], "40");
+}
+
 TEST_F(SceneFile, PartsThatAreNotNamedAreNotThere) {
   const Scene scene = parse("<scene/>");
   EXPECT_FALSE(scene.load);
   EXPECT_FALSE(scene.contact);
   EXPECT_FALSE(scene.landmarks);
+  EXPECT_FALSE(scene.cuts);
+  EXPECT_FALSE(scene.resection);
   EXPECT_TRUE(scene.tissues.empty());
+  EXPECT_FALSE(effective_options(scene).contains("cuts"));
+  EXPECT_FALSE(effective_options(scene).contains("resection"));
 }
 
 TEST_F(SceneFile, SetOverridesTheFile) {
@@ -238,6 +273,19 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
       {"<load><simulated centre=\"1 2\"/></load>", {at + "2", "'1 2'", "three numbers"}},
       {"<load><craniotomy/></load>", {at + "2", "needs the attribute 'file'"}},
       {"<contact>now</contact>", {at + "2", "text 'now'"}},
+      {"<cuts>\n<cut/></cuts>", {at + "3", "<cut> needs the attribute 'file'"}},
+      {"<cuts>\n<cut path=\"0,0; 1,1\"/></cuts>", {at + "3", "path", "brainshift solve --plane", "sheet"}},
+      {"<cuts><cut file=\"a.vtp\" end=\"1\"/></cuts>", {at + "2", "<cut>", "'end'", "file, start, speed, direction"}},
+      {"<cuts><cut file=\"a.vtp\" start=\"-1\"/></cuts>", {at + "2", "start", "'-1'", ">= 0"}},
+      {"<cuts><cut file=\"a.vtp\" speed=\"0\"/></cuts>", {at + "2", "speed", "'0'", "> 0", "mm"}},
+      {"<cuts><cut file=\"a.vtp\" direction=\"1\"/></cuts>", {at + "2", "direction", "'1'", "three numbers"}},
+      {"<cuts contact=\"maybe\"/>", {at + "2", "contact", "'maybe'", "no | yes"}},
+      {"<cuts><slit/></cuts>", {at + "2", "<cuts> has no element <slit>", "allowed: cut"}},
+      {"<cuts>here</cuts>", {at + "2", "text 'here'"}},
+      {"<cuts/>\n<cuts/>", {at + "3", "twice"}},
+      {"<resection/>", {at + "2", "needs the attribute 'labels'"}},
+      {"<resection labels=\"two\"/>", {at + "2", "labels", "'two'", "whole numbers from 1 to 32767"}},
+      {"<resection labels=\"2\" pressure=\"high\"/>", {at + "2", "pressure", "'high'", "Pa"}},
       {"<segment edge_length=\"3\"/>", {at + "2", "segment"}},
       {"<image>", {at, "XML"}},
   };
@@ -257,6 +305,8 @@ TEST_F(SceneFile, FaultsOfOverridesNameThePath) {
   expect_parts(fault("<scene/>", {"segment.edge_length"}), {"--set", "PATH=VALUE"});
   expect_parts(fault("<scene/>", {"tissues.3.density=1"}), {"--set", "no tissue of label '3'"});
   expect_parts(fault("<scene/>", {"load.simulated.depth=4"}), {"--set", "load.simulated.centre"});
+  expect_parts(fault("<scene/>", {"cuts.1.speed=4"}), {"--set", "cuts.1", "cuts, resection"});
+  expect_parts(fault("<scene/>", {"resection.pressure=4"}), {"--set", "resection.labels"});
 }
 
 LabelMap block_labels() {
@@ -301,6 +351,42 @@ TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
   expect_parts(
       fault(scene(image + two + load), {"solve.curve=curve.csv", "solve.dynamics=transient", "solve.duration=2"}),
       {"--set", "duration", "curve.csv"});
+}
+
+/// Two triangles, or one and its neighbour in two pieces.
+Surface small_sheet(bool whole) {
+  Surface sheet{Points(6, 3), Triangles(2, 3)};
+  sheet.vertices << 0, 0, 0, 9, 0, 0, 9, 9, 0, 0, 9, 0, 20, 0, 0, 20, 9, 0;
+  sheet.triangles << 0, 1, 2, (whole ? 0 : 3), (whole ? 2 : 4), (whole ? 3 : 5);
+  return sheet;
+}
+
+TEST_F(SceneFile, CheckRefusesCutsAndResectionsThatCannotBe) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  touch("load.csv");
+  write_surface(folder_ / "sheet.vtp", small_sheet(true));
+  write_surface(folder_ / "pieces.vtp", small_sheet(false));
+  std::ofstream(folder_ / "path.csv") << "x,y\n0,0\n9,9\n";
+  const auto scene = [](const std::string& inside) {
+    return "<scene><image labels=\"labels.nii.gz\"/><tissues><tissue label=\"1\"/><tissue label=\"3\"/></tissues>"
+           "<load><craniotomy file=\"load.csv\"/></load>\n" +
+           inside + "</scene>";
+  };
+  const std::string cut = "<cuts>\n<cut file=\"sheet.vtp\"/></cuts>";
+  EXPECT_EQ(fault(scene(cut + "<resection labels=\"3\"/>")), "");
+  EXPECT_EQ(fault(scene("<cuts><cut file=\"sheet.vtp\" speed=\"9\" direction=\"1 0 0\"/></cuts>")), "");
+  expect_parts(fault(scene("<cuts>\n<cut file=\"none.vtp\"/></cuts>")), {"scene.xml:3", "none.vtp", "no such file"});
+  expect_parts(fault(scene("<cuts>\n<cut file=\"pieces.vtp\"/></cuts>")), {"scene.xml:3", "pieces.vtp", "pieces"});
+  expect_parts(fault(scene("<cuts>\n<cut file=\"path.csv\"/></cuts>")),
+               {"scene.xml:3", "path.csv", "brainshift solve --plane", "sheets"});
+  expect_parts(fault(scene("<cuts>\n<cut file=\"sheet.vtp\" speed=\"9\"/></cuts>")), {"scene.xml:3", "direction"});
+  expect_parts(fault(scene("<cuts/>")), {"scene.xml:2", "names no cut"});
+  expect_parts(fault(scene(""), {"cuts.contact=yes"}), {"names no cut"});
+  expect_parts(fault(scene("<resection labels=\"2\"/>")), {"scene.xml:2", "label 2", "no tissue", "1 3"});
+  expect_parts(fault(scene("<resection labels=\"1 3\"/>")), {"scene.xml:2", "every tissue"});
+  expect_parts(fault(scene("<resection labels=\"\"/>")), {"scene.xml:2", "names no label", "1 3"});
+  expect_parts(fault(scene(cut), {"solve.region=1"}), {"--set", "region", "cuts"});
+  expect_parts(fault(scene("<resection labels=\"3\"/>"), {"solve.region=1"}), {"--set", "region", "resection"});
 }
 
 TEST_F(SceneFile, ExplainTellsActivePartsFromThoseNotBuilt) {
@@ -361,6 +447,17 @@ TEST_F(SceneFile, ExplainSaysWhichPhysicsIsActive) {
   expect_parts(text, {"tissue 1 (brain): ogden, mu, alpha 842,-4.7, nu 0.49, relaxes to mu 155.77 Pa", "dilatation 1.6",
                       "volumetric: pointwise\n", "integration: consistent",
                       "dynamics: transient over 2 s, time step automatic", "gravity: 0 -9.81 0 m/s2"});
+}
+
+TEST_F(SceneFile, ExplainSaysWhenEachCutBegins) {
+  const std::string text = explain_scene(parse(R"(<scene>
+  <cuts contact="yes"><cut file="a.vtp"/><cut file="b.vtp" start="0.5"/>
+    <cut file="c.vtp" speed="40" direction="0 0 -1"/></cuts>
+  <resection labels="2 3" pressure="50"/></scene>)"));
+  expect_parts(text, {"cuts: active, named in ", "resection: active", "a.vtp: from the start, or as its file says\n",
+                      "b.vtp: at time 0.5\n", "c.vtp: from time 0 on, 40 mm in a unit of it along 0 0 -1\n",
+                      "faces of cuts: in contact", "resection: labels 2 3, pressure in the cavity 50 Pa"});
+  expect_parts(explain_scene(parse("<scene/>")), {"cuts: not built", "resection: not built"});
 }
 
 }  // namespace

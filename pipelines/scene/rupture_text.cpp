@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/scene/rupture_text.hpp"
+
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "pipelines/scene/option.hpp"
+#include "pipelines/scene/scene_table.hpp"
+
+namespace brainshift::pipelines {
+namespace {
+
+constexpr Range above_zero{.low = 0, .low_allowed = false};
+
+std::vector<Option<solve::Rupture>> rupture_options() {
+  const auto strength = [](auto& rupture) -> auto& {
+    return rupture.strength;
+  };
+  return {number<solve::Rupture>("stretch", strength, {.low = 1, .low_allowed = false}, "", ""),
+          number<solve::Rupture>("stress", strength, above_zero, "Pa", ""),
+          number<solve::Rupture>(
+              "distance", [](auto& rupture) -> auto& { return rupture.distance; }, {.low = 0}, "mm", ""),
+          number<solve::Rupture>(
+              "scatter", [](auto& rupture) -> auto& { return rupture.scatter; },
+              {.low = 0, .high = 1, .high_allowed = false}, "", ""),
+          number<solve::Rupture>(
+              "seed", [](auto& rupture) -> auto& { return rupture.seed; }, {.low = 0}, "", "")};
+}
+
+}  // namespace
+
+solve::Rupture rupture_from_text(const std::string& text) {
+  const auto fail = [&](const std::string& what) { throw std::invalid_argument("--rupture '" + text + "' " + what); };
+  const std::vector<Option<solve::Rupture>> options = rupture_options();
+  solve::Rupture rupture;
+  std::set<std::string> given;
+  for (const std::string& word : split_words(text)) {
+    const std::size_t equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    const Option<solve::Rupture>* option = find_option(options, name);
+    if (option == nullptr || equals == std::string::npos) {
+      fail("has no attribute '" + word + "'; allowed: NAME=NUMBER of " + option_names(options) +
+           ", as stretch=1.4,distance=2 is");
+    }
+    const std::string value = word.substr(equals + 1);
+    if (!option->set(rupture, value)) {
+      fail("gives " + name + " as '" + value + "', but it must be " + option->allowed +
+           (option->unit.empty() ? "" : " (" + option->unit + ")"));
+    }
+    if (!given.insert(name).second) {
+      fail("names " + name + " twice");
+    }
+  }
+  if (given.contains("stretch") == given.contains("stress")) {
+    fail("must give the strength once: as a stretch (above 1) or as a stress (Pa)");
+  }
+  rupture.criterion =
+      given.contains("stretch") ? solve::Rupture::Criterion::stretch : solve::Rupture::Criterion::stress;
+  return rupture;
+}
+
+solve::WeakSpot weak_spot_from_text(const std::string& text) {
+  constexpr Range share{.low = 0, .high = 1, .low_allowed = false, .high_allowed = false};
+  const auto numbers = read_numbers<double>(text, {});
+  if (!numbers || numbers->size() != 4 || !above_zero.holds((*numbers)[2]) || !share.holds((*numbers)[3])) {
+    throw std::invalid_argument("--weak-spot is '" + text +
+                                "', but must be x,y,radius,factor, as 30,20,5,0.5 is: mm, the radius above 0, the "
+                                "factor of the strength between 0 and 1");
+  }
+  return {{(*numbers)[0], (*numbers)[1]}, (*numbers)[2], (*numbers)[3]};
+}
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/cut/read_cut.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <stdexcept>
+#include <string>
+
+#include "solve/cut/cut_path.hpp"
+#include "solve/cut/cut_sheet.hpp"
+
+namespace brainshift::solve {
+
+Cut read_cut(const std::filesystem::path& file, const CutTiming& timing) {
+  constexpr std::array sheets = {".vtp", ".stl", ".ply", ".obj"};
+  if (!std::filesystem::is_regular_file(file)) {
+    throw std::invalid_argument(file.string() + ": there is no such file; a cut was expected");
+  }
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  if (ending == ".csv") {
+    return read_cut_path(file, timing);
+  }
+  if (std::find(sheets.begin(), sheets.end(), ending) == sheets.end()) {
+    throw std::invalid_argument(file.string() +
+                                ": a cut ends in .csv (a path in a plane), .vtp, .stl, .ply or .obj (a sheet)");
+  }
+  return read_cut_sheet(file, timing);
+}
+
+}  // namespace brainshift::solve
