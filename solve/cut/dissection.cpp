@@ -101,7 +101,6 @@ std::vector<std::int32_t> Dissection::update_points(const Advance& advance, cons
   if (options_.integration == Integration::consistent) {
     make_derivatives_consistent(pieces.cloud.positions, surface_nodes(pieces.cloud), pieces.nodal_rows,
                                 pieces.points.volume, options_.consistency_defect, pieces.point_rows, touched);
-           touched.size());
   }
   match.agree_in_gradient(before, rows_at(pieces.point_rows, touched), spacing_);
   measures_.touched_supports += touched.size();
