@@ -103,7 +103,7 @@ PressurePatches patches_of(const Model& model, const SolveOptions& options, cons
 }
 
 bool cuts_go_on(const Model& model) {
-  return last_time(model.cuts) > 0;
+  return last_time(model.cuts) > 0 || model.rupture;
 }
 
 }  // namespace
@@ -117,7 +117,7 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
                  SolveMeasures& measures, const Progress& progress) {
   check_model(model);
   std::optional<CutBody> cut;
-  if (!model.cuts.empty()) {
+  if (!model.cuts.empty() || model.rupture) {
     cut = cut_body(model);
   }
   const std::shared_ptr<const Visibility> visibility = cut ? cut->visibility : nullptr;

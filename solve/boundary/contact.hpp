@@ -34,7 +34,6 @@ class Contact {
   Measures measure(const NodalVectors& parameters) const;
 
   const SignedDistance& skull() const { return skull_; }
-  SignedDistance take_skull() { return std::move(skull_); }
   std::size_t held_bytes() const;
 
  private:

@@ -27,7 +27,7 @@ struct Cut {
 struct WeakSpot {
   Eigen::Vector2d place;  ///< undeformed, mm
   double radius = 0;      ///< mm
-  double factor = 1;      ///< of the strength there, in (0, 1)
+  double factor = 1;      ///< of the strength there, of a stretch of what it is above 1; in (0, 1)
 };
 
 /// When a plane body tears: at tips of cuts, and where it is weakest anywhere.

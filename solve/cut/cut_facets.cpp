@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-constexpr double from_the_start = -1;
-
 /// Where the tip of a path is at a time, as the number of its vertex and a share of the way to the next; negative
 /// before it has begun.
 double tip_at(const Cut& path, double time) {
@@ -47,20 +45,30 @@ std::vector<Eigen::Vector3d> passed(const Cut& path, double from, double to) {
   return corners;
 }
 
+/// The vertex there, a new one where there is none: a tear hangs together with the cut from which it starts.
+std::int32_t vertex_at(const Eigen::Vector3d& x, CutFacets& cut) {
+  for (Eigen::Index v = 0; v < cut.vertices.rows(); ++v) {
+    if (cut.vertices.row(v) == x.transpose()) {
+      return static_cast<std::int32_t>(v);
+    }
+  }
+  cut.vertices.conservativeResize(cut.vertices.rows() + 1, 3);
+  cut.vertices.bottomRows(1) = x.transpose();
+  return static_cast<std::int32_t>(cut.vertices.rows()) - 1;
+}
+
 void append(const std::vector<Eigen::Vector3d>& corners, CutFacets& out) {
   if (corners.size() < 2) {
     return;
   }
-  const auto first = static_cast<std::int32_t>(out.vertices.rows());
-  const auto count = static_cast<std::int32_t>(corners.size());
-  out.vertices.conservativeResize(first + count, 3);
-  const Eigen::Index facets = out.facets.rows();
-  out.facets.conservativeResize(facets + count - 1, 3);
-  for (std::int32_t i = 0; i < count; ++i) {
-    out.vertices.row(first + i) = corners[static_cast<std::size_t>(i)];
-    if (i + 1 < count) {
-      out.facets.row(facets + i) << first + i, first + i + 1, none;
+  std::int32_t before = none;
+  for (const Eigen::Vector3d& corner : corners) {
+    const std::int32_t vertex = vertex_at(corner, out);
+    if (before != none) {
+      out.facets.conservativeResize(out.facets.rows() + 1, 3);
+      out.facets.bottomRows(1) << before, vertex, none;
     }
+    before = vertex;
   }
 }
 
@@ -91,7 +99,7 @@ void append_sheet(const Cut& sheet, double after, double until, CutFacets& out) 
   }
 }
 
-/// Ends of paths that lie inside the body.
+/// Ends of paths: inside the body a tip, at its surface taken beyond it, so that nothing is left there.
 void find_tips(const InsideBody& inside, double spacing, CutFacets& cut) {
   std::map<std::int32_t, std::vector<std::int32_t>> neighbours;
   for (const auto& f : cut.facets.rowwise()) {
@@ -100,8 +108,14 @@ void find_tips(const InsideBody& inside, double spacing, CutFacets& cut) {
   }
   for (const auto& [v, next] : neighbours) {
     const Eigen::Vector3d end = cut.vertices.row(v), from = cut.vertices.row(next[0]);
-    if (next.size() == 1 && inside(end + spacing / 2 * (end - from).normalized())) {
+    if (next.size() > 1) {
+      continue;
+    }
+    const Eigen::Vector3d ahead = (end - from).normalized();
+    if (inside(end + spacing / 2 * ahead)) {
       cut.front.push_back({v, v});
+    } else {
+      cut.vertices.row(v) += spacing * ahead.transpose();
     }
   }
 }

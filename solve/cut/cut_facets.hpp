@@ -14,6 +14,9 @@ namespace brainshift::solve {
 /// surface reaches it, and is no front.
 CutFacets facets_at(std::span<const Cut> cuts, double time, const InsideBody& inside, double spacing);
 
+/// Before all that is cut.
+inline constexpr double from_the_start = -1;
+
 /// What of the cuts comes after one time and until another.
 CutFacets facets_between(std::span<const Cut> cuts, double after, double until);
 

@@ -15,7 +15,9 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double stride = 0.5;  // of the spacing: how far the cut goes on each time
+// of the spacing: how far a cut goes on at a time
+constexpr double stride = 0.5;
+constexpr double tear_stride = 0.75;
 
 /// A copy of a node of one cloud as that of another, appended where it is new there.
 void copy_node(const NodeCloud& from, std::int32_t node, NodeCloud& to, std::size_t as) {
@@ -56,6 +58,16 @@ Points rows_of(const Points& points, std::span<const std::int32_t> rows) {
   return points(std::vector<Eigen::Index>(rows.begin(), rows.end()), Eigen::all);
 }
 
+Points held_places(const NodeCloud& cloud) {
+  std::vector<std::int32_t> held;
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    if (!cloud.prescribed_displacement.row(a).array().isNaN().all()) {
+      held.push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  return rows_of(cloud.positions, held);
+}
+
 std::vector<std::int32_t> inverse(const std::vector<std::int32_t>& order) {
   std::vector<std::int32_t> place(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -71,7 +83,13 @@ Dissection::Dissection(const Model& model, const SolveOptions& options, Prepared
       options_(options),
       prepared_(prepared),
       spacing_(mean_spacing(model.cloud)),
-      times_(times_of_advance(model.cuts, stride * spacing_)) {}
+      times_(times_of_advance(model.cuts, stride * spacing_)),
+      cuts_(model.cuts) {
+  if (model.rupture) {
+    tearing_.emplace(*model.rupture, prepared.pieces->points, held_places(prepared.pieces->cloud), spacing_,
+                     tear_stride * spacing_);
+  }
+}
 
 /// Nodes that were split or added, by the solver's numbers; the pieces' cloud follows the body's.
 std::vector<std::int32_t> Dissection::take_over_nodes(std::size_t first_pair) {
@@ -115,32 +133,44 @@ std::vector<std::int32_t> Dissection::update_points(const Advance& advance, cons
   return from;
 }
 
-void Dissection::lay_out_again() {
+Prepared Dissection::laid_out_again() {
   std::optional<SignedDistance> skull;
   if (prepared_.contact) {
-    skull = prepared_.contact->take_skull();
+    skull = prepared_.contact->skull();
   }
-  Prepared fresh = lay_out(model_, options_, *prepared_.pieces, {}, std::move(skull));
-  fresh.cut = std::move(prepared_.cut);
-  fresh.pieces = std::move(prepared_.pieces);
-  prepared_ = std::move(fresh);
+  return lay_out(model_, options_, *prepared_.pieces, {}, std::move(skull));
 }
 
-void Dissection::cut(double time, Motion& motion) {
+/// Goes on, or leaves all as it was.
+void Dissection::advance(const CutFacets& fresh, Motion& motion) {
   const auto start = std::chrono::steady_clock::now();
-  const double after = next_ > 0 ? times_[next_ - 1] : 0;
-  while (is_due(time)) {
-    ++next_;
+  const CutBody body = *prepared_.cut;
+  const Pieces pieces = *prepared_.pieces;
+  try {
+    go_on(fresh, motion);
+  } catch (...) {
+    prepared_.cut = body;
+    prepared_.pieces = pieces;
+    throw;
   }
-  const double until = times_[next_ - 1];
+  ++measures_.advances;
+  measures_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Dissection::go_on(const CutFacets& cut_now, Motion& motion) {
   CutBody& body = *prepared_.cut;
   Pieces& pieces = *prepared_.pieces;
   const ShapeFunctions before(pieces.cloud.positions, pieces.cloud.spacing, options_.shape, body.visibility);
   const std::size_t pairs = body.pairs.size();
-  cut_further(facets_at(model_.cuts, until, body.inside, spacing_), body);
+  CutFacets facets = facets_at(cuts_, until_, body.inside, spacing_);
+  std::erase_if(facets.front, [&](const auto& edge) {
+    return std::any_of(closed_.begin(), closed_.end(),
+                       [&](const Eigen::Vector3d& end) { return facets.vertices.row(edge[0]) == end.transpose(); });
+  });
+  cut_further(std::move(facets), body);
   const std::vector<std::int32_t> nodes = take_over_nodes(pairs);
   const ShapeFunctions shape(pieces.cloud.positions, pieces.cloud.spacing, options_.shape, body.visibility);
-  const Visibility fresh(facets_between(model_.cuts, after, until));
+  const Visibility fresh(cut_now);
   const std::vector<double> radius = support_radii(pieces.cloud, options_.shape);
   const Advance advance{fresh, nodes, pieces.cloud.positions, radius};
 
@@ -157,11 +187,51 @@ void Dissection::cut(double time, Motion& motion) {
   match.agree_in_value(before.evaluate(places, false), nodal);
   const std::vector<std::int32_t> point_from = update_points(advance, shape, match);
   match.factorise();
-  lay_out_again();
+  Prepared fresh_layout = laid_out_again();
+  fresh_layout.essential.factorise(std::vector<double>(pieces.cloud.size(), 1.0));  // throws where it could not be held
+  fresh_layout.cut = std::move(prepared_.cut);
+  fresh_layout.pieces = std::move(prepared_.pieces);
+  prepared_ = std::move(fresh_layout);
   motion.carry_over(
       prepared_.laws, [&match](const NodalVectors& v) { return match(v); }, point_from);
-  ++measures_.advances;
-  measures_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Dissection::cut(double time, Motion& motion) {
+  const double after = until_;
+  while (is_due(time)) {
+    until_ = times_[next_++];
+  }
+  advance(facets_between(model_.cuts, after, until_), motion);
+}
+
+bool Dissection::tear(Motion& motion, bool may_begin) {
+  const std::vector<PointStrain> strains = point_strains(prepared_.points, prepared_.laws, motion.scratch);
+  std::vector<PointStrain> ordered(strains.size());
+  for (std::size_t i = 0; i < strains.size(); ++i) {
+    ordered[static_cast<std::size_t>(prepared_.pieces->patches.order[i])] = strains[i];
+  }
+  const std::shared_ptr<const Visibility> now = prepared_.cut->visibility;
+  bool torn = false;
+  for (const Tear& next : tearing_->next(now ? now->facets() : CutFacets(), ordered, may_begin)) {
+    torn = tear(next, motion) || torn;
+  }
+  return torn;
+}
+
+bool Dissection::tear(const Tear& tear, Motion& motion) {
+  cuts_.push_back(tear.segment);
+  const Eigen::Vector3d end = tear.segment.vertices.row(1);
+  if (tear.meets) {
+    closed_.push_back(end);
+  }
+  try {
+    advance(facets_between(std::span(cuts_).last(1), from_the_start, until_), motion);
+    return true;
+  } catch (const std::exception&) {  // it would leave too few nodes together
+    cuts_.pop_back();
+    tearing_->arrest(tear.segment.vertices.row(0));
+    return false;
+  }
 }
 
 }  // namespace brainshift::solve

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "solve/cut/tearing.hpp"
 #include "solve/cut/touched_rows.hpp"
 #include "solve/lay_out.hpp"
 
@@ -22,9 +23,15 @@ class Dissection {
   /// Whether the cut has come at least half a spacing further by this time of the load's curve.
   bool is_due(double time) const { return next_ < times_.size() && times_[next_] <= time; }
   bool is_done() const { return next_ == times_.size(); }
+  bool may_tear() const { return tearing_.has_value(); }
 
-  /// Cuts the body as far as the cuts have come, and carries the motion over to it.
+  /// Cuts the body as far as the cuts have come, and carries the motion over to it. Throws std::invalid_argument where
+  /// it would leave too few nodes together; then nothing has changed.
   void cut(double time, Motion& motion);
+
+  /// Lets the body tear where its criterion is met at the last internal force; whether it did. A tear that would leave
+  /// too few nodes together goes no further.
+  bool tear(Motion& motion, bool may_begin);
 
   const Points& positions() const { return prepared_.cut->cloud.positions; }  ///< in the cloud's order, mm
   const CutMeasures& measures() const { return measures_; }
@@ -33,13 +40,20 @@ class Dissection {
   std::vector<std::int32_t> take_over_nodes(std::size_t first_pair);
   /// Returns the number before of each integration point in the order of the patches.
   std::vector<std::int32_t> update_points(const Advance& advance, const ShapeFunctions& shape, Matching& match);
-  void lay_out_again();
+  Prepared laid_out_again();
+  void advance(const CutFacets& fresh, Motion& motion);
+  void go_on(const CutFacets& fresh, Motion& motion);
+  bool tear(const Tear& tear, Motion& motion);
 
   const Model& model_;
   const SolveOptions& options_;
   Prepared& prepared_;
   double spacing_;             ///< mean, mm
   std::vector<double> times_;  ///< at which to cut, ascending
+  std::vector<Cut> cuts_;      ///< of the model, then those torn
+  double until_ = 0;           ///< the cuts' time so far
+  std::optional<Tearing> tearing_;
+  std::vector<Eigen::Vector3d> closed_;  ///< ends at other cuts: no fronts
   std::size_t next_ = 0;
   CutMeasures measures_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 #include "solve/cut/dissection.hpp"
 #include "solve/nodal_displacement.hpp"
@@ -213,6 +214,23 @@ void Motion::carry_over(const PointLaws& laws, const std::function<NodalVectors(
   ForceScratch fresh(system_.points, laws);
   fresh.remember(scratch, point_from);
   scratch = std::move(fresh);
+}
+
+bool Motion::go_on_cutting(Dissection& dissection, double cut_time, bool may_begin) {
+  bool changed = false;
+  if (dissection.is_due(cut_time)) {
+    try {
+      dissection.cut(cut_time, *this);
+      changed = true;
+    } catch (const std::invalid_argument& error) {
+      std::ostringstream text;
+      text << "the cut cannot go on at step " << result.steps << ", time " << cut_time << ": " << error.what();
+      result.failure = text.str();
+      return false;
+    }
+  }
+  const bool moves = result.steps > 0;
+  return (moves && dissection.may_tear() && dissection.tear(*this, may_begin)) || changed;
 }
 
 double Motion::energy(const PointLaws& laws, std::span<const double> mass) {

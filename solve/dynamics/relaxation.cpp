@@ -17,6 +17,7 @@ namespace {
 
 constexpr int window = 20;           // steps between looks at the state
 constexpr int recent_windows = 4;    // that the error bound looks back on
+constexpr int windows_of_rest = 5;   // after which a tear has come to rest
 constexpr double open_part = 0.02;   // of the largest displacement: the error that may be left, whatever the tolerance
 constexpr double mass_margin = 1.1;  // stiffness may grow by this before the masses are made anew
 
@@ -80,13 +81,19 @@ class Relaxation {
  private:
   bool all_cut() const { return system_.dissection == nullptr || system_.dissection->is_done(); }
 
+  /// The load waits until a tear that runs has come to rest: it is much faster than the load.
+  bool still_tearing() const {
+    return system_.dissection != nullptr && system_.dissection->may_tear() &&
+           motion_.result.steps - last_cut_ < windows_of_rest * window;
+  }
+
   /// Between two windows, so that no difference over steps has a cut in it.
   void cut_if_due() {
-    const double time = motion_.time * system_.curve.duration();
-    if (system_.dissection == nullptr || !system_.dissection->is_due(time)) {
+    if (system_.dissection == nullptr ||
+        !motion_.go_on_cutting(*system_.dissection, motion_.time * system_.curve.duration(), !still_tearing())) {
       return;
     }
-    system_.dissection->cut(time, motion_);
+    last_cut_ = motion_.result.steps;
     nodes_ = system_.points.nodes();
     force_before_.assign(4 * nodes_, 0.0);
     internal_force(system_.points, system_.laws, motion_.now, motion_.scratch, motion_.force);
@@ -108,7 +115,8 @@ class Relaxation {
     if (motion_.result.steps % window == window - 1) {
       std::swap(motion_.force, force_before_);
     }
-    const double time = std::min(1.0, static_cast<double>(motion_.result.steps + 1) / load_steps_);
+    load_step_ += still_tearing() ? 0 : 1;
+    const double time = std::min(1.0, static_cast<double>(load_step_) / load_steps_);
     const double fraction = system_.curve.at(time * system_.curve.duration());
     motion_.step(system_.laws, mass_, alpha, critical_beta(lowest_), time, fraction);
     if (motion_.squeezed()) {
@@ -213,6 +221,7 @@ class Relaxation {
     return result;
   }
 
+  static constexpr int never = -1000000;
   static constexpr double smallest_eigenvalue = 1e-8;
   static constexpr double largest_eigenvalue_of_beta = 0.028;  // above it β is too small for α
 
@@ -227,6 +236,8 @@ class Relaxation {
   double bound_ = std::numeric_limits<double>::infinity();
   double farthest_ = 0;  // largest |û| on the way, mm
   int load_steps_;
+  int load_step_ = 0;
+  int last_cut_ = never;  // the step of it
 };
 
 }  // namespace

@@ -71,11 +71,15 @@ class Transient {
 
  private:
   void cut_if_due() {
-    if (system_.dissection == nullptr || !system_.dissection->is_due(motion_.time)) {
+    Dissection* dissection = system_.dissection;
+    const bool looks = dissection != nullptr && dissection->may_tear() && motion_.result.steps % look_every == 0;
+    if (dissection == nullptr || !(looks || dissection->is_due(motion_.time))) {
       return;
     }
     const double before = prony_.empty() ? motion_.energy(laws_, mass_) : 0;
-    system_.dissection->cut(motion_.time, motion_);
+    if (!motion_.go_on_cutting(*dissection, motion_.time, true)) {
+      return;
+    }
     motion_.weigh(mass_);
     if (prony_.empty()) {
       motion_.lose(before - motion_.energy(laws_, mass_));

@@ -14,7 +14,8 @@ namespace brainshift::solve {
 namespace {
 
 constexpr int most_iterations = 2000;
-constexpr int most_iterations_of_part = 200;
+constexpr int most_iterations_of_part = 50;
+constexpr double hopeless = 100;  // times the least residual so far
 
 using Coefficients = Eigen::Matrix<double, 4, 3>;
 
@@ -182,13 +183,17 @@ double mean_magnitude(std::span<const double> volume, const ShapeRows& rows, Eig
   return sum / static_cast<double>(nodes);
 }
 
-/// Conjugate gradients on the three columns at once, within the unbalanced vectors.
+/// Conjugate gradients on the three columns at once, within the unbalanced vectors. Leaves the λ of the least residual:
+/// of a part of the points the system may have no solution.
 int conjugate_gradients(FitResidual& system, const Unbalanced& unbalanced, Points residual, double goal, int most,
-                        Points& lambda) {
+                        Points& best) {
+  Points lambda = Points::Zero(residual.rows(), 3);
+  unbalanced.apply(residual);
   Points direction = residual, image(residual.rows(), 3);
   Eigen::RowVector3d squared = residual.colwise().squaredNorm();
+  double least = residual.cwiseAbs().maxCoeff(), left = least;
   int iteration = 0;
-  while (iteration < most && residual.cwiseAbs().maxCoeff() > goal) {
+  while (iteration < most && left > goal && left < hopeless * least) {
     system.apply(direction, image);
     unbalanced.apply(image);
     const Eigen::RowVector3d curvature = direction.cwiseProduct(image).colwise().sum();
@@ -202,6 +207,11 @@ int conjugate_gradients(FitResidual& system, const Unbalanced& unbalanced, Point
       direction.col(axis) = residual.col(axis) + turn * direction.col(axis);
     }
     squared = next;
+    left = residual.cwiseAbs().maxCoeff();
+    if (left < least) {
+      least = left;
+      best = lambda;
+    }
     ++iteration;
   }
   return iteration;
@@ -218,6 +228,23 @@ Points unbalanced_defect(const FitResidual& system, const Unbalanced& unbalanced
     }
   }
   return defect;
+}
+
+/// Surface nodes whose forces act on nodes that the correction reaches alone.
+std::vector<std::int32_t> reached_surface(const FitResidual& system, std::span<const std::int32_t> surface,
+                                          const ShapeRows& nodal_rows) {
+  std::vector<std::int32_t> reached;
+  for (const std::int32_t a : surface) {
+    const auto row = static_cast<std::size_t>(a);
+    const std::span support = std::span(nodal_rows.node)
+                                  .subspan(static_cast<std::size_t>(nodal_rows.begin[row]),
+                                           static_cast<std::size_t>(nodal_rows.begin[row + 1] - nodal_rows.begin[row]));
+    if (std::all_of(support.begin(), support.end(),
+                    [&](std::int32_t node) { return system.reaches(static_cast<std::size_t>(node)); })) {
+      reached.push_back(a);
+    }
+  }
+  return reached;
 }
 
 }  // namespace
@@ -243,7 +270,8 @@ ConsistencyMeasures make_derivatives_consistent(const Points& positions, std::sp
   measures.defect_before = defect.cwiseAbs().maxCoeff() / unit;
 
   Points lambda = Points::Zero(positions.rows(), 3);
-  measures.iterations = conjugate_gradients(system, unbalanced, -defect, tolerance * unit,
+  const Unbalanced within(reached_surface(system, surface, nodal_rows), nodal_rows, positions.rows());
+  measures.iterations = conjugate_gradients(system, within, -defect, tolerance * unit,
                                             part.empty() ? most_iterations : most_iterations_of_part, lambda);
   Points image(positions.rows(), 3);
   system.apply(lambda, image);
