@@ -6,6 +6,7 @@
 #include "pipelines/runner/measures.hpp"
 #include "register/files/warp_any.hpp"
 #include "solve/quadrature/integration_points.hpp"
+#include "solve/stress_strain.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -134,6 +135,10 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
   const solve::SolveResult result = solve::solve(input.model, input.options, progress);
   write_solution(out / "solution.vtu", result.solution);
   solve::write_history(out / "history.csv", result.history);
+  if (input.model.rupture) {
+    solve::write_stress_strain(out / "stress_strain.csv",
+                               solve::stress_strain(input.model, input.options.dynamics, result.history));
+  }
   if (input.options.snapshot_every > 0) {
     solve::write_steps(out, result.solution.positions, result.snapshots);
   }

@@ -156,8 +156,9 @@ NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned
   return darts.cloud();
 }
 
-NodeCloud rectangle_cloud(double width, double height, double least_distance, unsigned seed) {
-  Darts darts(least_distance, seed);
+NodeCloud rectangle_cloud(double width, double height, double least_distance, unsigned seed,
+                          std::function<double(const Eigen::Vector3d&)> fineness) {
+  Darts darts(least_distance, seed, std::move(fineness));
   for (int corner = 0; corner < 4; ++corner) {
     darts.put({(corner & 1) ? width : 0, (corner & 2) ? height : 0, 0}, true);
   }

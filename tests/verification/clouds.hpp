@@ -72,8 +72,9 @@ NodeCloud cylinder_cloud(double radius, double height, double least_distance, un
 NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned seed,
                     std::function<double(const Eigen::Vector3d&)> fineness = {});
 
-/// The rectangle from 0 to (width, height) in the plane.
-NodeCloud rectangle_cloud(double width, double height, double least_distance, unsigned seed);
+/// The rectangle from 0 to (width, height) in the plane. fineness: as of Darts.
+NodeCloud rectangle_cloud(double width, double height, double least_distance, unsigned seed,
+                          std::function<double(const Eigen::Vector3d&)> fineness = {});
 
 /// An eighth of a hollow ball: x, y, z ≥ 0, between two radii.
 NodeCloud hollow_ball_cloud(double inner, double outer, double least_distance, unsigned seed);

@@ -19,7 +19,10 @@ const std::vector<NamedCase>& all_cases() {
                                                {"indentation", indentation},
                                                {"extension", extension},
                                                {"brain", brain},
-                                               {"adaptive_integration", adaptive_integration}};
+                                               {"adaptive_integration", adaptive_integration},
+                                               {"cut_path", cut_path},
+                                               {"cut_block", cut_block},
+                                               {"tear", tear}};
   return cases;
 }
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "solve/solve.hpp"
+
+namespace brainshift::solve {
+
+/// A row of stress_strain.csv.
+struct StressStrainRow {
+  double time;        ///< as in HistoryRow
+  double elongation;  ///< of the body between its held and its loaded nodes, over its length
+  double stress;      ///< nominal: reaction along the load over the mean undeformed cross-section, volume / length, Pa
+};
+
+/// The nominal stress-strain curve of a body that is pulled one way: along the mean prescribed displacement of its
+/// loaded nodes. Throws std::invalid_argument when nothing is pulled.
+std::vector<StressStrainRow> stress_strain(const Model& model, Dynamics dynamics,
+                                           const std::vector<HistoryRow>& history);
+
+/// Header time,elongation,stress_Pa.
+void write_stress_strain(const std::filesystem::path& file, const std::vector<StressStrainRow>& rows);
+
+}  // namespace brainshift::solve
