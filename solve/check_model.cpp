@@ -3,6 +3,8 @@
 
 #include <Eigen/SVD>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -79,6 +81,28 @@ void check_apart(const NodeCloud& cloud) {
   }
 }
 
+/// Of each node the part that it belongs to, numbered from 0.
+std::vector<std::int32_t> parts_of(std::size_t nodes, const ShapeRows& rows) {
+  std::vector<std::int32_t> part(nodes);
+  std::iota(part.begin(), part.end(), 0);
+  const auto root = [&](std::int32_t a) {
+    while (part[static_cast<std::size_t>(a)] != a) {
+      a = part[static_cast<std::size_t>(a)] = part[static_cast<std::size_t>(part[static_cast<std::size_t>(a)])];
+    }
+    return a;
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::int32_t first = root(rows.node[static_cast<std::size_t>(rows.begin[i])]);
+    for (std::int64_t k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+      part[static_cast<std::size_t>(root(rows.node[static_cast<std::size_t>(k)]))] = first;
+    }
+  }
+  for (std::size_t a = 0; a < nodes; ++a) {
+    part[a] = root(static_cast<std::int32_t>(a));
+  }
+  return part;
+}
+
 }  // namespace
 
 void check_model(const Model& model) {
@@ -88,6 +112,28 @@ void check_model(const Model& model) {
 
 void check_held(const OrderedCloud& cloud, const Model& model) {
   check_held(cloud, model.plane, model.skull.has_value());
+}
+
+void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, const Model& model) {
+  const std::vector<std::int32_t> part = parts_of(cloud.size(), point_rows);
+  std::map<std::int32_t, std::vector<Eigen::Index>> nodes;
+  for (std::size_t a = 0; a < part.size(); ++a) {
+    nodes[part[a]].push_back(static_cast<Eigen::Index>(a));
+  }
+  for (const auto& [root, members] : nodes) {
+    OrderedCloud alone;
+    alone.positions = cloud.positions(members, Eigen::all);
+    alone.prescribed_displacement = cloud.prescribed_displacement(members, Eigen::all);
+    try {
+      check_held(alone, model);
+    } catch (const std::invalid_argument& error) {
+      const Eigen::RowVector3d middle = alone.positions.colwise().mean();
+      std::ostringstream text;
+      text << "the cuts part the body, and the part about (" << middle[0] << ", " << middle[1] << ", " << middle[2]
+           << ") mm, of " << members.size() << " nodes, is not held: " << error.what();
+      throw std::invalid_argument(text.str());
+    }
+  }
 }
 
 }  // namespace brainshift::solve

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solve/ordered_cloud.hpp"
+#include "solve/shape/shape_functions.hpp"
 #include "solve/solve.hpp"
 
 namespace brainshift::solve {
@@ -11,5 +12,9 @@ void check_model(const Model& model);
 
 /// Throws std::invalid_argument when the conditions leave the body free to move as a whole.
 void check_held(const OrderedCloud& cloud, const Model& model);
+
+/// The same of each part of a body that is cut in two or more. point_rows: shape functions of the integration points,
+/// which hold a part together.
+void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, const Model& model);
 
 }  // namespace brainshift::solve

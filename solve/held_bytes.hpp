@@ -16,10 +16,11 @@ struct HeldBytes {
   std::size_t contact = 0;               ///< distances to the skull, shape functions of the nodes that may touch it
   std::size_t viscosity = 0;             ///< what points remember of their stress
   std::size_t external_forces = 0;
+  std::size_t cuts = 0;  ///< the body that is cut; where cuts go on what it is laid out from, too
 
   std::size_t total() const {
     return shape_functions + nodal_vectors + pressure_patches + essential_conditions + contact + viscosity +
-           external_forces;
+           external_forces + cuts;
   }
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solve/dynamics/space_filling.hpp"
+#include "solve/held_bytes.hpp"
 
 namespace brainshift::solve {
 
@@ -63,6 +64,12 @@ std::size_t count_loaded(const OrderedCloud& cloud) {
     loaded += pushed || is_prescribed(cloud, a) ? 1 : 0;
   }
   return loaded;
+}
+
+std::size_t cloud_bytes(const NodeCloud& cloud) {
+  const Eigen::Index numbers = cloud.positions.size() + cloud.prescribed_displacement.size() + cloud.force.size();
+  return static_cast<std::size_t>(numbers) * sizeof(double) + bytes(cloud.spacing) + bytes(cloud.on_surface) +
+         bytes(cloud.label);
 }
 
 Points in_original_order(const Points& values, const std::vector<std::int32_t>& original) {

@@ -24,6 +24,9 @@ std::vector<std::int32_t> free_surface_nodes(const OrderedCloud& cloud);
 /// Nodes with a prescribed displacement or a force.
 std::size_t count_loaded(const OrderedCloud& cloud);
 
+/// Bytes that a cloud takes.
+std::size_t cloud_bytes(const NodeCloud& cloud);
+
 /// Rows of ordered nodes in the cloud's own order.
 Points in_original_order(const Points& values, const std::vector<std::int32_t>& original);
 

@@ -17,6 +17,11 @@ struct Pieces {
   ShapeRows point_rows;  ///< with derivatives
   PressurePatches patches;
   MaterialTable materials;
+
+  std::size_t held_bytes() const {
+    return cloud_bytes(cloud) + nodal_rows.held_bytes() + point_rows.held_bytes() + points.held_bytes() +
+           bytes(patches.order) + bytes(patches.begin) + bytes(materials.row_of_point);
+  }
 };
 
 }  // namespace brainshift::solve

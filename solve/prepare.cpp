@@ -134,6 +134,9 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
     pieces.nodal_rows = with_pinned(pieces.nodal_rows, held);
   }
   AdaptivePoints placed = place_points(model, shape, options);
+  if (visibility && options.dynamics == Dynamics::relaxation) {
+    check_parts_held(pieces.cloud, placed.rows, model);
+  }
   pieces.points = std::move(placed.points);
   pieces.point_rows = std::move(placed.rows);
   pieces.materials = material_table(model.materials, pieces.points.label);

@@ -29,6 +29,7 @@ HeldBytes held_bytes(const Prepared& p, HeldBytes stepping) {
   stepping.essential_conditions = p.essential.held_bytes();
   stepping.contact = p.contact ? p.contact->held_bytes() : 0;
   stepping.external_forces = bytes(p.external);
+  stepping.cuts = (p.cut ? p.cut->held_bytes() : 0) + (p.pieces ? p.pieces->held_bytes() : 0);
   return stepping;
 }
 

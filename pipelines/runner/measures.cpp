@@ -71,6 +71,7 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                        {"contact", m.bytes.contact},
                        {"viscosity", m.bytes.viscosity},
                        {"external_forces", m.bytes.external_forces},
+                       {"cuts", m.bytes.cuts},
                        {"total", m.bytes.total()}}}};
   if (m.region_nodes > 0) {
     report.measures["region"] = {{"nodes", m.region_nodes},

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
 
 #include "solve/quadrature/integration_points.hpp"
@@ -49,6 +50,12 @@ double mean_spacing(const NodeCloud& cloud) {
 }
 
 CutBody cut_body(const Model& model) {
+  if (last_time(model.cuts) > model.curve.duration() * (1 + 1e-9)) {
+    std::ostringstream text;
+    text << "a cut goes on until " << last_time(model.cuts) << ", but the load's curve ends at "
+         << model.curve.duration() << "; give a longer curve or an earlier cut";
+    throw std::invalid_argument(text.str());
+  }
   const bool planar = model.plane != Plane::none;
   const IntegrationPoints points = integration_points(model.cells, most_points_per_cell(model.cells.kind), nullptr, {});
   CutBody body{InsideBody(points.positions, points.volume, planar), model.cloud, {}, 0, nullptr};

@@ -5,6 +5,7 @@
 
 #include "solve/cut/cut_facets.hpp"
 #include "solve/cut/face_nodes.hpp"
+#include "solve/ordered_cloud.hpp"
 #include "solve/solve.hpp"
 
 namespace brainshift::solve {
@@ -16,10 +17,13 @@ struct CutBody {
   std::vector<FacePair> pairs;
   std::size_t split = 0;                         ///< nodes of the model that were split
   std::shared_ptr<const Visibility> visibility;  ///< null: nothing is cut yet
+
+  std::size_t held_bytes() const { return cloud_bytes(cloud) + bytes(pairs) + inside.held_bytes(); }
 };
 
 /// The model's body, cut as at the start. Throws std::invalid_argument where a cut does not go with the model: a path
-/// in space or a sheet in the plane, one that does not meet the body.
+/// in space or a sheet in the plane, one that does not meet the body,
+/// one that goes on after the load's curve has ended.
 CutBody cut_body(const Model& model);
 
 /// Of a cloud's nodes, mm.

@@ -14,6 +14,7 @@ class InsideBody {
   /// Integration points (n × 3) mm and their volumes, mm³; planar ones count as 1 mm thick.
   InsideBody(Points points, std::span<const double> volume, bool planar);
   bool operator()(const Eigen::Vector3d& x) const;
+  std::size_t held_bytes() const;
 
  private:
   struct Tree;

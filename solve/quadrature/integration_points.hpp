@@ -6,6 +6,7 @@
 
 #include "discretise/background_cells.hpp"
 #include "segmentation/image/image.hpp"
+#include "solve/held_bytes.hpp"
 
 namespace brainshift::solve {
 
@@ -20,6 +21,9 @@ struct IntegrationPoints {
   std::size_t labelled_by_cell = 0;  ///< points that the label map gives no material, and that took their cell's label
 
   std::size_t size() const { return volume.size(); }
+  std::size_t held_bytes() const {
+    return static_cast<std::size_t>(positions.size()) * sizeof(double) + bytes(volume) + bytes(cell) + bytes(label);
+  }
 };
 
 /// The most integration points that a cell of this kind takes: 8 a hexahedron, 4 a tetrahedron or quadrilateral, 3 a

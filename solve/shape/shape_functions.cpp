@@ -133,11 +133,11 @@ struct Batch {
 
 constexpr Eigen::Index none = -1;
 
-[[noreturn]] void throw_inadmissible(const Points& points, Eigen::Index i, bool planar) {
+[[noreturn]] void throw_inadmissible(const Points& points, Eigen::Index i, bool planar, bool cut) {
   std::ostringstream text;
   text << "no admissible support at the point (" << points(i, 0) << ", " << points(i, 1) << ", " << points(i, 2)
        << ") mm: too few nodes near it, or all of them " << (planar ? "on one line" : "in one plane")
-       << "; add nodes or check their spacing";
+       << (cut ? "; a cut hides the others: move it, or give more nodes there" : "; add nodes or check their spacing");
   throw std::invalid_argument(text.str());
 }
 
@@ -162,7 +162,7 @@ void for_each_point(const ShapeFunctions::Impl& impl, const Points& points, cons
     }
   }
   if (bad != none) {
-    throw_inadmissible(points, bad, impl.options.planar);
+    throw_inadmissible(points, bad, impl.options.planar, impl.visibility != nullptr);
   }
 }
 

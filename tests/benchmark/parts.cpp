@@ -71,6 +71,27 @@ void in_time(Model& model, SolveOptions& options) {
   model.curve = LoadCurve({0, 0.2}, {0, 1}, LoadCurve::Join::smooth);
 }
 
+/// A sheet from the side to the middle, beside what sinks.
+Cut sheet() {
+  Cut cut;
+  cut.name = "sheet";
+  cut.vertices.resize(4, 3);
+  cut.vertices << 35, -70, -30, 35, 70, -30, 35, 70, 70, 35, -70, 70;
+  cut.triangles.resize(2, 3);
+  cut.triangles << 0, 1, 2, 0, 2, 3;
+  return cut;
+}
+
+void cut_open(Model& model, SolveOptions&) {
+  model.cuts = {sheet()};
+}
+
+/// To be cut long after the steps that are timed.
+void to_be_cut(Model& model, SolveOptions&) {
+  model.cuts = {sheet()};
+  model.cuts[0].time = {0.9, 0.9, 1, 1};
+}
+
 void three_materials(Model& model, SolveOptions&) {
   model.materials[2] = model.materials[3] = model.materials[1];
   for (std::size_t i = 0; i < model.cells.size(); ++i) {
@@ -95,6 +116,8 @@ std::vector<Part> parts() {
           {"pressure patches (absent: pointwise)", &HeldBytes::pressure_patches,
            [](Model&, SolveOptions& o) { o.volumetric = Volumetric::pointwise; },
            [](Model&, SolveOptions& o) { o.volumetric = Volumetric::mean_dilatation; }},
+          {"a cut", &HeldBytes::cuts, nothing, cut_open},
+          {"a cut that goes on", &HeldBytes::cuts, nothing, to_be_cut},
           {"three materials (absent: one of the same constants)", nullptr, nothing, three_materials}};
 }
 
