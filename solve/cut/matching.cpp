@@ -8,6 +8,7 @@ namespace brainshift::solve {
 namespace {
 
 constexpr Eigen::Index none = -1;
+constexpr double hold = 1e-3;  // of the mean pull of the rows on a parameter, towards the displacement at its node
 
 /// One row of the system for each row of shape functions and component of what is to agree.
 void append(const ShapeRows& rows, std::span<const double> of_pairs, int components, double factor, Eigen::Index first,
@@ -69,7 +70,12 @@ void Matching::factorise() {
   after_.setFromTriplets(kept.begin(), kept.end());
   chosen_.resize(rows_, static_cast<Eigen::Index>(nodes_.size()));
   chosen_.setFromTriplets(chosen.begin(), chosen.end());
-  factor_.compute(Eigen::SparseMatrix<double>(chosen_.transpose() * chosen_));
+  Eigen::SparseMatrix<double> system = chosen_.transpose() * chosen_;
+  pull_ = hold * system.diagonal().mean();
+  for (Eigen::Index i = 0; i < system.rows(); ++i) {
+    system.coeffRef(i, i) += pull_;
+  }
+  factor_.compute(system);
   if (factor_.info() != Eigen::Success) {
     throw std::runtime_error("the displacement could not be carried over to the body after a cut");
   }
@@ -77,8 +83,9 @@ void Matching::factorise() {
 
 NodalVectors Matching::operator()(const NodalVectors& before) const {
   const Points old = points_of(before, static_cast<Eigen::Index>(unknown_.size()));
-  const Eigen::MatrixXd left = before_ * old - after_ * old;
-  const Eigen::MatrixXd solved = factor_.solve(chosen_.transpose() * left);
+  const Eigen::MatrixXd wanted = before_ * old, left = wanted - after_ * old;
+  const auto count = static_cast<Eigen::Index>(nodes_.size());
+  const Eigen::MatrixXd solved = factor_.solve(chosen_.transpose() * left + pull_ * wanted.topRows(count));
   NodalVectors result = before;
   result.resize(4 * unknown_.size(), 0.0);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {

@@ -20,7 +20,8 @@ class Matching {
   /// nodes: whose parameters are chosen, new ones too; count: of all nodes now.
   Matching(std::vector<std::int32_t> nodes, std::size_t count);
 
-  /// Rows, before the cut and after it, whose values are to agree.
+  /// Rows, before the cut and after it, whose values are to agree. First those at the nodes themselves: what hardly any
+  /// row sees of a node is held near its displacement.
   void agree_in_value(const ShapeRows& before, const ShapeRows& after);
   /// The same for derivatives, times a length, mm.
   void agree_in_gradient(const ShapeRows& before, const ShapeRows& after, double length);
@@ -37,6 +38,7 @@ class Matching {
   std::vector<std::int32_t> nodes_;
   std::vector<Eigen::Index> unknown_;  ///< of each node, or none
   Eigen::Index rows_ = 0;
+  double pull_ = 0;
   Entries before_entries_, after_entries_;
   Matrix before_, after_, chosen_;  ///< chosen: the columns of `after` that belong to nodes_
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;

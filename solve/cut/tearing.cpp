@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 namespace brainshift::solve {
@@ -91,7 +92,8 @@ Tearing::Mean Tearing::mean_about(const Eigen::Vector3d& place, const Eigen::Vec
   double volume = 0;
   for (std::size_t p = 0; p < strains.size(); ++p) {
     const Eigen::Vector3d away = points_.positions.row(static_cast<Eigen::Index>(p)).transpose() - place;
-    if (away.squaredNorm() < distance_ * distance_ && away.dot(ahead) >= 0) {
+    const bool counts = away.squaredNorm() < distance_ * distance_ && away.dot(ahead) >= 0;
+    if (counts && std::isfinite(share_[p])) {
       const double w = points_.volume[p];
       mean.load += w * load(p, strains);
       mean.right_cauchy_green += w * strains[p].right_cauchy_green;
@@ -123,22 +125,28 @@ std::vector<Tear> Tearing::next(const CutFacets& cut, std::span<const PointStrai
 }
 
 void Tearing::begin(const CutFacets& cut, std::span<const PointStrain> strains, std::vector<Tear>& tears) const {
-  std::size_t most = 0;
-  double largest = 1;
+  std::optional<Visibility> there;
+  if (!cut.empty()) {
+    there.emplace(cut);
+  }
+  std::vector<std::pair<double, std::size_t>> overloaded;
   for (std::size_t p = 0; p < strains.size(); ++p) {
-    if (const double at = load(p, strains); at > largest) {
-      const Eigen::Vector3d x = points_.positions.row(static_cast<Eigen::Index>(p));
-      if (cut.empty() || !Visibility(cut).near(x, apart * distance_)) {
-        most = p;
-        largest = at;
-      }
+    if (const double at = load(p, strains); at > 1) {
+      overloaded.emplace_back(at, p);
     }
   }
-  const Eigen::Vector3d place = points_.positions.row(static_cast<Eigen::Index>(most));
-  const Mean mean = mean_about(place, Eigen::Vector3d::Zero(), strains);
-  if (largest > 1 && mean.load >= 1) {
-    const Eigen::Vector3d half = stride_ * across(mean.right_cauchy_green);
-    tears.push_back({segment(place - half, place + half), false});
+  std::sort(overloaded.rbegin(), overloaded.rend());
+  for (const auto& [at, p] : overloaded) {
+    const Eigen::Vector3d place = points_.positions.row(static_cast<Eigen::Index>(p));
+    if (there && there->near(place, apart * distance_)) {
+      continue;
+    }
+    const Mean mean = mean_about(place, Eigen::Vector3d::Zero(), strains);
+    if (mean.load >= 1) {
+      const Eigen::Vector3d half = stride_ * across(mean.right_cauchy_green);
+      tears.push_back({segment(place - half, place + half), false});
+      return;
+    }
   }
 }
 
