@@ -46,6 +46,12 @@ inline solve::Cut cut_path(const std::vector<std::pair<double, double>>& corners
   return {"cut", path(corners, false).vertices, Triangles(0, 3), time};
 }
 
+inline solve::SolveOptions plane_options() {
+  solve::SolveOptions options;
+  options.points_per_cell = 4;
+  return options;
+}
+
 constexpr double strip_length = 30, strip_width = 20;
 
 /// A strip in plane strain of 16 × 11 nodes, pulled along x between frictionless plates: stretched evenly.
