@@ -112,6 +112,8 @@ struct CutMeasures {
   std::size_t touched_supports = 0;  ///< of integration points, evaluated again; over all advances
   double extent = 0;                 ///< length, mm, or area, mm²
   double seconds = 0;                ///< of the advances
+  std::size_t touching_nodes = 0;    ///< of faces, in touch with the opposite one at the end; with face contact only
+  double largest_overlap = 0;        ///< of such nodes, mm
 };
 
 struct SolveMeasures {

@@ -120,7 +120,7 @@ void Dissection::lay_out_again() {
   if (prepared_.contact) {
     skull = prepared_.contact->take_skull();
   }
-  Prepared fresh = lay_out(model_, options_, *prepared_.pieces, {}, std::move(skull));
+  Prepared fresh = lay_out(model_, options_, *prepared_.pieces, prepared_.cut->pairs, {}, std::move(skull));
   fresh.cut = std::move(prepared_.cut);
   fresh.pieces = std::move(prepared_.pieces);
   prepared_ = std::move(fresh);

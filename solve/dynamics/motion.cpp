@@ -73,6 +73,9 @@ void Motion::weigh(std::span<const double> mass) {
   if (system_.contact) {
     system_.contact->weigh(mass);
   }
+  if (system_.face_contact != nullptr) {
+    system_.face_contact->weigh(mass);
+  }
 }
 
 void Motion::step(const PointLaws& laws, std::span<const double> mass, double alpha, double beta, double end,
@@ -89,6 +92,9 @@ void Motion::step(const PointLaws& laws, std::span<const double> mass, double al
   }
   if (system_.contact) {
     system_.contact->apply(next);
+  }
+  if (system_.face_contact != nullptr) {
+    system_.face_contact->apply(next);
   }
   system_.essential.apply(fraction, next);
   add_energies(mass, alpha, beta, fraction);
