@@ -100,6 +100,9 @@ SolveResult step(const Model& model, const SolveOptions& options, Prepared prepa
                      options.shape,
                      p.cut && p.cut->visibility ? p.cut->visibility->facets() : CutFacets()};
   result.snapshots = std::move(stepped.snapshots);
+  if (p.cut) {
+    result.inside = p.cut->inside;
+  }
   result.measures = measures;
   measure(p, stepped, result.measures);
   if (p.cut) {

@@ -5,6 +5,7 @@
 
 #include "pipelines/runner/measures.hpp"
 #include "register/files/warp_any.hpp"
+#include "solve/cut/cut_surface.hpp"
 #include "solve/quadrature/integration_points.hpp"
 
 namespace brainshift::pipelines {
@@ -134,8 +135,11 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
   const solve::SolveResult result = solve::solve(input.model, input.options, progress);
   write_solution(out / "solution.vtu", result.solution);
   solve::write_history(out / "history.csv", result.history);
+  if (!result.solution.cut.empty()) {
+    solve::write_cut_surface(out / "cut.vtp", solve::cut_surface(result.solution, *result.inside));
+  }
   if (input.options.snapshot_every > 0) {
-    solve::write_steps(out, result.solution.positions, result.snapshots);
+    solve::write_steps(out, result);
   }
   return report_of(result, input.options.dynamics);
 }

@@ -166,8 +166,12 @@ bool Motion::look(const PointLaws& laws, std::span<const double> mass, double mo
   good_reactions_ = system_.essential.reactions(alpha_, nodes_);
   result.history.push_back(latest);
   if (snapshot_every_ > 0 && result.steps >= next_snapshot_) {
-    result.snapshots.push_back({result.steps, time, nodal_displacement(system_.nodal_rows, now, system_.original),
-                                system_.dissection != nullptr ? system_.dissection->positions() : Points(0, 3)});
+    result.snapshots.push_back(
+        {result.steps, time, nodal_displacement(system_.nodal_rows, now, system_.original), Points(0, 3), CutFacets()});
+    if (system_.dissection != nullptr) {
+      result.snapshots.back().positions = system_.dissection->positions();
+      result.snapshots.back().cut = system_.dissection->facets();
+    }
     next_snapshot_ += snapshot_every_;
   }
   return true;
