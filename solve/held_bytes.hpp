@@ -13,8 +13,8 @@ struct HeldBytes {
   std::size_t nodal_vectors = 0;         ///< parameters, forces, masses, and the scratch of blocks and points
   std::size_t pressure_patches = 0;      ///< pressure modes
   std::size_t essential_conditions = 0;  ///< their shape functions and sparse factor
-  std::size_t contact = 0;               ///< distances to the skull, shape functions of the nodes that may touch it
-  std::size_t viscosity = 0;             ///< what points remember of their stress
+  std::size_t contact = 0;    ///< distances to the skull, shape functions of nodes that may touch it, or the other face
+  std::size_t viscosity = 0;  ///< what points remember of their stress
   std::size_t external_forces = 0;
   std::size_t cuts = 0;  ///< the body that is cut; where cuts go on what it is laid out from, too
 

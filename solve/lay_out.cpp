@@ -67,7 +67,7 @@ PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::in
 
 }  // namespace
 
-Prepared lay_out(const Model& model, const SolveOptions& options, const Pieces& pieces,
+Prepared lay_out(const Model& model, const SolveOptions& options, const Pieces& pieces, std::span<const FacePair> faces,
                  std::span<const std::int32_t> held, std::optional<SignedDistance> skull) {
   const auto& [cloud, nodal_rows, points, point_rows, patches, materials] = pieces;
   PointBlocks blocks =
@@ -80,6 +80,10 @@ Prepared lay_out(const Model& model, const SolveOptions& options, const Pieces& 
     contact.emplace(skull ? std::move(*skull) : SignedDistance(*model.skull), cloud.positions,
                     free_surface_nodes(cloud), nodal_rows);
   }
+  std::optional<FaceContact> face_contact;
+  if (model.face_contact && !model.cuts.empty()) {
+    face_contact.emplace(faces, cloud, nodal_rows);
+  }
   const bool in_time = options.dynamics == Dynamics::transient;
   std::vector<double> mass = in_time ? physical_mass(blocks, materials.density) : std::vector<double>();
   return {cloud.original,
@@ -91,6 +95,7 @@ Prepared lay_out(const Model& model, const SolveOptions& options, const Pieces& 
           std::move(mass),
           std::move(essential),
           std::move(contact),
+          std::move(face_contact),
           external_force(model, cloud, nodal_rows, points, point_rows),
           {},
           {}};

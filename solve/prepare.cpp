@@ -148,7 +148,7 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
     measures.consistency_iterations = done.iterations;
   }
   pieces.patches = patches_of(model, options, pieces, visibility.get());
-  Prepared prepared = lay_out(model, options, pieces, held);
+  Prepared prepared = lay_out(model, options, pieces, cut ? cut->pairs : std::vector<FacePair>(), held);
   prepared.cut = std::move(cut);
   if (cuts_go_on(model)) {
     prepared.pieces = std::move(pieces);

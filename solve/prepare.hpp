@@ -8,6 +8,7 @@
 
 #include "solve/boundary/contact.hpp"
 #include "solve/cut/cut_body.hpp"
+#include "solve/cut/face_contact.hpp"
 #include "solve/dynamics/diagnosis.hpp"
 #include "solve/dynamics/system.hpp"
 #include "solve/pieces.hpp"
@@ -26,6 +27,7 @@ struct Prepared {
   std::vector<double> mass;                   ///< of a transient run: physical, g
   EssentialConditions essential;
   std::optional<Contact> contact;
+  std::optional<FaceContact> face_contact;
   NodalVectors external;
   std::optional<CutBody> cut;    ///< absent: a scene without one
   std::optional<Pieces> pieces;  ///< where cuts go on; else they are gone

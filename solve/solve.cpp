@@ -27,7 +27,7 @@ HeldBytes held_bytes(const Prepared& p, HeldBytes stepping) {
   stepping.nodal_vectors += bytes(p.mass) + bytes(p.original);
   stepping.pressure_patches = bytes(p.points.mode);
   stepping.essential_conditions = p.essential.held_bytes();
-  stepping.contact = p.contact ? p.contact->held_bytes() : 0;
+  stepping.contact = (p.contact ? p.contact->held_bytes() : 0) + (p.face_contact ? p.face_contact->held_bytes() : 0);
   stepping.external_forces = bytes(p.external);
   stepping.cuts = (p.cut ? p.cut->held_bytes() : 0) + (p.pieces ? p.pieces->held_bytes() : 0);
   return stepping;
@@ -51,10 +51,15 @@ void measure(const Prepared& p, const SteppingResult& stepped, SolveMeasures& m)
   m.bytes = held_bytes(p, stepped.held);
 }
 
-CutMeasures measure(const CutBody& cut, std::size_t nodes, CutMeasures measures) {
-  measures.split_nodes = cut.split;
-  measures.added_nodes = cut.cloud.size() - nodes;
-  measures.extent = cut.visibility ? extent(cut.visibility->facets()) : 0;
+CutMeasures measure_cut(const Prepared& p, const SteppingResult& stepped, std::size_t nodes, CutMeasures measures) {
+  measures.split_nodes = p.cut->split;
+  measures.added_nodes = p.cut->cloud.size() - nodes;
+  measures.extent = p.cut->visibility ? extent(p.cut->visibility->facets()) : 0;
+  if (p.face_contact) {
+    const FaceContact::Measures touch = p.face_contact->measure(stepped.parameters);
+    measures.touching_nodes = touch.touching;
+    measures.largest_overlap = touch.largest_overlap;
+  }
   return measures;
 }
 
@@ -68,8 +73,16 @@ SolveResult step(const Model& model, const SolveOptions& options, Prepared prepa
   if (p.pieces) {
     dissection.emplace(model, options, p);
   }
-  const System system{p.points,    p.laws,       p.essential, p.contact ? &*p.contact : nullptr,  p.external,
-                      model.curve, p.nodal_rows, p.original,  dissection ? &*dissection : nullptr};
+  const System system{p.points,
+                      p.laws,
+                      p.essential,
+                      p.contact ? &*p.contact : nullptr,
+                      p.external,
+                      model.curve,
+                      p.nodal_rows,
+                      p.original,
+                      dissection ? &*dissection : nullptr,
+                      p.face_contact ? &*p.face_contact : nullptr};
   SteppingResult stepped = options.dynamics == Dynamics::relaxation ? relax(system, options, progress)
                                                                     : march(system, p.prony, p.mass, options, progress);
   const NodeCloud& cloud = p.cut ? p.cut->cloud : model.cloud;
@@ -88,10 +101,14 @@ SolveResult step(const Model& model, const SolveOptions& options, Prepared prepa
                      options.shape,
                      p.cut && p.cut->visibility ? p.cut->visibility->facets() : CutFacets()};
   result.snapshots = std::move(stepped.snapshots);
+  if (p.cut) {
+    result.inside = p.cut->inside;
+  }
   result.measures = measures;
   measure(p, stepped, result.measures);
   if (p.cut) {
-    result.measures.cut = measure(*p.cut, model.cloud.size(), dissection ? dissection->measures() : CutMeasures());
+    result.measures.cut =
+        measure_cut(p, stepped, model.cloud.size(), dissection ? dissection->measures() : CutMeasures());
   }
   result.measures.largest_displacement = result.solution.displacement.rowwise().norm().maxCoeff();
   result.measures.seconds_stepping = seconds_since(start);

@@ -16,6 +16,7 @@
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/load_curve.hpp"
 #include "solve/cut/cut.hpp"
+#include "solve/cut/inside_body.hpp"
 #include "solve/dynamics/precision.hpp"
 #include "solve/held_bytes.hpp"
 #include "solve/material/material.hpp"
@@ -101,7 +102,8 @@ struct Snapshot {
   int step = 0;
   double time = 0;                     ///< as in HistoryRow
   Points displacement = Points(0, 3);  ///< mm, in the cloud's order, then the nodes that a cut added
-  Points positions = Points(0, 3);     ///< undeformed, mm, of a body that is cut; else no rows: the solution's
+  Points positions = Points(0, 3);  ///< undeformed, mm, of a body that is cut on the way; else no rows: the solution's
+  CutFacets cut = {};               ///< then; else the solution's
 };
 
 /// What cutting took.
@@ -112,6 +114,8 @@ struct CutMeasures {
   std::size_t touched_supports = 0;  ///< of integration points, evaluated again; over all advances
   double extent = 0;                 ///< length, mm, or area, mm²
   double seconds = 0;                ///< of the advances
+  std::size_t touching_nodes = 0;    ///< of faces, in touch with the opposite one at the end; with face contact only
+  double largest_overlap = 0;        ///< of such nodes, mm
 };
 
 struct SolveMeasures {
@@ -148,6 +152,7 @@ struct SolveResult {
   Solution solution;  ///< the last good state, also when not converged
   std::vector<HistoryRow> history;
   std::vector<Snapshot> snapshots;
+  std::optional<InsideBody> inside;  ///< of a model with cuts
   SolveMeasures measures;
   std::string failure;  ///< empty when converged; else one sentence: what went wrong, where and when (exit 3)
 };
@@ -157,8 +162,9 @@ struct SolveResult {
 /// contradict each other, nothing that holds the body, a plane problem with contact or cells of three dimensions.
 SolveResult solve(const Model& model, const SolveOptions& options, const Progress& progress = {});
 
-/// Writes steps/NNNNNN.vtu, one a snapshot, and steps.pvd that ParaView plays, into the folder.
-void write_steps(const std::filesystem::path& folder, const Points& positions, const std::vector<Snapshot>& snapshots);
+/// Writes steps/NNNNNN.vtu, one a snapshot, of a body that is cut steps/NNNNNN_cut.vtp too (cut_surface.hpp), and
+/// steps.pvd that ParaView plays, into the folder.
+void write_steps(const std::filesystem::path& folder, const SolveResult& result);
 
 void write_history(const std::filesystem::path& file, const std::vector<HistoryRow>& history);
 

@@ -11,6 +11,7 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -82,6 +83,24 @@ void add_typed_array(vtkFieldData& data, const char* name, std::span<const Value
   data.AddArray(array);
 }
 
+void write(const std::filesystem::path& file, vtkXMLWriter& writer, vtkDataObject& data) {
+  // Through memory: only a stream of our own tells reliably whether every byte reached the disk.
+  writer.SetInputDataObject(&data);
+  writer.SetDataModeToAppended();
+  writer.SetEncodeAppendedData(1);
+  writer.SetCompressorTypeToZLib();
+  writer.WriteToOutputStringOn();
+  const bool made = writer.Write() == 1;
+  const std::string text = writer.GetOutputString();
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!made || !out) {
+    throw std::runtime_error(file.string() +
+                             ": cannot be written whole; is the folder writable and the disk not full?");
+  }
+}
+
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> read(const std::filesystem::path& file) {
@@ -108,22 +127,13 @@ vtkSmartPointer<vtkUnstructuredGrid> read(const std::filesystem::path& file) {
 }
 
 void write(const std::filesystem::path& file, vtkUnstructuredGrid& grid) {
-  // Through memory: only a stream of our own tells reliably whether every byte reached the disk.
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetInputData(&grid);
-  writer->SetDataModeToAppended();
-  writer->SetEncodeAppendedData(1);
-  writer->SetCompressorTypeToZLib();
-  writer->WriteToOutputStringOn();
-  const bool made = writer->Write() == 1;
-  const std::string text = writer->GetOutputString();
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  if (!made || !out) {
-    throw std::runtime_error(file.string() +
-                             ": cannot be written whole; is the folder writable and the disk not full?");
-  }
+  write(file, *writer, grid);
+}
+
+void write(const std::filesystem::path& file, vtkPolyData& data) {
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  write(file, *writer, data);
 }
 
 vtkSmartPointer<vtkPoints> to_vtk(const Points& positions) {

@@ -4,6 +4,7 @@
 // Bridge to VTK, for .cpp files that read or write .vtu: not a public header.
 
 #include <vtkCellType.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -23,6 +24,9 @@ vtkSmartPointer<vtkUnstructuredGrid> read(const std::filesystem::path& file);
 /// Writes one: appended, base64, compressed; the same grid gives the same bytes. Throws std::runtime_error, naming the
 /// file, when it cannot be written whole.
 void write(const std::filesystem::path& file, vtkUnstructuredGrid& grid);
+
+/// The same of poly data (.vtp).
+void write(const std::filesystem::path& file, vtkPolyData& data);
 
 /// A grid of one vertex cell a point.
 vtkSmartPointer<vtkUnstructuredGrid> vertex_grid(const Points& positions);

@@ -5,6 +5,7 @@
 
 #include "pipelines/runner/measures.hpp"
 #include "register/files/warp_any.hpp"
+#include "solve/cut/cut_surface.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/stress_strain.hpp"
 
@@ -139,8 +140,11 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
     solve::write_stress_strain(out / "stress_strain.csv",
                                solve::stress_strain(input.model, input.options.dynamics, result.history));
   }
+  if (!result.solution.cut.empty()) {
+    solve::write_cut_surface(out / "cut.vtp", solve::cut_surface(result.solution, *result.inside));
+  }
   if (input.options.snapshot_every > 0) {
-    solve::write_steps(out, result.solution.positions, result.snapshots);
+    solve::write_steps(out, result);
   }
   return report_of(result, input.options.dynamics);
 }

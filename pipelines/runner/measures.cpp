@@ -79,6 +79,16 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                                  {"coarse_error_mm", m.coarse_error},
                                  {"seconds_coarse", m.seconds_coarse}};
   }
+  if (m.cut) {
+    report.measures["cut"] = {{"split_nodes", m.cut->split_nodes},
+                              {"added_nodes", m.cut->added_nodes},
+                              {"advances", m.cut->advances},
+                              {"touched_supports", m.cut->touched_supports},
+                              {"extent", m.cut->extent},
+                              {"seconds", m.cut->seconds},
+                              {"touching_nodes", m.cut->touching_nodes},
+                              {"largest_overlap_mm", m.cut->largest_overlap}};
+  }
   report.measures.erase(dynamics == solve::Dynamics::transient ? "error_bound_mm" : "critical_step_s");
   return report;
 }

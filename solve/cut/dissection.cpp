@@ -138,7 +138,7 @@ Prepared Dissection::laid_out_again() {
   if (prepared_.contact) {
     skull = prepared_.contact->skull();
   }
-  return lay_out(model_, options_, *prepared_.pieces, {}, std::move(skull));
+  return lay_out(model_, options_, *prepared_.pieces, prepared_.cut->pairs, {}, std::move(skull));
 }
 
 /// Goes on, or leaves all as it was.

@@ -34,6 +34,7 @@ class Dissection {
   bool tear(Motion& motion, bool may_begin);
 
   const Points& positions() const { return prepared_.cut->cloud.positions; }  ///< in the cloud's order, mm
+  CutFacets facets() const { return prepared_.cut->visibility ? prepared_.cut->visibility->facets() : CutFacets(); }
   const CutMeasures& measures() const { return measures_; }
 
  private:

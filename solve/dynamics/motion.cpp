@@ -74,6 +74,9 @@ void Motion::weigh(std::span<const double> mass) {
   if (system_.contact) {
     system_.contact->weigh(mass);
   }
+  if (system_.face_contact != nullptr) {
+    system_.face_contact->weigh(mass);
+  }
 }
 
 void Motion::step(const PointLaws& laws, std::span<const double> mass, double alpha, double beta, double end,
@@ -90,6 +93,9 @@ void Motion::step(const PointLaws& laws, std::span<const double> mass, double al
   }
   if (system_.contact) {
     system_.contact->apply(next);
+  }
+  if (system_.face_contact != nullptr) {
+    system_.face_contact->apply(next);
   }
   system_.essential.apply(fraction, next);
   add_energies(mass, alpha, beta, fraction);
@@ -161,8 +167,12 @@ bool Motion::look(const PointLaws& laws, std::span<const double> mass, double mo
   good_reactions_ = system_.essential.reactions(alpha_, nodes_);
   result.history.push_back(latest);
   if (snapshot_every_ > 0 && result.steps >= next_snapshot_) {
-    result.snapshots.push_back({result.steps, time, nodal_displacement(system_.nodal_rows, now, system_.original),
-                                system_.dissection != nullptr ? system_.dissection->positions() : Points(0, 3)});
+    result.snapshots.push_back(
+        {result.steps, time, nodal_displacement(system_.nodal_rows, now, system_.original), Points(0, 3), CutFacets()});
+    if (system_.dissection != nullptr) {
+      result.snapshots.back().positions = system_.dissection->positions();
+      result.snapshots.back().cut = system_.dissection->facets();
+    }
     next_snapshot_ += snapshot_every_;
   }
   return true;

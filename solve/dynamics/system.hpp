@@ -6,6 +6,7 @@
 #include "solve/boundary/contact.hpp"
 #include "solve/boundary/essential_conditions.hpp"
 #include "solve/boundary/load_curve.hpp"
+#include "solve/cut/face_contact.hpp"
 #include "solve/dynamics/diagnosis.hpp"
 #include "solve/dynamics/internal_force.hpp"
 #include "solve/solve.hpp"
@@ -25,6 +26,7 @@ struct System {
   const ShapeRows& nodal_rows;                ///< at the nodes
   const std::vector<std::int32_t>& original;  ///< the cloud's node of each
   Dissection* dissection;                     ///< null: nothing is cut on the way
+  FaceContact* face_contact = nullptr;        ///< of cuts; null: nothing is stepped over
 };
 
 /// What time stepping leaves behind.

@@ -21,7 +21,8 @@ constexpr double least_ratio = 0.8;  // of J to that one step before: stiffness 
 /// Where all that takes energy is counted: not contact, relaxing materials (the laws' energy is the instantaneous one)
 /// or lumped conditions. Else the work is what became of it to a thousandth.
 bool balances(const System& system, const std::vector<std::vector<PronyTerm>>& prony, const SolveOptions& options) {
-  return system.contact == nullptr && prony.empty() && options.imposition == Imposition::exact;
+  return system.contact == nullptr && system.face_contact == nullptr && prony.empty() &&
+         options.imposition == Imposition::exact;
 }
 
 class Transient {

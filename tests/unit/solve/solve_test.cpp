@@ -114,7 +114,7 @@ TEST(Solve, KeepsSnapshotsOnRequest) {
   const auto folder = std::filesystem::temp_directory_path() / "brainshift_steps_test";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
-  write_steps(folder, result.solution.positions, result.snapshots);
+  write_steps(folder, result);
   EXPECT_TRUE(std::filesystem::exists(folder / "steps.pvd"));
   EXPECT_EQ(read_solution(folder / "steps/000100.vtu").displacement, result.snapshots[0].displacement);
   std::filesystem::remove_all(folder);

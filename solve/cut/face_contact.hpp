@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solve/cut/face_gaps.hpp"
+#include "solve/cut/face_nodes.hpp"
+#include "solve/dynamics/nodal_vectors.hpp"
+#include "solve/ordered_cloud.hpp"
+#include "solve/shape/shape_functions.hpp"
+
+namespace brainshift::solve {
+
+/// Frictionless contact, with finite sliding and separation, between the faces of cuts. After a step each face node
+/// that overlaps the opposite face, and the nodes of that face about it, are parted by equal and opposite pushes along
+/// the normal:
+///   û ← û + M⁻¹ Vᵀ Gᵀ λ,  λ ≥ 0,  gap + G W Gᵀ λ ≥ 0,  W = V M⁻¹ Vᵀ,
+/// V the shape functions at the face nodes and G their shares in the gaps. Sweeps of λ ← max(0, λ − D⁻¹ gap), D the row
+/// sums of |G||W||G|ᵀ, come near to it; what remains of an overlap is taken back in the following steps.
+class FaceContact {
+ public:
+  /// pairs: of the cloud's nodes before they were ordered. rows: shape functions at all nodes' positions.
+  FaceContact(std::span<const FacePair> pairs, const OrderedCloud& cloud, const ShapeRows& rows);
+
+  /// Sets the nodal masses (one a node) that weigh the pushes.
+  void weigh(std::span<const double> mass);
+
+  /// Parts faces that overlap.
+  void apply(NodalVectors& parameters);
+
+  struct Measures {
+    std::size_t touching = 0;    ///< face nodes that overlap, or are within a hundredth of the spacing of it
+    double largest_overlap = 0;  ///< mm more than undeformed
+  };
+  Measures measure(const NodalVectors& parameters) const;
+
+  std::size_t held_bytes() const;
+
+ private:
+  using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  FaceContact(std::span<const FacePair> pairs, std::span<const std::int32_t> nodes, const OrderedCloud& cloud,
+              const ShapeRows& rows);
+  Points places(const NodalVectors& parameters) const;
+  void find_overlaps();
+  void lump();
+  void sweep();
+  void shift(NodalVectors& parameters) const;
+
+  RowMatrix shape_;  ///< V
+  FaceGaps gaps_;
+  Eigen::VectorXd inverse_mass_;  ///< one a node of the cloud
+  RowMatrix softness_;            ///< W
+
+  // of apply(): links of the face nodes that overlap, else one value a face node
+  std::vector<FaceGaps::Link> links_;
+  Eigen::VectorXd row_sum_;  ///< D; 0 where nothing overlaps
+  Eigen::VectorXd push_;     ///< λ
+  Eigen::VectorXd gap_;
+  Points force_, shift_;  ///< Gᵀ λ and W Gᵀ λ
+};
+
+}  // namespace brainshift::solve
