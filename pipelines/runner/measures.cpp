@@ -79,6 +79,10 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                                  {"coarse_error_mm", m.coarse_error},
                                  {"seconds_coarse", m.seconds_coarse}};
   }
+  if (m.resection) {
+    report.measures["resection"] = {{"removed_nodes", m.resection->removed_nodes},
+                                    {"removed_volume_mm3", m.resection->removed_volume}};
+  }
   report.measures.erase(dynamics == solve::Dynamics::transient ? "error_bound_mm" : "critical_step_s");
   return report;
 }
