@@ -129,7 +129,7 @@ void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, co
     } catch (const std::invalid_argument& error) {
       const Eigen::RowVector3d middle = alone.positions.colwise().mean();
       std::ostringstream text;
-      text << "the cuts part the body, and the part about (" << middle[0] << ", " << middle[1] << ", " << middle[2]
+      text << "the body is left in parts, and the part about (" << middle[0] << ", " << middle[1] << ", " << middle[2]
            << ") mm, of " << members.size() << " nodes, is not held: " << error.what();
       throw std::invalid_argument(text.str());
     }

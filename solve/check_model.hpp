@@ -13,8 +13,8 @@ void check_model(const Model& model);
 /// Throws std::invalid_argument when the conditions leave the body free to move as a whole.
 void check_held(const OrderedCloud& cloud, const Model& model);
 
-/// The same of each part of a body that is cut in two or more. point_rows: shape functions of the integration points,
-/// which hold a part together.
+/// The same of each part of a body that a cut or a resection leaves in two or more. point_rows: shape functions of the
+/// integration points, which hold a part together.
 void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, const Model& model);
 
 }  // namespace brainshift::solve

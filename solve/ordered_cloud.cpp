@@ -2,6 +2,7 @@
 #include "solve/ordered_cloud.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "solve/dynamics/space_filling.hpp"
 #include "solve/held_bytes.hpp"
@@ -16,29 +17,32 @@ bool is_prescribed(const OrderedCloud& cloud, Eigen::Index node) {
 
 }  // namespace
 
-OrderedCloud order_nodes(const NodeCloud& cloud) {
-  OrderedCloud ordered;
-  ordered.original = space_filling_order(cloud.positions);
-  const auto n = static_cast<Eigen::Index>(cloud.size());
-  ordered.positions.resize(n, 3);
-  ordered.prescribed_displacement = Points::Constant(n, 3, std::nan(""));
-  ordered.force.resize(cloud.force.rows(), 3);
-  for (Eigen::Index a = 0; a < n; ++a) {
-    const std::int32_t from = ordered.original[static_cast<std::size_t>(a)];
-    ordered.positions.row(a) = cloud.positions.row(from);
-    ordered.spacing.push_back(cloud.spacing[static_cast<std::size_t>(from)]);
-    ordered.on_surface.push_back(cloud.on_surface[static_cast<std::size_t>(from)]);
+NodeCloud subset(const NodeCloud& cloud, const std::vector<std::int32_t>& nodes) {
+  NodeCloud part;
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  part.positions = cloud.positions(nodes, Eigen::all);
+  part.prescribed_displacement = Points::Constant(n, 3, std::nan(""));
+  if (cloud.prescribed_displacement.rows() > 0) {
+    part.prescribed_displacement = cloud.prescribed_displacement(nodes, Eigen::all);
+  }
+  if (cloud.force.rows() > 0) {
+    part.force = cloud.force(nodes, Eigen::all);
+  }
+  for (const std::int32_t node : nodes) {
+    const auto a = static_cast<std::size_t>(node);
+    part.spacing.push_back(cloud.spacing[a]);
+    part.on_surface.push_back(cloud.on_surface[a]);
     if (cloud.label.size() == cloud.size()) {
-      ordered.label.push_back(cloud.label[static_cast<std::size_t>(from)]);
-    }
-    if (cloud.prescribed_displacement.rows() == n) {
-      ordered.prescribed_displacement.row(a) = cloud.prescribed_displacement.row(from);
-    }
-    if (cloud.force.rows() == n) {
-      ordered.force.row(a) = cloud.force.row(from);
+      part.label.push_back(cloud.label[a]);
     }
   }
-  return ordered;
+  return part;
+}
+
+OrderedCloud order_nodes(const NodeCloud& cloud) {
+  std::vector<std::int32_t> order = space_filling_order(cloud.positions);
+  NodeCloud ordered = subset(cloud, order);
+  return {std::move(ordered), std::move(order)};
 }
 
 std::vector<std::int32_t> surface_nodes(const OrderedCloud& cloud) {

@@ -13,7 +13,10 @@ struct OrderedCloud : NodeCloud {
   std::vector<std::int32_t> original;  ///< the cloud's node
 };
 
-/// prescribed_displacement is NaN where the cloud has none.
+/// Rows of the cloud; prescribed_displacement is NaN where it has none.
+NodeCloud subset(const NodeCloud& cloud, const std::vector<std::int32_t>& nodes);
+
+/// All of its rows.
 OrderedCloud order_nodes(const NodeCloud& cloud);
 
 std::vector<std::int32_t> surface_nodes(const OrderedCloud& cloud);

@@ -3,6 +3,7 @@
 
 #include "solve/check_model.hpp"
 #include "solve/cut/cut_patches.hpp"
+#include "solve/cut/resection.hpp"
 #include "solve/lay_out.hpp"
 #include "solve/quadrature/adaptive_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
@@ -32,17 +33,9 @@ std::vector<double> nodes_per_point(const IntegrationPoints& points, const Shape
   return share;
 }
 
-std::vector<std::int32_t> tissues_of(const std::map<std::int32_t, Material>& materials) {
-  std::vector<std::int32_t> tissues;
-  for (const auto& [label, material] : materials) {
-    tissues.push_back(label);
-  }
-  return tissues;
-}
-
 AdaptivePoints place_points(const Model& model, const ShapeFunctions& shape, const SolveOptions& options) {
   const LabelMap* labels = model.labels ? &*model.labels : nullptr;
-  const std::vector<std::int32_t> tissues = tissues_of(model.materials);
+  const std::vector<std::int32_t> tissues = tissues_of(model);
   if (options.integration_tolerance > 0) {
     const AdaptiveRule rule{options.integration_tolerance, options.integration_depth, options.points_per_cell};
     return adaptive_points(model.cells, shape, rule, labels, tissues);
@@ -134,7 +127,10 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
     pieces.nodal_rows = with_pinned(pieces.nodal_rows, held);
   }
   AdaptivePoints placed = place_points(model, shape, options);
-  if (visibility && options.dynamics == Dynamics::relaxation) {
+  if (model.resection) {
+    leave_out(*model.resection, placed);
+  }
+  if ((visibility || model.resection) && options.dynamics == Dynamics::relaxation) {
     check_parts_held(pieces.cloud, placed.rows, model);
   }
   pieces.points = std::move(placed.points);

@@ -35,7 +35,7 @@ struct Prepared {
 
 /// pinned: one a node of the cloud, not 0 where the prescribed displacement is that of the node's parameter û (and the
 /// node's row of shape functions 1 at itself); empty: none. Such a node is held, not loaded. Sets the sizes among the
-/// measures. Throws as solve() does.
+/// measures. Of a model with a resection this is what it leaves, resect(). Throws as solve() does.
 Prepared prepare(const Model& model, const SolveOptions& options, std::span<const std::uint8_t> pinned,
                  SolveMeasures& measures, const Progress& progress);
 

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "solve/cut/dissection.hpp"
+#include "solve/cut/resection.hpp"
 #include "solve/dynamics/diagnosis.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/transient.hpp"
@@ -122,9 +123,15 @@ SolveResult solve(const Model& model, const SolveOptions& given, const Progress&
   const auto start = Clock::now();
   const SolveOptions options = completed(given, model);
   SolveMeasures measures;
-  Prepared prepared = prepare(model, options, {}, measures, progress);
+  std::optional<Resected> resected;
+  if (model.resection) {
+    resected = resect(model, options);
+    measures.resection = resected->measures;
+  }
+  const Model& solved = resected ? resected->rest : model;
+  Prepared prepared = prepare(solved, options, {}, measures, progress);
   measures.seconds_setup = seconds_since(start);
-  return step(model, options, std::move(prepared), measures, progress);
+  return step(solved, options, std::move(prepared), measures, progress);
 }
 
 }  // namespace brainshift::solve

@@ -118,6 +118,12 @@ struct CutMeasures {
   double largest_overlap = 0;        ///< of such nodes, mm
 };
 
+/// What a resection took.
+struct ResectionMeasures {
+  std::size_t removed_nodes = 0;
+  double removed_volume = 0;  ///< of the integration points of its tissue, mm³
+};
+
 struct SolveMeasures {
   std::size_t nodes = 0;
   std::size_t integration_points = 0;
@@ -140,6 +146,7 @@ struct SolveMeasures {
   double largest_stretch = 0;       ///< largest principal stretch
   double compressed_share = 0;      ///< of the volume, pressed so far that its free faces may crease
   std::optional<CutMeasures> cut;   ///< absent: nothing was cut
+  std::optional<ResectionMeasures> resection;
   double seconds_setup = 0;
   double seconds_stepping = 0;
   HeldBytes bytes;
@@ -157,9 +164,10 @@ struct SolveResult {
   std::string failure;  ///< empty when converged; else one sentence: what went wrong, where and when (exit 3)
 };
 
-/// Runs the stage: MTLED, to the steady state by adaptive dynamic relaxation or in time. Throws std::invalid_argument
-/// when the model cannot be solved: a label without a material, too few nodes for a support, constraints that
-/// contradict each other, nothing that holds the body, a plane problem with contact or cells of three dimensions.
+/// Runs the stage: MTLED, to the steady state by adaptive dynamic relaxation or in time. Of a resection the solution
+/// holds the nodes that it leaves, in the cloud's order. Throws std::invalid_argument when the model cannot be solved:
+/// a label without a material, too few nodes for a support, constraints that contradict each other, nothing that holds
+/// the body or a piece of it, a plane problem with contact or cells of three dimensions.
 SolveResult solve(const Model& model, const SolveOptions& options, const Progress& progress = {});
 
 /// Writes steps/NNNNNN.vtu, one a snapshot, of a body that is cut steps/NNNNNN_cut.vtp too (cut_surface.hpp), and

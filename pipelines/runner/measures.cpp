@@ -89,6 +89,10 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                               {"touching_nodes", m.cut->touching_nodes},
                               {"largest_overlap_mm", m.cut->largest_overlap}};
   }
+  if (m.resection) {
+    report.measures["resection"] = {{"removed_nodes", m.resection->removed_nodes},
+                                    {"removed_volume_mm3", m.resection->removed_volume}};
+  }
   report.measures.erase(dynamics == solve::Dynamics::transient ? "error_bound_mm" : "critical_step_s");
   return report;
 }

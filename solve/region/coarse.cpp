@@ -77,24 +77,6 @@ std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud) {
   return chosen;
 }
 
-NodeCloud subset(const NodeCloud& cloud, const std::vector<std::int32_t>& nodes) {
-  NodeCloud part;
-  const auto n = static_cast<Eigen::Index>(nodes.size());
-  part.positions.resize(n, 3);
-  part.prescribed_displacement = Points::Constant(n, 3, std::nan(""));
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto a = static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)]);
-    part.positions.row(i) = cloud.positions.row(static_cast<Eigen::Index>(a));
-    part.spacing.push_back(cloud.spacing[a]);
-    part.on_surface.push_back(cloud.on_surface[a]);
-    part.label.push_back(cloud.label[a]);
-    if (cloud.prescribed_displacement.rows() > 0) {
-      part.prescribed_displacement.row(i) = cloud.prescribed_displacement.row(static_cast<Eigen::Index>(a));
-    }
-  }
-  return part;
-}
-
 std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& given, const Progress& progress) {
   Model coarse = model;
   coarse.cloud = subset(model.cloud, coarse_nodes(model.cloud));

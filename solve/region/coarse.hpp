@@ -13,9 +13,6 @@ namespace brainshift::solve {
 /// chosen first, then those on the surface, then the inner ones. Ascending.
 std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud);
 
-/// Rows of the cloud, spacings and all.
-NodeCloud subset(const NodeCloud& cloud, const std::vector<std::int32_t>& nodes);
-
 /// The displacement at all nodes (n × 3) mm of the solution on the coarse nodes, their spacing doubled, with linear
 /// shape functions and one point a cell; prescribed components as prescribed. Empty when that cannot be solved: too few
 /// nodes, or not converged.

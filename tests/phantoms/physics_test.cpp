@@ -42,8 +42,8 @@ class Physics : public testing::Test {
   }
 
   /// A box that stands on nodes that do not move.
-  static NodeCloud standing_box() {
-    NodeCloud cloud = test::irregular_box(5, side);
+  static NodeCloud standing_box(int n = 5) {
+    NodeCloud cloud = test::irregular_box(n, side);
     for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
       if (cloud.positions(a, 2) < 1e-6) {
         cloud.prescribed_displacement.row(a).setZero();
@@ -105,6 +105,32 @@ TEST_F(Physics, ABoxStandsWithTheWeightAndTheForcesThatItCarries) {
   const Eigen::RowVector3d reaction = read_solution(at("out/solution.vtu")).reaction_force.colwise().sum();
   EXPECT_LE((reaction + carried).norm(), 1e-3 * weight) << reaction << " holds " << carried;
   EXPECT_LT(read_solution(at("out/solution.vtu")).displacement.col(2).minCoeff(), -0.01);
+}
+
+TEST_F(Physics, AResectionLeavesACavityThatSinksUnlessPressureHoldsIt) {
+  constexpr int cells_a_side = 8;
+  const NodeCloud cloud = standing_box(cells_a_side + 1);
+  BackgroundCells cells = test::box_cells(cells_a_side, side);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Eigen::Vector3d low = cells.vertices.row(cells.connectivity[8 * i]);
+    const Eigen::Vector3d high = cells.vertices.row(cells.connectivity[8 * i + 6]);
+    cells.label[i] = ((low + high).array() / 2 - side / 2).abs().maxCoeff() < side / 4 ? 2 : 1;
+  }
+  write_problem(cloud, cells);
+  const auto sinking_of_top = [&](const std::string& options) {
+    solve("--material 1:10000,0.4 --material 2:10000,0.4 --gravity 0,0,-9.81 --tolerance 1e-3 " + options);
+    const Solution solution = read_solution(at("out/solution.vtu"));
+    return -(solution.positions.col(2).array() > side - 1e-6).select(solution.displacement.col(2), 0).sum();
+  };
+  const double full = sinking_of_top("");
+  EXPECT_FALSE(measures().contains("resection"));
+  const double emptied = sinking_of_top("--resection 2");
+  EXPECT_NEAR(measures()["resection"]["removed_volume_mm3"], side * side * side / 8, 1e-6);
+  EXPECT_EQ(read_solution(at("out/solution.vtu")).positions.rows(),
+            cloud.positions.rows() - static_cast<int>(measures()["resection"]["removed_nodes"]));
+  const double pressed = sinking_of_top("--resection 2 --resection-pressure 100");
+  EXPECT_GT(emptied, 1.1 * full);
+  EXPECT_LT(pressed, emptied - 0.1 * full);
 }
 
 /// What brain_viscoelastic leaves of the shear stress t s after a pull began that took 0.1 s and is held.

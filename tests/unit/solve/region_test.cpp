@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "solve/ordered_cloud.hpp"
 #include "solve/region/coarse.hpp"
 #include "tests/unit/solve/models.hpp"
 

@@ -7,6 +7,7 @@ const std::vector<NamedCase>& all_cases() {
   static const std::vector<NamedCase> cases = {{"homogeneous", homogeneous},
                                                {"cantilever", cantilever},
                                                {"pressurised_ball", pressurised_ball},
+                                               {"resection", resection},
                                                {"manufactured", manufactured},
                                                {"patch_test", patch_test},
                                                {"step_estimate", step_estimate},

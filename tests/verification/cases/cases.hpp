@@ -20,6 +20,7 @@ Outcome tear(bool small);
 Outcome homogeneous(bool small);
 Outcome cantilever(bool small);
 Outcome pressurised_ball(bool small);
+Outcome resection(bool small);
 Outcome manufactured(bool small);
 Outcome patch_test(bool small);
 Outcome step_estimate(bool small);

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A synthetic head whose tumour is taken out, from the images to the warped ones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "pipelines/phantom/phantom.hpp"
+#include "tests/phantoms/program.hpp"
+
+namespace brainshift {
+namespace {
+
+TEST(ResectedHead, IsSolvedAndRegistered) {
+  const ScratchFolder scratch("resection");
+  const pipelines::PhantomOptions head{.size = 44, .spacing = 4.0};
+  pipelines::write_phantom(head, scratch / "head");
+  const std::string scene = (scratch / "head/scene.xml").string(), folder = (scratch / "run").string();
+  const ProgramResult result =
+      run_shell("brainshift run " + scene + " --quiet --out " + folder +
+                " --set resection.labels=3 --set discretise.tumour_factor=0.4 --set solve.gravity='0 4 0'");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto stages = nlohmann::json::parse(read_text(folder + "/run.json"))["stages"];
+  const auto& resection = stages["solve"]["measures"]["resection"];
+  EXPECT_EQ(stages["solve"]["sizes"]["nodes"].get<int>() + resection["removed_nodes"].get<int>(),
+            stages["discretise"]["sizes"]["nodes"]);
+  EXPECT_GT(resection["removed_nodes"], 0);
+  const LabelMap labels = pipelines::sample_labels(pipelines::make_phantom(head));
+  const double volume = static_cast<double>(std::ranges::count(labels.voxels, 3)) * labels.geometry.voxel_volume();
+  EXPECT_NEAR(resection["removed_volume_mm3"], volume, 0.05 * volume);
+  EXPECT_EQ(stages["register"]["status"], "done");
+}
+
+}  // namespace
+}  // namespace brainshift

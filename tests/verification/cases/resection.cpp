@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Lamé's hollow ball, made from a full one: its core is taken out, and a pressure put in its place.
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "discretise/discretise.hpp"
+#include "solve/material/elastic_law.hpp"
+#include "tests/unit/solve/load/shapes.hpp"
+#include "tests/verification/cases/cases.hpp"
+#include "tests/verification/cases/cylinder_model.hpp"
+#include "tests/verification/reference.hpp"
+
+namespace brainshift::verification {
+
+namespace {
+
+constexpr double inner = 10, outer = 20, widened = 0.01;  // mm
+
+/// Lamé: u = A r + B / r², without stress at the outer radius; the inner one is widened.
+struct Lame {
+  double a, b, pressure;
+
+  explicit Lame(const solve::Material& material) {
+    const double shear = solve::shear_modulus(material), bulk = solve::bulk_modulus(material);
+    const double ratio = 4 * shear / (3 * bulk * std::pow(outer, 3));  // A / B
+    b = widened / (ratio * inner + 1 / (inner * inner));
+    a = ratio * b;
+    pressure = 4 * shear * b * (1 / std::pow(inner, 3) - 1 / std::pow(outer, 3));
+  }
+  Points operator()(const Points& x) const {
+    const Eigen::ArrayXd r = x.rowwise().norm();
+    return x.array().colwise() * (a + b / r.cube());
+  }
+};
+
+/// 2 in the core, 1 in the rest of the ball: neither nodes nor cells know of the wall between.
+LabelMap core_and_shell() {
+  constexpr double voxel = 0.5;
+  constexpr int half = 42;
+  LabelMap labels;
+  labels.geometry.size.setConstant(2 * half + 1);
+  labels.geometry.spacing.setConstant(voxel);
+  labels.geometry.origin.setConstant(-voxel * half);
+  labels.voxels.resize(labels.geometry.voxel_count());
+  for (int k = -half; k <= half; ++k) {
+    for (int j = -half; j <= half; ++j) {
+      for (int i = -half; i <= half; ++i) {
+        const double r = voxel * Eigen::Vector3d(i, j, k).norm();
+        labels.at(i + half, j + half, k + half) = r < inner ? 2 : r < outer + 1 ? 1 : 0;
+      }
+    }
+  }
+  return labels;
+}
+
+/// The outermost node along each axis, both ways, does not leave it: the ball stays where it is, free to grow.
+void hold(NodeCloud& cloud, const Lame& exact) {
+  const Points u = exact(cloud.positions);
+  cloud.prescribed_displacement = Points::Constant(u.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+  for (const double side : {-1.0, 1.0}) {
+    for (const int axis : {0, 1, 2}) {
+      Eigen::Index a = 0;
+      (side * cloud.positions.col(axis)).maxCoeff(&a);
+      for (const int other : {(axis + 1) % 3, (axis + 2) % 3}) {
+        cloud.prescribed_displacement(a, other) = u(a, other);
+      }
+    }
+  }
+}
+
+/// most_wall, most: bounds, %. The wall is a staircase of integration points: it lies wrong by up to a quarter of a
+/// cell's side, and u at it goes with its radius.
+std::vector<Figure> emptied_ball(std::size_t nodes, double most_wall, double most) {
+  const solve::Material material = {3000, 0.49, 1000, solve::Law::linear_elastic};
+  const Lame exact(material);
+  solve::Model model;
+  model.labels = core_and_shell();
+  discretise::DiscretiseOptions discretisation;
+  discretisation.nodes = nodes;
+  const Surface ball = testing_shapes::sphere(Eigen::Vector3d::Zero(), outer, 5);
+  discretise::Discretisation parts = discretise::discretise(ball, &*model.labels, discretisation);
+  model.cloud = std::move(parts.cloud);
+  model.cells = std::move(parts.cells);
+  model.materials[1] = material;
+  model.resection = solve::Resection{{2}, exact.pressure};
+  hold(model.cloud, exact);
+  solve::SolveOptions options;
+  options.tolerance = 1e-5;
+  const solve::SolveResult result = solved(model, options);
+
+  const Points wall = testing_shapes::sphere(Eigen::Vector3d::Zero(), inner, 4).vertices;
+  const Differences at_wall = differences(result.solution, wall, exact(wall));
+  const Points& x = result.solution.positions;
+  const Eigen::ArrayXd outside = (x.rowwise().norm().array() >= inner).cast<double>();
+  const Eigen::ArrayXd off = (result.solution.displacement - exact(x)).rowwise().norm();
+  const double mean = (off * outside).sum() / outside.sum();
+  const double volume = 4 * std::numbers::pi / 3 * std::pow(inner, 3);
+  const double seconds = result.measures.seconds_setup + result.measures.seconds_stepping;
+  const std::string name = "ball emptied, " + std::to_string(nodes) + " nodes: ", lame = "analytic (Lamé)";
+  const auto percent = [](double part) { return 100 * part / widened; };
+  return {
+      {name + "mean difference / widening, at the wall", "", percent(at_wall.mean), "%", most_wall, {}, lame, seconds},
+      {name + "95 %", "", percent(at_wall.percentile95), "%", {}, {}, lame, seconds},
+      {name + "largest", "", percent(at_wall.largest), "%", {}, {}, lame, seconds},
+      {name + "mean, everywhere", "", percent(mean), "%", most, {}, lame, seconds},
+      {name + "volume taken out",
+       "",
+       100 * std::abs(result.measures.resection->removed_volume / volume - 1),
+       "%",
+       5,
+       {},
+       "4/3 pi r^3",
+       seconds}};
+}
+
+}  // namespace
+
+Outcome resection(bool small) {
+  Outcome outcome{emptied_ball(1500, 11, 4), {}};
+  if (!small) {
+    for (const Figure& figure : emptied_ball(12000, 8, 1.5)) {
+      outcome.figures.push_back(figure);
+    }
+  }
+  return outcome;
+}
+
+}  // namespace brainshift::verification
