@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/prepare.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "solve/check_model.hpp"
 #include "solve/cut/cut_patches.hpp"
 #include "solve/cut/resection.hpp"
@@ -95,6 +98,17 @@ PressurePatches patches_of(const Model& model, const SolveOptions& options, cons
   return visibility != nullptr && shared_pressure ? part_patches(*visibility, points.positions, patches) : patches;
 }
 
+/// The stress of relaxing materials is not followed point by point for a tear.
+void check_rupture(const Model& model, Dynamics dynamics) {
+  const bool by_stress = model.rupture && model.rupture->criterion == Rupture::Criterion::stress;
+  const bool relaxes = std::any_of(model.materials.begin(), model.materials.end(),
+                                   [](const auto& material) { return !material.second.prony.empty(); });
+  if (by_stress && relaxes && dynamics == Dynamics::transient) {
+    throw std::invalid_argument(
+        "a rupture by stress does not go with a material that relaxes in time; give the stretch at which it tears");
+  }
+}
+
 bool cuts_go_on(const Model& model) {
   return last_time(model.cuts) > 0 || model.rupture;
 }
@@ -109,6 +123,7 @@ SolveOptions completed(SolveOptions options, const Model& model) {
 Prepared prepare(const Model& model, const SolveOptions& options, std::span<const std::uint8_t> pinned,
                  SolveMeasures& measures, const Progress& progress) {
   check_model(model);
+  check_rupture(model, options.dynamics);
   std::optional<CutBody> cut;
   if (!model.cuts.empty() || model.rupture) {
     cut = cut_body(model);

@@ -142,12 +142,12 @@ Prepared Dissection::laid_out_again() {
 }
 
 /// Goes on, or leaves all as it was.
-void Dissection::advance(const CutFacets& fresh, Motion& motion) {
+void Dissection::advance(const CutFacets& fresh, const PointLaws& laws, Motion& motion) {
   const auto start = std::chrono::steady_clock::now();
   const CutBody body = *prepared_.cut;
   const Pieces pieces = *prepared_.pieces;
   try {
-    go_on(fresh, motion);
+    go_on(fresh, laws, motion);
   } catch (...) {
     prepared_.cut = body;
     prepared_.pieces = pieces;
@@ -157,7 +157,7 @@ void Dissection::advance(const CutFacets& fresh, Motion& motion) {
   measures_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void Dissection::go_on(const CutFacets& cut_now, Motion& motion) {
+void Dissection::go_on(const CutFacets& cut_now, const PointLaws& laws, Motion& motion) {
   CutBody& body = *prepared_.cut;
   Pieces& pieces = *prepared_.pieces;
   const ShapeFunctions before(pieces.cloud.positions, pieces.cloud.spacing, options_.shape, body.visibility);
@@ -193,18 +193,18 @@ void Dissection::go_on(const CutFacets& cut_now, Motion& motion) {
   fresh_layout.pieces = std::move(prepared_.pieces);
   prepared_ = std::move(fresh_layout);
   motion.carry_over(
-      prepared_.laws, [&match](const NodalVectors& v) { return match(v); }, point_from);
+      laws, [&match](const NodalVectors& v) { return match(v); }, point_from);
 }
 
-void Dissection::cut(double time, Motion& motion) {
+void Dissection::cut(double time, const PointLaws& laws, Motion& motion) {
   const double after = until_;
   while (is_due(time)) {
     until_ = times_[next_++];
   }
-  advance(facets_between(model_.cuts, after, until_), motion);
+  advance(facets_between(model_.cuts, after, until_), laws, motion);
 }
 
-bool Dissection::tear(Motion& motion, bool may_begin) {
+bool Dissection::tear(const PointLaws& laws, Motion& motion, bool may_begin) {
   const std::vector<PointStrain> strains = point_strains(prepared_.points, prepared_.laws, motion.scratch);
   std::vector<PointStrain> ordered(strains.size());
   for (std::size_t i = 0; i < strains.size(); ++i) {
@@ -213,19 +213,19 @@ bool Dissection::tear(Motion& motion, bool may_begin) {
   const std::shared_ptr<const Visibility> now = prepared_.cut->visibility;
   bool torn = false;
   for (const Tear& next : tearing_->next(now ? now->facets() : CutFacets(), ordered, may_begin)) {
-    torn = tear(next, motion) || torn;
+    torn = tear(next, laws, motion) || torn;
   }
   return torn;
 }
 
-bool Dissection::tear(const Tear& tear, Motion& motion) {
+bool Dissection::tear(const Tear& tear, const PointLaws& laws, Motion& motion) {
   cuts_.push_back(tear.segment);
   const Eigen::Vector3d end = tear.segment.vertices.row(1);
   if (tear.meets) {
     closed_.push_back(end);
   }
   try {
-    advance(facets_between(std::span(cuts_).last(1), from_the_start, until_), motion);
+    advance(facets_between(std::span(cuts_).last(1), from_the_start, until_), laws, motion);
     return true;
   } catch (const std::exception&) {  // it would leave too few nodes together
     cuts_.pop_back();

@@ -25,13 +25,14 @@ class Dissection {
   bool is_done() const { return next_ == times_.size(); }
   bool may_tear() const { return tearing_.has_value(); }
 
-  /// Cuts the body as far as the cuts have come, and carries the motion over to it. Throws std::invalid_argument where
+  /// Cuts the body as far as the cuts have come, and carries the motion over to it; laws: of its points, with what they
+  /// remember. Throws std::invalid_argument where
   /// it would leave too few nodes together; then nothing has changed.
-  void cut(double time, Motion& motion);
+  void cut(double time, const PointLaws& laws, Motion& motion);
 
   /// Lets the body tear where its criterion is met at the last internal force; whether it did. A tear that would leave
   /// too few nodes together goes no further.
-  bool tear(Motion& motion, bool may_begin);
+  bool tear(const PointLaws& laws, Motion& motion, bool may_begin);
 
   const Points& positions() const { return prepared_.cut->cloud.positions; }  ///< in the cloud's order, mm
   CutFacets facets() const { return prepared_.cut->visibility ? prepared_.cut->visibility->facets() : CutFacets(); }
@@ -42,9 +43,9 @@ class Dissection {
   /// Returns the number before of each integration point in the order of the patches.
   std::vector<std::int32_t> update_points(const Advance& advance, const ShapeFunctions& shape, Matching& match);
   Prepared laid_out_again();
-  void advance(const CutFacets& fresh, Motion& motion);
-  void go_on(const CutFacets& fresh, Motion& motion);
-  bool tear(const Tear& tear, Motion& motion);
+  void advance(const CutFacets& fresh, const PointLaws& laws, Motion& motion);
+  void go_on(const CutFacets& fresh, const PointLaws& laws, Motion& motion);
+  bool tear(const Tear& tear, const PointLaws& laws, Motion& motion);
 
   const Model& model_;
   const SolveOptions& options_;

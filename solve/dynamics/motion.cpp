@@ -226,11 +226,11 @@ void Motion::carry_over(const PointLaws& laws, const std::function<NodalVectors(
   scratch = std::move(fresh);
 }
 
-bool Motion::go_on_cutting(Dissection& dissection, double cut_time, bool may_begin) {
+bool Motion::go_on_cutting(Dissection& dissection, const PointLaws& laws, double cut_time, bool may_begin) {
   bool changed = false;
   if (dissection.is_due(cut_time)) {
     try {
-      dissection.cut(cut_time, *this);
+      dissection.cut(cut_time, laws, *this);
       changed = true;
     } catch (const std::invalid_argument& error) {
       std::ostringstream text;
@@ -240,7 +240,7 @@ bool Motion::go_on_cutting(Dissection& dissection, double cut_time, bool may_beg
     }
   }
   const bool moves = result.steps > 0;
-  return (moves && dissection.may_tear() && dissection.tear(*this, may_begin)) || changed;
+  return (moves && dissection.may_tear() && dissection.tear(laws, *this, may_begin)) || changed;
 }
 
 double Motion::energy(const PointLaws& laws, std::span<const double> mass) {

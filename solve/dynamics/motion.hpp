@@ -42,7 +42,7 @@ class Motion {
   /// Cuts the body as far as the cuts have come by a time of the load's curve, and lets it tear; whether it changed.
   /// may_begin: whether a new tear may begin.
   /// Where it cannot be cut so, the result says why.
-  bool go_on_cutting(Dissection& dissection, double cut_time, bool may_begin);
+  bool go_on_cutting(Dissection& dissection, const PointLaws& laws, double cut_time, bool may_begin);
 
   /// Strain and kinetic energy now, 1e-9 J. Of laws that do not relax: else it would be a step of theirs.
   double energy(const PointLaws& laws, std::span<const double> mass);

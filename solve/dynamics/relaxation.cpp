@@ -90,7 +90,8 @@ class Relaxation {
   /// Between two windows, so that no difference over steps has a cut in it.
   void cut_if_due() {
     if (system_.dissection == nullptr ||
-        !motion_.go_on_cutting(*system_.dissection, motion_.time * system_.curve.duration(), !still_tearing())) {
+        !motion_.go_on_cutting(*system_.dissection, system_.laws, motion_.time * system_.curve.duration(),
+                               !still_tearing())) {
       return;
     }
     last_cut_ = motion_.result.steps;

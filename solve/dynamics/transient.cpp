@@ -77,14 +77,12 @@ class Transient {
     if (dissection == nullptr || !(looks || dissection->is_due(motion_.time))) {
       return;
     }
-    const double before = prony_.empty() ? motion_.energy(laws_, mass_) : 0;
-    if (!motion_.go_on_cutting(*dissection, motion_.time, true)) {
+    const double before = motion_.energy(system_.laws, mass_);  // without a step of what the points remember
+    if (!motion_.go_on_cutting(*dissection, laws_, motion_.time, true)) {
       return;
     }
     motion_.weigh(mass_);
-    if (prony_.empty()) {
-      motion_.lose(before - motion_.energy(laws_, mass_));
-    }
+    motion_.lose(before - motion_.energy(system_.laws, mass_));
     follow_stiffness();
   }
 

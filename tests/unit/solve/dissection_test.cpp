@@ -123,6 +123,20 @@ TEST(Dissection, KeepsMassAndEnergyInTime) {
   EXPECT_GT(result.measures.cut->advances, 5u);
 }
 
+TEST(Dissection, KeepsWhatRelaxingPointsRemember) {
+  Model model = cut_on_the_way({{14.6, -0.5}, {14.6, 9.2}}, {0.2, 0.4});
+  model.curve = LoadCurve({0, 0.2, 0.5}, {0, 1, 1}, LoadCurve::Join::smooth);
+  model.materials[1].prony = {{0.6, 0.2}};
+  SolveOptions options = test::plane_options();
+  options.dynamics = Dynamics::transient;
+  options.damping = 20;
+  options.shape.basis = Basis::linear;
+  const SolveResult result = solve(model, options);
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.measures.cut->advances, 5u);
+  EXPECT_GT(result.history.back().reaction.x(), 0);
+}
+
 TEST(Matching, CarriesALinearFieldOverExactly) {
   Model model = strip(1.2);
   const ShapeOptions options{.planar = true};
