@@ -144,6 +144,9 @@ Detour Visibility::round(std::int32_t piece, const Eigen::Vector3d& x, const Eig
 
 std::optional<Detour> Visibility::detour(const Eigen::Vector3d& x, const Eigen::Vector3d& node) const {
   std::optional<Detour> longest;
+  if (x == node) {
+    return longest;  // CGAL takes no segment of one point
+  }
   const auto cross = [&](std::size_t facet) {
     const Detour found =
         round(piece_[static_cast<std::size_t>(facets_.facets(static_cast<Eigen::Index>(facet), 0))], x, node);
