@@ -145,7 +145,8 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   if (model.resection) {
     leave_out(*model.resection, placed);
   }
-  if ((visibility || model.resection) && options.dynamics == Dynamics::relaxation) {
+  const bool may_part = visibility || model.resection;
+  if (may_part && !model.face_contact && options.dynamics == Dynamics::relaxation) {  // a face may hold the other
     check_parts_held(pieces.cloud, placed.rows, model);
   }
   pieces.points = std::move(placed.points);
