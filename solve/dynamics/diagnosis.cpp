@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "solve/dynamics/internal_force.hpp"
 #include "solve/dynamics/patch_dilatation.hpp"
 
 namespace brainshift::solve {
@@ -95,11 +96,15 @@ std::string cause(const Fault& fault, std::int32_t node, const Surroundings& aro
 Fault broken_point(const PointBlocks& points, const ForceScratch& scratch, const LastSteps& steps) {
   Fault fault;
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t p = 0; p < static_cast<std::int32_t>(points.points()) && !std::isnan(least); ++p) {
-    const double jacobian = gradient_of(scratch, p).determinant();
-    if (!(jacobian >= least)) {
-      least = jacobian;
-      fault.point = p;
+  for (const Patch& patch : points.patches) {
+    std::int32_t point = patch.first_point;
+    for (const Eigen::Matrix3d& gradient : gradients_of(points, patch, scratch)) {
+      const double jacobian = gradient.determinant();
+      if (!(jacobian >= least) && !std::isnan(least)) {
+        least = jacobian;
+        fault.point = point;
+      }
+      ++point;
     }
   }
   std::vector<std::int32_t> support;

@@ -3,41 +3,13 @@
 
 #include <vector>
 
+#include "solve/dynamics/force_scratch.hpp"
 #include "solve/dynamics/nodal_vectors.hpp"
-#include "solve/dynamics/point_blocks.hpp"
-#include "solve/dynamics/point_laws.hpp"
 
 namespace brainshift::solve {
 
-/// What has become of J at the points; NaN where one is.
-struct JacobianRange {
-  double smallest = 1;
-  double least_ratio = 1;  ///< of J to that of the internal_force() before; 1 where it is not followed
-};
-
-/// Scratch of internal_force(), made once and reused in every step, and what points remember between steps.
-struct ForceScratch {
-  std::vector<double> slot_displacement;        ///< 4 a slot
-  std::vector<double> slot_force;               ///< 4 a slot
-  std::vector<double> gradient;                 ///< 9 a point: F, kept between the two passes over a patch
-  std::vector<double> jacobian;                 ///< transient: J of each point
-  std::vector<JacobianRange> block_jacobian;    ///< one a block
-  std::vector<double> thickness;                ///< plane stress: F_33 of each point, where the next search starts
-  std::vector<std::size_t> viscous_begin = {};  ///< transient with Prony terms: offset of each point's state
-  std::vector<double> viscous_state = {};
-
-  ForceScratch(const PointBlocks& points, const PointLaws& laws);
-
-  /// Takes over what the points of another remember; from: the number there of each point here.
-  void remember(const ForceScratch& other, std::span<const std::int32_t> from);
-
-  std::size_t viscous_bytes() const { return bytes(viscous_begin) + bytes(viscous_state); }
-  /// All but what relaxing materials remember.
-  std::size_t scratch_bytes() const {
-    return bytes(slot_displacement) + bytes(slot_force) + bytes(gradient) + bytes(jacobian) + bytes(block_jacobian) +
-           bytes(thickness);
-  }
-};
+/// F at each point of a patch, at the parameters of the last internal_force().
+std::vector<Eigen::Matrix3d> gradients_of(const PointBlocks& points, const Patch& patch, const ForceScratch& scratch);
 
 /// f_int,a = Σ_I w P B_a (µN) at parameters û (mm); P the first Piola–Kirchhoff stress. Its volumetric part is K θ̄
 /// ∂θ/∂F with the law's dilatation θ projected onto the patch's pressure modes, θ̄ = Σ_k ψ_k Σ_I w ψ_k θ, which is the

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
-#include "solve/dynamics/internal_force.hpp"
+#include "solve/dynamics/point_blocks.hpp"
+#include "solve/material/deformation.hpp"
 
 namespace brainshift::solve {
-
-inline Eigen::Map<const Eigen::Matrix3d> gradient_of(const ForceScratch& scratch, std::int32_t point) {
-  return Eigen::Map<const Eigen::Matrix3d>(scratch.gradient.data() + 9 * static_cast<std::size_t>(point));
-}
 
 // How a point resists its dilatation θ when its patch sees θ̄ of it, per volume:
 //   U = K/2 θ̄² + k/2 (θ − θ̄)² + µ ln²(J/J_b) where J < J_b.
@@ -71,13 +69,13 @@ inline double lesser(double a, double b) {
   return a >= b ? b : (b >= a ? a : std::nan(""));
 }
 
-/// Σ_I w ψ_k θ: the dilatation of a patch on its pressure modes, from the gradients in scratch.
+/// Σ_I w ψ_k θ: the dilatation of a patch on its pressure modes, from the gradients at its points.
 template <class ElasticLaw>
 Eigen::Vector4d projected_dilatation(const PointBlocks& points, const Patch& patch, const ElasticLaw& law,
-                                     const ForceScratch& scratch) {
+                                     std::span<const Eigen::Matrix3d> gradients) {
   Eigen::Vector4d coefficients = Eigen::Vector4d::Zero();
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-    const double dilatation = law.dilatation(Deformation(gradient_of(scratch, p)));
+    const double dilatation = law.dilatation(Deformation(gradients[static_cast<std::size_t>(p - patch.first_point)]));
     coefficients += points.volume[static_cast<std::size_t>(p)] * dilatation * points.modes_of(p);
   }
   return coefficients;

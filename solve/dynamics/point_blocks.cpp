@@ -2,8 +2,8 @@
 #include "solve/dynamics/point_blocks.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
+#include <type_traits>
 
 namespace brainshift::solve {
 
@@ -22,6 +22,27 @@ std::int64_t pairs_of(const Patch& patch, const ShapeRows& rows, const std::vect
     pairs += rows.begin[p + 1] - rows.begin[p];
   }
   return pairs;
+}
+
+/// Copies the shape functions of a point, with zeros up to a whole quad.
+void append_row(PointBlocks& out, const ShapeRows& rows, std::size_t point, Precision precision,
+                const std::vector<std::int32_t>& slot_of_node) {
+  const auto begin = static_cast<std::size_t>(rows.begin[point]), end = static_cast<std::size_t>(rows.begin[point + 1]);
+  const std::size_t size = end - begin, padded = (size + quad - 1) / quad * quad;
+  for (std::size_t pair = 0; pair < padded; ++pair) {
+    const auto node = static_cast<std::size_t>(rows.node[begin + (pair < size ? pair : 0)]);
+    out.pair_slot.push_back(static_cast<std::uint16_t>(slot_of_node[node]));
+  }
+  const auto copy = [&](auto& derivative) {
+    using Scalar = typename std::remove_reference_t<decltype(derivative)>::value_type;
+    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
+      derivative.push_back(static_cast<Scalar>(rows.derivative[i]));
+    }
+    derivative.resize(derivative.size() + 3 * (padded - size));
+  };
+  precision == Precision::single_precision ? copy(out.pair_single) : copy(out.pair_derivative);
+  out.support.push_back(static_cast<std::uint16_t>(size));
+  out.pair_begin.push_back(static_cast<std::int64_t>(out.pair_slot.size()));
 }
 
 /// Copies the shape functions of a block's points, with its nodes numbered 0, 1, ... in the order of the nodes.
@@ -43,22 +64,10 @@ void append_block(PointBlocks& out, const ShapeRows& rows, const std::vector<std
   block.slots = static_cast<std::int32_t>(nodes.size());
   out.slot_node.insert(out.slot_node.end(), nodes.begin(), nodes.end());
   for (std::int32_t k = first; k < last; ++k) {
-    const auto p = static_cast<std::size_t>(order[static_cast<std::size_t>(k)]);
-    for (std::int64_t pair = rows.begin[p]; pair < rows.begin[p + 1]; ++pair) {
-      const auto node = static_cast<std::size_t>(rows.node[static_cast<std::size_t>(pair)]);
-      out.pair_slot.push_back(static_cast<std::uint16_t>(slot_of_node[node]));
-    }
-    const std::span<const double> derivative =
-        std::span(rows.derivative)
-            .subspan(3 * static_cast<std::size_t>(rows.begin[p]),
-                     3 * (static_cast<std::size_t>(rows.begin[p + 1] - rows.begin[p])));
-    if (precision == Precision::single_precision) {
-      std::transform(derivative.begin(), derivative.end(), std::back_inserter(out.pair_single),
-                     [](double d) { return static_cast<float>(d); });
-    } else {
-      out.pair_derivative.insert(out.pair_derivative.end(), derivative.begin(), derivative.end());
-    }
-    out.pair_begin.push_back(static_cast<std::int64_t>(out.pair_slot.size()));
+    append_row(out, rows, static_cast<std::size_t>(order[static_cast<std::size_t>(k)]), precision, slot_of_node);
+  }
+  for (std::int32_t i = block.first_patch; i < block.last_patch; ++i) {
+    out.patches[static_cast<std::size_t>(i)].first_slot = block.first_slot;
   }
   out.blocks.push_back(block);
 }
@@ -84,12 +93,12 @@ PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows,
   const std::vector<std::int32_t>& order = patched.order;
   PointBlocks out;
   out.pair_begin.push_back(0);
-  out.pair_slot.reserve(rows.node.size());
-  if (precision == Precision::single_precision) {
-    out.pair_single.reserve(rows.derivative.size());
-  } else {
-    out.pair_derivative.reserve(rows.derivative.size());
-  }
+  const std::size_t most_pairs = rows.node.size() + (quad - 1) * order.size();
+  out.pair_slot.reserve(most_pairs);
+  const std::size_t most_derivatives = 3 * most_pairs + read_past_end;
+  const bool single = precision == Precision::single_precision;
+  single ? out.pair_single.reserve(most_derivatives) : out.pair_derivative.reserve(most_derivatives);
+  out.support.reserve(order.size());
   out.volume.reserve(order.size());
   out.pair_begin.reserve(order.size() + 1);
   out.patches.reserve(patched.size());
@@ -101,7 +110,8 @@ PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows,
   for (std::size_t i = 0; i < patched.size(); ++i) {
     const auto first = static_cast<std::size_t>(patched.begin[i]);
     const auto count = static_cast<std::size_t>(patched.begin[i + 1]) - first;
-    out.patches.push_back({patched.begin[i], patched.begin[i + 1], material[static_cast<std::size_t>(order[first])]});
+    out.patches.push_back(
+        {patched.begin[i], patched.begin[i + 1], material[static_cast<std::size_t>(order[first])], 0});
     if (shared_pressure) {
       pressure_modes(points.positions, points.volume, std::span(order).subspan(first, count),
                      std::span(out.mode).subspan(4 * first, 4 * count));
@@ -125,6 +135,8 @@ PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows,
     pairs += more;
   }
   append_block(out, rows, order, block, precision, slot_of_node);
+  single ? out.pair_single.resize(out.pair_single.size() + read_past_end)
+         : out.pair_derivative.resize(out.pair_derivative.size() + read_past_end);
   list_slots_of_nodes(out, nodes);
   return out;
 }

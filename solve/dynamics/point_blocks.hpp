@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solve/dynamics/precision.hpp"
+#include "solve/dynamics/step_kernels.hpp"
 #include "solve/held_bytes.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
@@ -19,6 +20,7 @@ namespace brainshift::solve {
 struct Patch {
   std::int32_t first_point, last_point;  ///< [first, last)
   std::int32_t material;                 ///< row of the material table
+  std::int64_t first_slot = 0;           ///< of its block
 };
 
 /// A few hundred consecutive points, handled by one thread at a time with its nodes gathered side by side. The division
@@ -37,7 +39,8 @@ struct PointBlocks {
   std::vector<double> volume;            ///< one a point, mm³
   std::vector<double> mode;              ///< (points × 4) pressure modes, orthonormal in Σ w over a patch; empty
                                          ///< where each point is a patch of its own
-  std::vector<std::int64_t> pair_begin;  ///< (points + 1)
+  std::vector<std::int64_t> pair_begin;  ///< (points + 1); rows are padded to whole quads, see step_kernels.hpp
+  std::vector<std::uint16_t> support;    ///< one a point: nodes, without the padding
   std::vector<std::uint16_t> pair_slot;  ///< one a (point, node) pair: local node of the block
   std::vector<double> pair_derivative;   ///< (pairs × 3) ∂φ_a/∂X_J, 1/mm; empty in single precision
   std::vector<float> pair_single;        ///< the same in single precision; empty in double
@@ -52,10 +55,7 @@ struct PointBlocks {
     return std::span(pair_slot).subspan(static_cast<std::size_t>(pair_begin[static_cast<std::size_t>(point)]),
                                         support_size(point));
   }
-  std::size_t support_size(std::int32_t point) const {
-    const auto p = static_cast<std::size_t>(point);
-    return static_cast<std::size_t>(pair_begin[p + 1] - pair_begin[p]);
-  }
+  std::size_t support_size(std::int32_t point) const { return support[static_cast<std::size_t>(point)]; }
   Eigen::Vector4d modes_of(std::int32_t point) const {
     const auto p = static_cast<std::size_t>(point);
     if (mode.empty()) {
@@ -76,9 +76,13 @@ struct PointBlocks {
       return pair_derivative.data() + offset;
     }
   }
+  template <class Scalar>
+  PairRows<Scalar> rows() const {
+    return {pair_begin.data(), pair_slot.data(), derivatives_of<Scalar>(0)};
+  }
   /// All but the pressure modes.
   std::size_t shape_bytes() const {
-    return bytes(blocks) + bytes(patches) + bytes(volume) + bytes(pair_begin) + bytes(pair_slot) +
+    return bytes(blocks) + bytes(patches) + bytes(volume) + bytes(pair_begin) + bytes(support) + bytes(pair_slot) +
            bytes(pair_derivative) + bytes(pair_single) + bytes(slot_node) + bytes(node_begin) + bytes(node_slot);
   }
 };

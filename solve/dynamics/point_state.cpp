@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "solve/dynamics/internal_force.hpp"
 #include "solve/dynamics/patch_dilatation.hpp"
 #include "solve/material/principal.hpp"
 
@@ -13,9 +14,10 @@ namespace {
 template <class ElasticLaw>
 void add_patch(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
                PointState& state) {
-  const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, scratch);
+  const std::vector<Eigen::Matrix3d> gradients = gradients_of(points, patch, scratch);
+  const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, gradients);
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-    const Deformation d(gradient_of(scratch, p));
+    const Deformation d(gradients[static_cast<std::size_t>(p - patch.first_point)]);
     const double volumetric = point_energy(law, dilatations.dot(points.modes_of(p)), law.dilatation(d));
     const double volume = points.volume[static_cast<std::size_t>(p)];
     state.strain_energy += volume * (law.isochoric_energy(d) + volumetric);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "solve/dynamics/internal_force.hpp"
 #include "solve/dynamics/patch_dilatation.hpp"
 
 namespace brainshift::solve {
@@ -18,9 +19,10 @@ double largest_eigenvalue(const Eigen::Matrix2d& symmetric) {
 template <class ElasticLaw>
 void add_patch(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
                std::vector<PointStrain>& strains) {
-  const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, scratch);
+  const std::vector<Eigen::Matrix3d> gradients = gradients_of(points, patch, scratch);
+  const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, gradients);
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-    const Deformation d(gradient_of(scratch, p));
+    const Deformation d(gradients[static_cast<std::size_t>(p - patch.first_point)]);
     const double pressure = point_pressure(law, dilatations.dot(points.modes_of(p)), law.dilatation(d));
     const Eigen::Matrix3d first_piola = law.isochoric_stress(d) + pressure * law.dilatation_slope(d);
     const Eigen::Matrix3d cauchy = first_piola * d.gradient.transpose() / d.jacobian;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solve/dynamics/internal_force.hpp"
 #include "solve/dynamics/patch_dilatation.hpp"
 
 namespace brainshift::solve {
@@ -46,12 +47,12 @@ struct BlockSums {
 };
 
 template <class ElasticLaw>
-void add_shape_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
-                     BlockSums& sums) {
+void add_shape_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law,
+                     std::span<const Eigen::Matrix3d> gradients, BlockSums& sums) {
   ElasticLaw alone = law;  // as its patch leaves it to the point
-  const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, scratch);
+  const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, gradients);
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-    const auto gradient = gradient_of(scratch, p);
+    const Eigen::Matrix3d& gradient = gradients[static_cast<std::size_t>(p - patch.first_point)];
     const double dilatation = law.dilatation(Deformation(gradient));
     alone.bulk_modulus = point_modulus(law, dilatation);
     const double tangent =
@@ -77,13 +78,14 @@ void find_touched(const PointBlocks& points, const Patch& patch, std::vector<std
 }
 
 template <class ElasticLaw>
-void add_volume_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
-                      BlockSums& sums) {
+void add_volume_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law,
+                      std::span<const Eigen::Matrix3d> gradients, BlockSums& sums) {
   find_touched(points, patch, sums.touched);
   for (Eigen::Index k = 0; k < 4; ++k) {
     for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-      const Eigen::Matrix3d slope = points.volume[static_cast<std::size_t>(p)] * points.modes_of(p)[k] *
-                                    law.dilatation_slope(Deformation(gradient_of(scratch, p)));
+      const Eigen::Matrix3d slope =
+          points.volume[static_cast<std::size_t>(p)] * points.modes_of(p)[k] *
+          law.dilatation_slope(Deformation(gradients[static_cast<std::size_t>(p - patch.first_point)]));
       const auto b = derivatives(points, p);
       Eigen::Index a = 0;
       for (const std::uint16_t slot : points.slots_of(p)) {
@@ -121,10 +123,11 @@ std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& 
         slot_bound.data() + block.first_slot, std::vector<double>(3 * static_cast<std::size_t>(block.slots)), {}};
     for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
       const Patch& patch = points.patches[static_cast<std::size_t>(k)];
+      const std::vector<Eigen::Matrix3d> gradients = gradients_of(points, patch, scratch);
       std::visit(
           [&](const auto& law) {
-            add_shape_bound(points, patch, law, scratch, sums);
-            add_volume_bound(points, patch, law, scratch, sums);
+            add_shape_bound(points, patch, law, gradients, sums);
+            add_volume_bound(points, patch, law, gradients, sums);
           },
           laws.elastic[static_cast<std::size_t>(patch.material)]);
     }

@@ -50,9 +50,12 @@ TEST(Diagnosis, FindsThePointThatTurnedInsideOut) {
     body.force(u);
     const Fault fault = broken_point(body.points, body.scratch, {u, u, u});
     ASSERT_GE(fault.point, 0);
-    const double found = gradient_of(body.scratch, fault.point).determinant();
+    const auto patch = std::find_if(body.points.patches.begin(), body.points.patches.end(),
+                                    [&](const Patch& p) { return fault.point < p.last_point; });
+    const auto gradients = gradients_of(body.points, *patch, body.scratch);
+    const double found = gradients[static_cast<std::size_t>(fault.point - patch->first_point)].determinant();
     EXPECT_LT(found, 0);
-    EXPECT_DOUBLE_EQ(found, jacobian_range(body.scratch).smallest) << "in time " << in_time;
+    EXPECT_NEAR(found, jacobian_range(body.scratch).smallest, 1e-12) << "in time " << in_time;
   }
 }
 

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/dynamics/force_scratch.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+
+namespace brainshift::solve {
+
+Batch::Batch(std::size_t points)
+    : gradient(groups_of(points)),
+      stress(groups_of(points)),
+      jacobian(lanes * groups_of(points)),
+      dilatation(jacobian),
+      pressure(jacobian),
+      volume(jacobian) {}
+
+ForceScratch::ForceScratch(const PointBlocks& points, const PointLaws& laws) : block_jacobian(points.blocks.size()) {
+  if (points.precision() == Precision::single_precision) {
+    in_single.displacement.resize(4 * points.slots());
+    in_single.force.resize(4 * points.slots());
+  } else {
+    in_double.displacement.resize(4 * points.slots());
+    in_double.force.resize(4 * points.slots());
+  }
+  std::int32_t largest = batch_points;
+  for (const Patch& patch : points.patches) {
+    largest = std::max(largest, patch.last_point - patch.first_point);
+  }
+  batches.assign(static_cast<std::size_t>(omp_get_max_threads()), Batch(static_cast<std::size_t>(largest)));
+  if (laws.in_time) {
+    jacobian.assign(points.points(), 1.0);
+  }
+  if (laws.plane_stress) {
+    thickness.assign(points.points(), 1.0);
+  }
+  if (!laws.prony.empty()) {
+    std::size_t size = 0;
+    viscous_begin.reserve(points.points());
+    for (const Patch& patch : points.patches) {
+      const std::size_t terms = laws.prony[static_cast<std::size_t>(patch.material)].terms.size();
+      for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+        viscous_begin.push_back(size);
+        size += terms > 0 ? viscous_state_size(terms) : 0;
+      }
+    }
+    viscous_state.assign(size, 0.0);
+  }
+}
+
+void ForceScratch::remember(const ForceScratch& other, std::span<const std::int32_t> from) {
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const auto k = static_cast<std::size_t>(from[i]);
+    if (!jacobian.empty() && !other.jacobian.empty()) {
+      jacobian[i] = other.jacobian[k];
+    }
+    if (!thickness.empty()) {
+      thickness[i] = other.thickness[k];
+    }
+    if (!viscous_begin.empty()) {
+      const std::size_t end = k + 1 < from.size() ? other.viscous_begin[k + 1] : other.viscous_state.size();
+      std::copy(other.viscous_state.begin() + static_cast<std::ptrdiff_t>(other.viscous_begin[k]),
+                other.viscous_state.begin() + static_cast<std::ptrdiff_t>(end),
+                viscous_state.begin() + static_cast<std::ptrdiff_t>(viscous_begin[i]));
+    }
+  }
+}
+
+std::size_t ForceScratch::scratch_bytes() const {
+  std::size_t sum = in_double.held_bytes() + in_single.held_bytes() + bytes(batches) + bytes(jacobian) +
+                    bytes(block_jacobian) + bytes(thickness);
+  for (const Batch& batch : batches) {
+    sum += batch.held_bytes();
+  }
+  return sum;
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Included by step_kernels.cpp once for each instruction set, inside a namespace that says how many nodes' vectors fill
+// a register there: floats_together, doubles_together.
+
+template <class Scalar, int size>
+struct VectorOf {
+  typedef Scalar Type __attribute__((vector_size(size * sizeof(Scalar))));
+};
+
+/// How far ahead derivatives are fetched: each is read once a step, and the processor foresees too little of it.
+constexpr std::size_t ahead = 4096;  // bytes
+
+/// `together` nodes' vectors of four in a register.
+template <class Scalar, int together>
+struct Nodes {
+  using One = typename VectorOf<Scalar, 4>::Type;
+  using All = typename VectorOf<Scalar, 4 * together>::Type;
+  using Read = typename VectorOf<Scalar, 8>::Type;
+
+  BRAINSHIFT_INLINE static void load(const Scalar* values, const std::uint16_t* slot, All& nodes) {
+    One first;
+    __builtin_memcpy(&first, values + 4 * std::size_t{slot[0]}, sizeof first);
+    if constexpr (together == 2) {
+      One second;
+      __builtin_memcpy(&second, values + 4 * std::size_t{slot[1]}, sizeof second);
+      nodes = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
+    } else {
+      nodes = first;
+    }
+  }
+
+  BRAINSHIFT_INLINE static void store(const All& nodes, const std::uint16_t* slot, Scalar* values) {
+    if constexpr (together == 2) {
+      const One first = __builtin_shufflevector(nodes, nodes, 0, 1, 2, 3);
+      const One second = __builtin_shufflevector(nodes, nodes, 4, 5, 6, 7);
+      __builtin_memcpy(values + 4 * std::size_t{slot[0]}, &first, sizeof first);
+      __builtin_memcpy(values + 4 * std::size_t{slot[1]}, &second, sizeof second);
+    } else {
+      __builtin_memcpy(values + 4 * std::size_t{slot[0]}, &nodes, sizeof nodes);
+    }
+  }
+
+  /// sum[axis] += nodes · B_axis of each.
+  BRAINSHIFT_INLINE static void add_products(const All& nodes, const Scalar* derivative, All* sum) {
+    if constexpr (together == 2) {
+      Read b;
+      __builtin_memcpy(&b, derivative, sizeof b);
+      sum[0] += nodes * __builtin_shufflevector(b, b, 0, 0, 0, 0, 3, 3, 3, 3);
+      sum[1] += nodes * __builtin_shufflevector(b, b, 1, 1, 1, 1, 4, 4, 4, 4);
+      sum[2] += nodes * __builtin_shufflevector(b, b, 2, 2, 2, 2, 5, 5, 5, 5);
+    } else {
+      for (int axis = 0; axis < 3; ++axis) {
+        sum[axis] += nodes * derivative[axis];
+      }
+    }
+  }
+
+  /// nodes += Σ_axis columns[axis] B_axis of each.
+  BRAINSHIFT_INLINE static void add_columns(const All* columns, const Scalar* derivative, All& nodes) {
+    if constexpr (together == 2) {
+      Read b;
+      __builtin_memcpy(&b, derivative, sizeof b);
+      nodes += columns[0] * __builtin_shufflevector(b, b, 0, 0, 0, 0, 3, 3, 3, 3);
+      nodes += columns[1] * __builtin_shufflevector(b, b, 1, 1, 1, 1, 4, 4, 4, 4);
+      nodes += columns[2] * __builtin_shufflevector(b, b, 2, 2, 2, 2, 5, 5, 5, 5);
+    } else {
+      for (int axis = 0; axis < 3; ++axis) {
+        nodes += columns[axis] * derivative[axis];
+      }
+    }
+  }
+
+  BRAINSHIFT_INLINE static void fold(const All& nodes, One& sum) {
+    if constexpr (together == 2) {
+      sum = __builtin_shufflevector(nodes, nodes, 0, 1, 2, 3) + __builtin_shufflevector(nodes, nodes, 4, 5, 6, 7);
+    } else {
+      sum = nodes;
+    }
+  }
+
+  BRAINSHIFT_INLINE static void spread_out(const One& one, All& nodes) {
+    if constexpr (together == 2) {
+      nodes = __builtin_shufflevector(one, one, 0, 1, 2, 3, 0, 1, 2, 3);
+    } else {
+      nodes = one;
+    }
+  }
+};
+
+template <class Scalar, int together>
+void gradients(const PairRows<Scalar>& rows, std::int32_t first, std::int32_t last, const Scalar* displacement,
+               TensorLanes* gradient) {
+  using Vectors = Nodes<Scalar, together>;
+  const std::uint16_t* slot = rows.slot + rows.begin[first];
+  const Scalar* derivative = rows.derivative + 3 * rows.begin[first];
+  for (std::int32_t p = first; p < last; ++p) {
+    const std::uint16_t* const end = rows.slot + rows.begin[p + 1];
+    typename Vectors::All sum[2][3] = {};  // two, so that an addition need not wait for the one before
+    do {
+      __builtin_prefetch(reinterpret_cast<const char*>(derivative) + ahead);
+      __builtin_prefetch(reinterpret_cast<const char*>(slot) + ahead / 8);
+#pragma GCC unroll 4
+      for (int k = 0; k < static_cast<int>(quad) / together; ++k) {
+        typename Vectors::All nodes;
+        Vectors::load(displacement, slot + k * together, nodes);
+        Vectors::add_products(nodes, derivative + 3 * k * together, sum[k % 2]);
+      }
+      slot += quad;
+      derivative += 3 * quad;
+    } while (slot != end);
+    const auto i = static_cast<std::size_t>(p - first);
+    TensorLanes& out = gradient[i / lanes];
+    for (int axis = 0; axis < 3; ++axis) {
+      typename Vectors::One column;
+      Vectors::fold(sum[0][axis] + sum[1][axis], column);
+      for (int row = 0; row < 3; ++row) {
+        out.entry[3 * axis + row][i % lanes] = (row == axis ? 1.0 : 0.0) + static_cast<double>(column[row]);
+      }
+    }
+  }
+  for (auto i = static_cast<std::size_t>(last - first); i % lanes != 0; ++i) {
+    for (int k = 0; k < 9; ++k) {
+      gradient[i / lanes].entry[k][i % lanes] = k % 4 == 0 ? 1.0 : 0.0;
+    }
+  }
+}
+
+template <class Scalar, int together>
+void spread(const PairRows<Scalar>& rows, std::int32_t first, std::int32_t last, const TensorLanes* stress,
+            Scalar* force) {
+  using Vectors = Nodes<Scalar, together>;
+  const std::uint16_t* slot = rows.slot + rows.begin[first];
+  const Scalar* derivative = rows.derivative + 3 * rows.begin[first];
+  for (std::int32_t p = first; p < last; ++p) {
+    const auto i = static_cast<std::size_t>(p - first);
+    const TensorLanes& of = stress[i / lanes];
+    typename Vectors::All column[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const typename Vectors::One one = {static_cast<Scalar>(of.entry[3 * axis][i % lanes]),
+                                         static_cast<Scalar>(of.entry[3 * axis + 1][i % lanes]),
+                                         static_cast<Scalar>(of.entry[3 * axis + 2][i % lanes]), 0};
+      Vectors::spread_out(one, column[axis]);
+    }
+    const std::uint16_t* const end = rows.slot + rows.begin[p + 1];
+    do {
+#pragma GCC unroll 4
+      for (int k = 0; k < static_cast<int>(quad) / together; ++k) {
+        typename Vectors::All nodes;
+        Vectors::load(force, slot + k * together, nodes);
+        Vectors::add_columns(column, derivative + 3 * k * together, nodes);
+        Vectors::store(nodes, slot + k * together, force);
+      }
+      slot += quad;
+      derivative += 3 * quad;
+    } while (slot != end);
+  }
+}
+
+using Lanes = VectorOf<double, static_cast<int>(lanes)>::Type;
+
+/// Deformation, of `lanes` points.
+struct DeformationLanes {
+  Lanes gradient[9], cofactor[9], jacobian;
+};
+
+BRAINSHIFT_INLINE void deform(const TensorLanes& gradient, DeformationLanes& d) {
+  __builtin_memcpy(d.gradient, gradient.entry, sizeof d.gradient);
+  for (int column = 0; column < 3; ++column) {
+    const Lanes* a = d.gradient + 3 * ((column + 1) % 3);
+    const Lanes* b = d.gradient + 3 * ((column + 2) % 3);
+    for (int row = 0; row < 3; ++row) {
+      const int next = (row + 1) % 3, last = (row + 2) % 3;
+      d.cofactor[3 * column + row] = a[next] * b[last] - a[last] * b[next];
+    }
+  }
+  d.jacobian = d.gradient[0] * d.cofactor[0] + d.gradient[1] * d.cofactor[1] + d.gradient[2] * d.cofactor[2];
+}
+
+/// x^(−1/3) by Newton's method; NaN where x is not positive. The start, from the bits of x, is within 5 %.
+BRAINSHIFT_INLINE void inverse_cube_root(const Lanes& x, Lanes& root) {
+  std::uint64_t bits[lanes];
+  __builtin_memcpy(bits, &x, sizeof bits);
+  for (std::uint64_t& b : bits) {
+    b = 0x553ef0ff289dd796 - b / 3;
+  }
+  __builtin_memcpy(&root, bits, sizeof root);
+  for (int i = 0; i < 4; ++i) {
+    root = root * (4.0 - x * root * root * root) * (1.0 / 3);
+  }
+  const Lanes nowhere = Lanes{} + std::numeric_limits<double>::quiet_NaN();
+  root = x > 0.0 ? root : nowhere;
+}
+
+void jacobian(const TensorLanes* gradient, std::size_t groups, double* out) {
+  for (std::size_t g = 0; g < groups; ++g) {
+    DeformationLanes d;
+    deform(gradient[g], d);
+    __builtin_memcpy(out + lanes * g, &d.jacobian, sizeof d.jacobian);
+  }
+}
+
+void neo_hookean(const TensorLanes* gradient, std::size_t groups, double shear_modulus, const double* pressure,
+                 const double* volume, TensorLanes* stress) {
+  for (std::size_t g = 0; g < groups; ++g) {
+    DeformationLanes d;
+    deform(gradient[g], d);
+    Lanes root, p, w, squared_norm = {};
+    inverse_cube_root(d.jacobian, root);
+    __builtin_memcpy(&p, pressure + lanes * g, sizeof p);
+    __builtin_memcpy(&w, volume + lanes * g, sizeof w);
+    for (const Lanes& f : d.gradient) {
+      squared_norm += f * f;
+    }
+    const Lanes scale = shear_modulus * root * root;
+    const Lanes of_cofactor = w * (p - scale * squared_norm / (3.0 * d.jacobian)), of_gradient = w * scale;
+    for (int k = 0; k < 9; ++k) {
+      const Lanes entry = of_gradient * d.gradient[k] + of_cofactor * d.cofactor[k];
+      __builtin_memcpy(stress[g].entry[k], &entry, sizeof entry);
+    }
+  }
+}
