@@ -106,16 +106,21 @@ struct Snapshot {
   CutFacets cut = {};               ///< then; else the solution's
 };
 
+/// What became of the contact of faces, at the end.
+struct FaceMeasures {
+  std::size_t touching_nodes = 0;  ///< that overlap the opposite face or are within a hundredth of the spacing of it
+  double largest_overlap = 0;      ///< mm more than undeformed
+};
+
 /// What cutting took.
 struct CutMeasures {
-  std::size_t split_nodes = 0;       ///< nodes of the cloud that were split in two
-  std::size_t added_nodes = 0;       ///< their twins, and pairs where there was no node to split
-  std::size_t advances = 0;          ///< times the body was cut further while it moved
-  std::size_t touched_supports = 0;  ///< of integration points, evaluated again; over all advances
-  double extent = 0;                 ///< length, mm, or area, mm²
-  double seconds = 0;                ///< of the advances
-  std::size_t touching_nodes = 0;    ///< of faces, in touch with the opposite one at the end; with face contact only
-  double largest_overlap = 0;        ///< of such nodes, mm
+  std::size_t split_nodes = 0;        ///< nodes of the cloud that were split in two
+  std::size_t added_nodes = 0;        ///< their twins, and pairs where there was no node to split
+  std::size_t advances = 0;           ///< times the body was cut further while it moved
+  std::size_t touched_supports = 0;   ///< of integration points, evaluated again; over all advances
+  double extent = 0;                  ///< length, mm, or area, mm²
+  double seconds = 0;                 ///< of the advances
+  std::optional<FaceMeasures> faces;  ///< of face contact; absent: it was not asked for
 };
 
 /// What a resection took.
