@@ -56,7 +56,7 @@ struct SolveOptions {
   Dynamics dynamics = Dynamics::relaxation;
   /// Relaxation: stop when the bound of the remaining error is below this, mm, and below 1/50 of the displacement.
   double tolerance = 0.01;
-  int load_steps = 400;  ///< relaxation: steps over the load's curve
+  int load_steps = 400;  ///< relaxation: steps over the load's curve; more where a body may tear
   double time_step = 0;  ///< transient: s; 0: nine tenths of the critical one
   double damping = 0;    ///< transient: c of eq 26, 1/s
   int max_steps = 50000;
@@ -93,8 +93,8 @@ struct HistoryRow {
   double kinetic_energy = 0;                           ///< mJ, fictitious in dynamic relaxation
   double dissipated_energy = 0;                        ///< mJ, by the damping
   Eigen::Vector3d reaction = Eigen::Vector3d::Zero();  ///< N, sum over the nodes whose prescribed displacement is not 0
-  double residual = 0;                                 ///< |f_int - reactions| / |reactions|
-  double error_bound = 0;                              ///< mm; infinite until it is estimated
+  double residual = 0;     ///< sum of |f_int - reactions| / sum of |f_int|, or the largest of that at rest so far
+  double error_bound = 0;  ///< mm; infinite until it is estimated
 };
 
 /// The displacement on the way to the end state.
