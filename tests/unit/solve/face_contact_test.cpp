@@ -93,6 +93,17 @@ TEST(FaceContact, CarriesWhatAnUncutBlockCarries) {
   }
 }
 
+/// Its right end lies between two nodes of the surface.
+TEST(FaceContact, HoldsTheCornersWhereACutLeavesTheBody) {
+  const Model whole = square(-pressed, true);
+  const Cut cut = path({-5, 30.5, 0}, {65, 30.5, 0});
+  const SolveResult uncut = solve(whole, planar_options());
+  const SolveResult touching = solve(with_cut(whole, cut, true), planar_options());
+  ASSERT_TRUE(touching.measures.converged) << touching.failure;
+  EXPECT_NEAR(reaction(touching, 1) / reaction(uncut, 1), 1, 0.015);
+  EXPECT_LT(touching.measures.cut->faces->largest_overlap, 0.01 * pressed);
+}
+
 TEST(FaceContact, DoesNothingWhereTheFacesOpen) {
   for (const bool right_through : {true, false}) {
     const Model model = square(pressed, right_through);
