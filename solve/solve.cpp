@@ -58,8 +58,7 @@ CutMeasures measure_cut(const Prepared& p, const SteppingResult& stepped, std::s
   measures.extent = p.cut->visibility ? extent(p.cut->visibility->facets()) : 0;
   if (p.face_contact) {
     const FaceContact::Measures touch = p.face_contact->measure(stepped.parameters);
-    measures.touching_nodes = touch.touching;
-    measures.largest_overlap = touch.largest_overlap;
+    measures.faces = {touch.touching, touch.largest_overlap};
   }
   return measures;
 }

@@ -56,7 +56,7 @@ struct SolveOptions {
   Dynamics dynamics = Dynamics::relaxation;
   /// Relaxation: stop when the bound of the remaining error is below this, mm, and below 1/50 of the displacement.
   double tolerance = 0.01;
-  int load_steps = 400;  ///< relaxation: steps over the load's curve
+  int load_steps = 400;  ///< relaxation: steps over the load's curve; more where a body may tear
   double time_step = 0;  ///< transient: s; 0: nine tenths of the critical one
   double damping = 0;    ///< transient: c of eq 26, 1/s
   int max_steps = 50000;
@@ -93,8 +93,8 @@ struct HistoryRow {
   double kinetic_energy = 0;                           ///< mJ, fictitious in dynamic relaxation
   double dissipated_energy = 0;                        ///< mJ, by the damping
   Eigen::Vector3d reaction = Eigen::Vector3d::Zero();  ///< N, sum over the nodes whose prescribed displacement is not 0
-  double residual = 0;                                 ///< |f_int - reactions| / |reactions|
-  double error_bound = 0;                              ///< mm; infinite until it is estimated
+  double residual = 0;     ///< sum of |f_int - reactions| / sum of |f_int|, or the largest of that at rest so far
+  double error_bound = 0;  ///< mm; infinite until it is estimated
 };
 
 /// The displacement on the way to the end state.
@@ -106,16 +106,21 @@ struct Snapshot {
   CutFacets cut = {};               ///< then; else the solution's
 };
 
+/// What became of the contact of faces, at the end.
+struct FaceMeasures {
+  std::size_t touching_nodes = 0;  ///< that overlap the opposite face or are within a hundredth of the spacing of it
+  double largest_overlap = 0;      ///< mm more than undeformed
+};
+
 /// What cutting took.
 struct CutMeasures {
-  std::size_t split_nodes = 0;       ///< nodes of the cloud that were split in two
-  std::size_t added_nodes = 0;       ///< their twins, and pairs where there was no node to split
-  std::size_t advances = 0;          ///< times the body was cut further while it moved
-  std::size_t touched_supports = 0;  ///< of integration points, evaluated again; over all advances
-  double extent = 0;                 ///< length, mm, or area, mm²
-  double seconds = 0;                ///< of the advances
-  std::size_t touching_nodes = 0;    ///< of faces, in touch with the opposite one at the end; with face contact only
-  double largest_overlap = 0;        ///< of such nodes, mm
+  std::size_t split_nodes = 0;        ///< nodes of the cloud that were split in two
+  std::size_t added_nodes = 0;        ///< their twins, and pairs where there was no node to split
+  std::size_t advances = 0;           ///< times the body was cut further while it moved
+  std::size_t touched_supports = 0;   ///< of integration points, evaluated again; over all advances
+  double extent = 0;                  ///< length, mm, or area, mm²
+  double seconds = 0;                 ///< of the advances
+  std::optional<FaceMeasures> faces;  ///< of face contact; absent: it was not asked for
 };
 
 /// What a resection took.

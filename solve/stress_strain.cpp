@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "solve/dynamics/relaxation.hpp"
 #include "solve/quadrature/integration_points.hpp"
 
 namespace brainshift::solve {
@@ -40,7 +41,12 @@ std::vector<StressStrainRow> stress_strain(const Model& model, Dynamics dynamics
   const double section = std::accumulate(volume.begin(), volume.end(), 0.0) / length;  // mm²
   constexpr double pascal = 1e6;                                                       // N/mm² to Pa
   std::vector<StressStrainRow> rows;
+  int calm = 0;
   for (const HistoryRow& h : history) {
+    calm = h.residual <= residual_at_rest ? calm + 1 : 0;
+    if (dynamics == Dynamics::relaxation && calm < rows_of_rest && &h != &history.back()) {
+      continue;
+    }
     const double time = dynamics == Dynamics::transient ? h.time : h.time * model.curve.duration();
     rows.push_back({h.time, model.curve.at(time) * pull.norm() / length, pascal * h.reaction.dot(along) / section});
   }

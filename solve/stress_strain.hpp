@@ -16,7 +16,8 @@ struct StressStrainRow {
 };
 
 /// The nominal stress-strain curve of a body that is pulled one way: along the mean prescribed displacement of its
-/// loaded nodes. Throws std::invalid_argument when nothing is pulled.
+/// loaded nodes. In relaxation of the states at rest (residual_at_rest) and of the last: others hold fictitious
+/// inertia. Throws std::invalid_argument when nothing is pulled.
 std::vector<StressStrainRow> stress_strain(const Model& model, Dynamics dynamics,
                                            const std::vector<HistoryRow>& history);
 

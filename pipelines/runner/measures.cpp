@@ -80,14 +80,13 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                                  {"seconds_coarse", m.seconds_coarse}};
   }
   if (m.cut) {
-    report.measures["cut"] = {{"split_nodes", m.cut->split_nodes},
-                              {"added_nodes", m.cut->added_nodes},
-                              {"advances", m.cut->advances},
-                              {"touched_supports", m.cut->touched_supports},
-                              {"extent", m.cut->extent},
-                              {"seconds", m.cut->seconds},
-                              {"touching_nodes", m.cut->touching_nodes},
-                              {"largest_overlap_mm", m.cut->largest_overlap}};
+    report.measures["cut"] = {{"split_nodes", m.cut->split_nodes}, {"added_nodes", m.cut->added_nodes},
+                              {"advances", m.cut->advances},       {"touched_supports", m.cut->touched_supports},
+                              {"extent", m.cut->extent},           {"seconds", m.cut->seconds}};
+    if (m.cut->faces) {
+      report.measures["cut"]["touching_nodes"] = m.cut->faces->touching_nodes;
+      report.measures["cut"]["largest_overlap_mm"] = m.cut->faces->largest_overlap;
+    }
   }
   if (m.resection) {
     report.measures["resection"] = {{"removed_nodes", m.resection->removed_nodes},

@@ -3,7 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
+#include <optional>
+#include <utility>
 
 #include "discretise/neighbours/point_tree.hpp"
 
@@ -18,6 +19,9 @@ constexpr double split_apart = 0.6;
 constexpr double added_apart = 0.85;
 constexpr double from_front = 0.5;
 constexpr double sampling = 0.05;
+constexpr double mouth_within = 0.5;  // so near to a mouth a node is moved there: two would be too near to each other
+constexpr double mouth_apart = 0.6;
+constexpr double next_on_surface = 1.6;  // so near are neighbours on the body's surface
 
 constexpr std::int32_t none = -1;
 
@@ -38,6 +42,9 @@ class Faces {
   }
 
   std::vector<Place> places() {
+    if (cut_.planar) {
+      add_mouths();
+    }
     split_nodes(true);
     split_nodes(false);
     for (Eigen::Index f = 0; f < cut_.facets.rows(); ++f) {
@@ -49,6 +56,10 @@ class Faces {
  private:
   Eigen::Vector3d corner(Eigen::Index facet, int i) const { return cut_.vertices.row(cut_.facets(facet, i)); }
   double spacing(std::int32_t node) const { return cloud_.spacing[static_cast<std::size_t>(node)]; }
+
+  double distance(std::int32_t node, const Eigen::Vector3d& x) const {
+    return (cloud_.positions.row(node).transpose() - x).norm();
+  }
 
   Eigen::Vector3d normal(Eigen::Index f) const {
     const Eigen::Vector3d along = corner(f, 1) - corner(f, 0);
@@ -82,6 +93,17 @@ class Faces {
     });
   }
 
+  /// Where the line between two nodes on either side of the facet goes through it.
+  std::optional<Eigen::Vector3d> crossing(Eigen::Index f, std::int32_t a, std::int32_t b) const {
+    const Eigen::Vector3d from = cloud_.positions.row(a), to = cloud_.positions.row(b), n = normal(f);
+    const double above = n.dot(from - corner(f, 0)), below = n.dot(to - corner(f, 0));
+    Eigen::Vector3d foot;
+    if (above * below >= 0 || !project(f, from + above / (above - below) * (to - from), foot)) {
+      return {};
+    }
+    return foot;
+  }
+
   void take(std::int32_t node, std::int32_t like, const Eigen::Vector3d& x, Eigen::Index facet, double apart) {
     const double h = spacing(like);
     const bool crowded = std::any_of(taken_.begin(), taken_.end(), [&](const Eigen::Vector3d& other) {
@@ -96,6 +118,9 @@ class Faces {
     }
     if (clear) {
       places_.push_back({node, like, x, normal(facet)});
+    }
+    if (node != none) {
+      is_face_[static_cast<std::size_t>(node)] = 1;
     }
   }
 
@@ -121,6 +146,65 @@ class Faces {
         take(node, node, place, nearest, split_apart);
       }
     }
+  }
+
+  /// Where a path leaves the body between two nodes of its surface, nearest neighbours first: without nodes of its own
+  /// the corner of a face there is badly held.
+  void add_mouths() {
+    struct Mouth {
+      double length;
+      Eigen::Index facet;
+      std::int32_t nearest;
+      Eigen::Vector3d x;
+    };
+    std::vector<Mouth> mouths;
+    for (const auto& [a, b] : surface_neighbours()) {
+      const double length = (cloud_.positions.row(a) - cloud_.positions.row(b)).norm();
+      for (Eigen::Index f = 0; f < cut_.facets.rows(); ++f) {
+        if (const auto x = crossing(f, a, b)) {
+          const bool a_nearer = distance(a, *x) <= distance(b, *x);
+          mouths.push_back({length, f, a_nearer ? a : b, *x});
+        }
+      }
+    }
+    std::stable_sort(mouths.begin(), mouths.end(), [](const Mouth& a, const Mouth& b) { return a.length < b.length; });
+    for (const Mouth& m : mouths) {
+      const bool there = distance(m.nearest, m.x) <= mouth_within * spacing(m.nearest);
+      if (!there || is_face_[static_cast<std::size_t>(m.nearest)] == 0) {
+        take(there ? m.nearest : none, m.nearest, m.x, m.facet, mouth_apart);
+      }
+    }
+  }
+
+  /// Pairs of nodes of the body's surface, face nodes aside, that are near each other and the cut.
+  std::vector<std::pair<std::int32_t, std::int32_t>> surface_neighbours() const {
+    std::vector<std::int32_t> near;
+    for (Eigen::Index a = 0; a < cloud_.positions.rows(); ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      if (cloud_.on_surface[k] != 0 && is_face_[k] == 0 && near_cut(cloud_.positions.row(a), cloud_.spacing[k])) {
+        near.push_back(static_cast<std::int32_t>(a));
+      }
+    }
+    std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      for (std::size_t j = i + 1; j < near.size(); ++j) {
+        const double length = (cloud_.positions.row(near[i]) - cloud_.positions.row(near[j])).norm();
+        if (length < next_on_surface * std::min(spacing(near[i]), spacing(near[j]))) {
+          pairs.emplace_back(near[i], near[j]);
+        }
+      }
+    }
+    return pairs;
+  }
+
+  bool near_cut(const Eigen::Vector3d& x, double h) const {
+    Eigen::Vector3d foot;
+    for (Eigen::Index f = 0; f < cut_.facets.rows(); ++f) {
+      if (project(f, x, foot) && (foot - x).norm() < next_on_surface * h) {
+        return true;
+      }
+    }
+    return false;
   }
 
   /// Tries places close together over the facet.

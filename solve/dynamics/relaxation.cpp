@@ -17,7 +17,6 @@ namespace {
 
 constexpr int window = 20;           // steps between looks at the state
 constexpr int recent_windows = 4;    // that the error bound looks back on
-constexpr int windows_of_rest = 5;   // after which a tear has come to rest
 constexpr double open_part = 0.02;   // of the largest displacement: the error that may be left, whatever the tolerance
 constexpr double mass_margin = 1.1;  // stiffness may grow by this before the masses are made anew
 
@@ -81,20 +80,17 @@ class Relaxation {
  private:
   bool all_cut() const { return system_.dissection == nullptr || system_.dissection->is_done(); }
 
-  /// The load waits until a tear that runs has come to rest: it is much faster than the load.
-  bool still_tearing() const {
-    return system_.dissection != nullptr && system_.dissection->may_tear() &&
-           motion_.result.steps - last_cut_ < windows_of_rest * window;
-  }
+  bool may_tear() const { return system_.dissection != nullptr && system_.dissection->may_tear(); }
+
+  /// A tear is much faster than the load, which waits for it.
+  bool rests() const { return calm_ >= rows_of_rest; }
 
   /// Between two windows, so that no difference over steps has a cut in it.
   void cut_if_due() {
     if (system_.dissection == nullptr ||
-        !motion_.go_on_cutting(*system_.dissection, system_.laws, motion_.time * system_.curve.duration(),
-                               !still_tearing())) {
+        !motion_.go_on_cutting(*system_.dissection, system_.laws, motion_.time * system_.curve.duration(), calm_ > 0)) {
       return;
     }
-    last_cut_ = motion_.result.steps;
     nodes_ = system_.points.nodes();
     force_before_.assign(4 * nodes_, 0.0);
     internal_force(system_.points, system_.laws, motion_.now, motion_.scratch, motion_.force);
@@ -110,19 +106,34 @@ class Relaxation {
     rates_.clear();
     bounds_.clear();
     bound_ = std::numeric_limits<double>::infinity();
+    calm_ = 0;
+    slowest_ = slowest_in_tearing;
   }
 
   void step() {
     if (motion_.result.steps % window == window - 1) {
       std::swap(motion_.force, force_before_);
     }
-    load_step_ += still_tearing() ? 0 : 1;
-    const double time = std::min(1.0, static_cast<double>(load_step_) / load_steps_);
+    load_further();
+    const double time = std::min(1.0, load_step_ / load_steps_);
     const double fraction = system_.curve.at(time * system_.curve.duration());
     motion_.step(system_.laws, mass_, alpha, critical_beta(lowest_), time, fraction);
     if (motion_.squeezed()) {
       follow_stiffness();
     }
+  }
+
+  /// A body that may tear is loaded as slowly as it comes to rest. The speed changes evenly in proportion: a jump of it
+  /// would be one of the inertia in the reactions.
+  void load_further() {
+    if (may_tear()) {
+      constexpr double faster = 1.01, slower = 0.99;
+      load_speed_ *= rests() ? faster : slower;
+      load_speed_ = std::min(std::max(load_speed_, slowest_ * load_steps_), 1.0);
+    } else {
+      load_speed_ = 1;
+    }
+    load_step_ += load_speed_;
   }
 
   /// Once a window: is the state sound, how far is it from rest, how fast does it get there?
@@ -135,6 +146,7 @@ class Relaxation {
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     HistoryRow& row = motion_.result.history.back();
     row.residual = residual();
+    calm_ = row.residual <= residual_at_rest ? calm_ + 1 : 0;
     row.error_bound = bound_;
     const int windows = motion_.result.steps / window;
     if (windows % (motion_.time < 1 ? 3 : 10) == 0) {
@@ -176,16 +188,18 @@ class Relaxation {
     return farthest_ > 0 ? std::min(options_.tolerance, open_part * farthest_) : options_.tolerance;
   }
 
-  /// What still accelerates, over the internal force.
-  double residual() const {
+  /// What still accelerates, over the internal force or the largest at rest so far. Sums over the nodes, not of
+  /// squares: what of it can be in a sum of reactions does then not depend on how many nodes there are.
+  double residual() {
     const Motion& m = motion_;
     const double beta = critical_beta(lowest_);
-    const double squared_push = sum_over_nodes(nodes_, [&](std::size_t a) {
-      const Eigen::Vector4d push = at(m.now, a) - at(m.before, a) - beta * (at(m.before, a) - at(m.next, a));
-      return (mass_[a] / alpha * push).squaredNorm();
+    const double push = sum_over_nodes(nodes_, [&](std::size_t a) {
+      return mass_[a] / alpha * (at(m.now, a) - at(m.before, a) - beta * (at(m.before, a) - at(m.next, a))).norm();
     });
-    const double squared_force = sum_over_nodes(nodes_, [&](std::size_t a) { return at(m.force, a).squaredNorm(); });
-    return squared_force > 0 ? std::sqrt(squared_push / squared_force) : 0;
+    const double force = sum_over_nodes(nodes_, [&](std::size_t a) { return at(m.force, a).norm(); });
+    const double most = std::max(force, force_at_rest_);
+    force_at_rest_ = push <= residual_at_rest * most ? most : force_at_rest_;
+    return most > 0 ? push / most : 0;
   }
 
   /// Makes the masses anew when a node has become stiffer than they allow for.
@@ -222,7 +236,9 @@ class Relaxation {
     return result;
   }
 
-  static constexpr int never = -1000000;
+  // of a body that may tear; the first steps are restless however slow the load is
+  static constexpr double slowest_at_first = 1.0 / 30000, slowest_in_tearing = 1.0 / 300000;
+
   static constexpr double smallest_eigenvalue = 1e-8;
   static constexpr double largest_eigenvalue_of_beta = 0.028;  // above it β is too small for α
 
@@ -235,10 +251,13 @@ class Relaxation {
   double mass_scale_ = 1;
   double lowest_ = 1e-4;  // A_0: a guess until there are increments
   double bound_ = std::numeric_limits<double>::infinity();
-  double farthest_ = 0;  // largest |û| on the way, mm
+  double farthest_ = 0;       // largest |û| on the way, mm
+  double force_at_rest_ = 0;  // largest sum of |f_int| of a state at rest, µN
   int load_steps_;
-  int load_step_ = 0;
-  int last_cut_ = never;  // the step of it
+  int calm_ = 0;                       // last rows of the history with a residual as at rest
+  double slowest_ = slowest_at_first;  // share of the load's curve a step
+  double load_speed_ = 0;              // steps of the load a step
+  double load_step_ = 0;
 };
 
 }  // namespace

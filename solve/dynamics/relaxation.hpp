@@ -6,14 +6,19 @@
 
 namespace brainshift::solve {
 
+/// A state counts as one at rest when the HistoryRow::residual of its row and those before, so many in all, is at most
+/// this: a low alone may be a turning point. Reactions are then about as true.
+inline constexpr double residual_at_rest = 0.02;
+inline constexpr int rows_of_rest = 4;
+
 /// Adaptive dynamic relaxation (Joldes, Wittek & Miller 2011) to the steady state under the full load. Steps by
 ///   û⁺ = û + β(û − û⁻) + α M⁻¹ (f_ext − f_int),  then contact, then the essential conditions,
 /// with the bound of the stiffness as mass, scaled to the largest eigenvalue A_m = 1 that power iteration finds (should
 /// that prove unstable, once more with the bound itself). α is fixed, β = (1 − √(α A_0))² damps
 /// the lowest active eigenvalue A_0 critically; it is estimated from the increments, A_0 ≈ ΔûᵀΔf/(ΔûᵀMΔû). Masses
-/// follow the tangents of the state reached. The load's curve is run through in options.load_steps. Stops when the
-/// bound of the remaining error, ρ/(1 − ρ) |û⁺ − û|∞ with ρ the slower of the measured rate and √β, is below the
-/// tolerance.
+/// follow the tangents of the state reached. The load's curve is run through in options.load_steps, of a body that may
+/// tear more slowly where it would else not be at rest, and hardly on while a tear runs. Stops when the bound of the
+/// remaining error, ρ/(1 − ρ) |û⁺ − û|∞ with ρ the slower of the measured rate and √β, is below the tolerance.
 SteppingResult relax(const System& system, const SolveOptions& options, const Progress& progress);
 
 }  // namespace brainshift::solve

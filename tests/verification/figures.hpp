@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/report/canvas.hpp"
 #include "pipelines/report/plot.hpp"
 
 namespace brainshift::verification {
@@ -27,9 +28,15 @@ struct Figure {
 using pipelines::Plot;
 using pipelines::Series;
 
+struct Picture {
+  std::string file;  ///< without .png
+  pipelines::Canvas canvas;
+};
+
 struct Outcome {
   std::vector<Figure> figures;
   std::vector<Plot> plots;
+  std::vector<Picture> pictures = {};
 };
 
 /// small: minutes become seconds, for the tests; the bounds are then wider where the case says so.

@@ -47,7 +47,7 @@ Arguments read_arguments(int argc, char** argv) {
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file);
+  std::ofstream out(file, std::ios::binary);
   out << text;
   if (!out.flush()) {
     throw std::runtime_error(file.string() + ": cannot be written");
@@ -79,6 +79,9 @@ int run(const Arguments& arguments) {
       std::filesystem::create_directories(arguments.out);
       for (const Plot& plot : outcome.plots) {
         draw(arguments.out, plot);
+      }
+      for (const Picture& picture : outcome.pictures) {
+        write_text(arguments.out / (picture.file + ".png"), encode_png(picture.canvas));
       }
       write_text(arguments.out / "verification.md", markdown_table(rows));
       write_text(arguments.out / "verification.csv", csv_table(rows));

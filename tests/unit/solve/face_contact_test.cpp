@@ -86,11 +86,22 @@ TEST(FaceContact, CarriesWhatAnUncutBlockCarries) {
     ASSERT_TRUE(touching.measures.converged) << touching.failure;
     EXPECT_NEAR(reaction(touching, 1) / reaction(uncut, 1), 1, 0.01);
     EXPECT_LT(overlap(touching.solution, from, to), 0.01 * pressed);
-    EXPECT_LT(touching.measures.cut->largest_overlap, 0.005 * pressed);
-    EXPECT_GE(touching.measures.cut->touching_nodes, right_through ? 44u : 18u);
+    EXPECT_LT(touching.measures.cut->faces->largest_overlap, 0.005 * pressed);
+    EXPECT_GE(touching.measures.cut->faces->touching_nodes, right_through ? 44u : 18u);
     EXPECT_GT(overlap(apart.solution, from, to), 0.8 * pressed);
     EXPECT_LT(reaction(apart, 1) / reaction(uncut, 1), 0.7);
   }
+}
+
+/// Its right end lies between two nodes of the surface.
+TEST(FaceContact, HoldsTheCornersWhereACutLeavesTheBody) {
+  const Model whole = square(-pressed, true);
+  const Cut cut = path({-5, 30.5, 0}, {65, 30.5, 0});
+  const SolveResult uncut = solve(whole, planar_options());
+  const SolveResult touching = solve(with_cut(whole, cut, true), planar_options());
+  ASSERT_TRUE(touching.measures.converged) << touching.failure;
+  EXPECT_NEAR(reaction(touching, 1) / reaction(uncut, 1), 1, 0.015);
+  EXPECT_LT(touching.measures.cut->faces->largest_overlap, 0.01 * pressed);
 }
 
 TEST(FaceContact, DoesNothingWhereTheFacesOpen) {
@@ -101,7 +112,7 @@ TEST(FaceContact, DoesNothingWhereTheFacesOpen) {
     const SolveResult off = solve(with_cut(model, cut, false), planar_options());
     EXPECT_LT((on.solution.displacement - off.solution.displacement).cwiseAbs().maxCoeff(),
               1e-6);  // touched on the way
-    EXPECT_EQ(on.measures.cut->largest_overlap, 0);
+    EXPECT_EQ(on.measures.cut->faces->largest_overlap, 0);
   }
 }
 
@@ -126,7 +137,7 @@ TEST(FaceContact, SlidesWithoutFriction) {
   const SolveResult result = solve(with_cut(model, cut, true), planar_options());
   ASSERT_TRUE(result.measures.converged) << result.failure;
   EXPECT_NEAR(reaction(result, 1) / (-push / slope), 1, 0.03);
-  EXPECT_LT(result.measures.cut->largest_overlap, 0.01 * d);
+  EXPECT_LT(result.measures.cut->faces->largest_overlap, 0.01 * d);
   const Points middle = displacement_at(result.solution, Points({{30, 45, 0}}));
   EXPECT_NEAR(middle(0, 0) / (-d / slope), 1, 0.05);
 }
@@ -143,7 +154,7 @@ TEST(FaceContact, CarriesInSpace) {
   const SolveResult touching = solve(with_cut(whole, sheet, true), {});
   ASSERT_TRUE(touching.measures.converged) << touching.failure;
   EXPECT_NEAR(reaction(touching, 2) / reaction(uncut, 2), 1, 0.015);
-  EXPECT_LT(touching.measures.cut->largest_overlap, 0.01 * pressed);
+  EXPECT_LT(touching.measures.cut->faces->largest_overlap, 0.01 * pressed);
 }
 
 TEST(FaceContact, FollowsACutThatGoesOn) {

@@ -29,16 +29,16 @@ Model torn_strip() {
   return model;
 }
 
-SolveResult torn(const Model& model) {
+SolveResult torn(const Model& model, int load_steps = 1500) {
   SolveOptions options = test::plane_options();
-  options.load_steps = 1500;
+  options.load_steps = load_steps;
   options.shape.basis = Basis::linear;
   return solve(model, options);
 }
 
 TEST(Tearing, PartsAStripWhereItIsWeakAndTheStressFallsToZero) {
   Model model = torn_strip();
-  model.rupture->weak_spots = {{{18, 0}, 2, 0.7}};
+  model.rupture->weak_spots = {{{18, 0}, 4, 0.7}};
   const SolveResult result = torn(model);
   ASSERT_EQ(result.failure, "");
   const auto curve = stress_strain(model, Dynamics::relaxation, result.history);
@@ -50,6 +50,28 @@ TEST(Tearing, PartsAStripWhereItIsWeakAndTheStressFallsToZero) {
   const Points& vertices = result.solution.cut.vertices;
   EXPECT_NEAR(vertices.col(0).mean(), 18, 3) << "the tear runs across from the weak spot";
   EXPECT_GT(vertices.col(1).maxCoeff() - vertices.col(1).minCoeff(), strip_width);
+}
+
+TEST(Tearing, StressRisesToItsPeakAndFallsWithoutSwings) {
+  Model model = torn_strip();
+  model.rupture->weak_spots = {{{18, 0}, 4, 0.7}};
+  for (const int load_steps : {400, 1500}) {
+    const SolveResult result = torn(model, load_steps);
+    ASSERT_EQ(result.failure, "");
+    const auto curve = stress_strain(model, Dynamics::relaxation, result.history);
+    const auto largest =
+        std::max_element(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.stress < b.stress; });
+    ASSERT_GT(largest - curve.begin(), 20);
+    ASSERT_GT(curve.end() - largest, 10);
+    double most = 0, least = largest->stress;
+    for (auto row = curve.begin(); row != curve.end(); ++row) {
+      double& bound = row < largest ? most : least;
+      bound = row < largest ? std::max(bound, row->stress) : std::min(bound, row->stress);
+      const double swing = row < largest ? most - row->stress : std::max(row->stress - least, -row->stress);
+      EXPECT_LT(swing, (row < largest ? 0.01 : 0.08) * largest->stress) << "at " << row->elongation;
+    }
+    EXPECT_EQ(curve.back().time, 1);
+  }
 }
 
 TEST(Tearing, StressOfAStripIsThatOfUniaxialTension) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/verification/block_picture.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -143,8 +144,11 @@ solve::Cut sheet(int divisions) {
   return cut;
 }
 
+const Eigen::Vector3d block_size(60, 30, 60);  // mm
+constexpr double block_front = 30;
+
 solve::Model block(double least_distance) {
-  const Eigen::Vector3d size(60, 30, 60);
+  const Eigen::Vector3d& size = block_size;
   solve::Model model;
   model.cloud = box_cloud(size, least_distance, 4, [](const Eigen::Vector3d& x) {
     return std::clamp(std::hypot(x.x() - 30, x.z() - 30) / 15, 0.6, 1.0);
@@ -210,6 +214,7 @@ Outcome cut_block(bool small) {
   rows.add("supports evaluated again at an advance, of all", "",
            100 * touched / static_cast<double>(progressive.measures.integration_points), "%", {}, progressive);
   rows.add("cutting, a square centimetre", "", 100 * m.seconds / m.extent, "s", {}, progressive);
+  outcome.pictures.push_back({"cut_block", picture_of_cut_block(progressive.solution, block_size, block_front)});
   return outcome;
 }
 
