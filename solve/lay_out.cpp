@@ -98,6 +98,7 @@ Prepared lay_out(const Model& model, const SolveOptions& options, const Pieces& 
           std::move(face_contact),
           external_force(model, cloud, nodal_rows, points, point_rows),
           {},
+          {},
           {}};
 }
 

@@ -29,6 +29,7 @@ struct Prepared {
   std::optional<Contact> contact;
   std::optional<FaceContact> face_contact;
   NodalVectors external;
+  NodalVectors start;            ///< û to relax from; empty: from rest
   std::optional<CutBody> cut;    ///< absent: a scene without one
   std::optional<Pieces> pieces;  ///< where cuts go on; else they are gone
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/solve.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "solve/cut/dissection.hpp"
@@ -11,6 +12,7 @@
 #include "solve/nodal_displacement.hpp"
 #include "solve/ordered_cloud.hpp"
 #include "solve/prepare.hpp"
+#include "solve/region/coarse.hpp"
 #include "solve/region/region.hpp"
 
 namespace brainshift::solve {
@@ -25,7 +27,7 @@ double seconds_since(Clock::time_point start) {
 
 HeldBytes held_bytes(const Prepared& p, HeldBytes stepping) {
   stepping.shape_functions = p.points.shape_bytes() + p.nodal_rows.held_bytes() + p.placed.held_bytes();
-  stepping.nodal_vectors += bytes(p.mass) + bytes(p.original);
+  stepping.nodal_vectors += bytes(p.mass) + bytes(p.original) + bytes(p.start);
   stepping.pressure_patches = bytes(p.points.mode);
   stepping.essential_conditions = p.essential.held_bytes();
   stepping.contact = (p.contact ? p.contact->held_bytes() : 0) + (p.face_contact ? p.face_contact->held_bytes() : 0);
@@ -50,6 +52,26 @@ void measure(const Prepared& p, const SteppingResult& stepped, SolveMeasures& m)
   m.largest_stretch = stepped.state.largest_stretch;
   m.compressed_share = stepped.state.compressed_share;
   m.bytes = held_bytes(p, stepped.held);
+}
+
+bool starts_coarse(const Model& model, const SolveOptions& options) {
+  return options.start == Start::coarse && options.dynamics == Dynamics::relaxation && options.snapshot_every == 0 &&
+         model.plane == Plane::none && model.cuts.empty() && !model.rupture && !model.resection;
+}
+
+/// The coarse solution's displacement at the nodes, taken for their parameters: near enough for a start.
+NodalVectors coarse_start(const Model& model, SolveOptions options, const std::vector<std::int32_t>& original) {
+  constexpr double looser = 5;  // what a coarse solution is wrong by is more
+  options.tolerance *= looser;
+  options.load_steps = std::min(options.load_steps, 100);
+  NodalVectors start;
+  if (const std::optional<Points> displacement = coarse_displacement(model, options, {})) {
+    start.resize(4 * original.size(), 0.0);
+    for (std::size_t a = 0; a < original.size(); ++a) {
+      at(start, a).head<3>() = displacement->row(original[a]);
+    }
+  }
+  return start;
 }
 
 CutMeasures measure_cut(const Prepared& p, const SteppingResult& stepped, std::size_t nodes, CutMeasures measures) {
@@ -82,7 +104,8 @@ SolveResult step(const Model& model, const SolveOptions& options, Prepared prepa
                       p.nodal_rows,
                       p.original,
                       dissection ? &*dissection : nullptr,
-                      p.face_contact ? &*p.face_contact : nullptr};
+                      p.face_contact ? &*p.face_contact : nullptr,
+                      p.start.empty() ? nullptr : &p.start};
   SteppingResult stepped = options.dynamics == Dynamics::relaxation ? relax(system, options, progress)
                                                                     : march(system, p.prony, p.mass, options, progress);
   const NodeCloud& cloud = p.cut ? p.cut->cloud : model.cloud;
@@ -130,6 +153,12 @@ SolveResult solve(const Model& model, const SolveOptions& given, const Progress&
   const Model& solved = resected ? resected->rest : model;
   Prepared prepared = prepare(solved, options, {}, measures, progress);
   measures.seconds_setup = seconds_since(start);
+  if (starts_coarse(model, options)) {
+    const auto coarse = Clock::now();
+    report(progress, 0, "solving a coarse cloud");
+    prepared.start = coarse_start(model, options, prepared.original);
+    measures.seconds_coarse = seconds_since(coarse);
+  }
   return step(solved, options, std::move(prepared), measures, progress);
 }
 

@@ -42,6 +42,12 @@ enum class Dynamics : std::uint8_t {
   transient,   ///< the motion in time, with the physical mass
 };
 
+/// Where relaxation begins.
+enum class Start : std::uint8_t {
+  rest,    ///< undeformed; the load comes over load_steps
+  coarse,  ///< under the full load, as a coarse cloud's solution lies: fewer steps to the same end, no way there
+};
+
 struct SolveOptions {
   ShapeOptions shape;  ///< planar is set from the model
   Volumetric volumetric = Volumetric::mean_dilatation;
@@ -57,6 +63,9 @@ struct SolveOptions {
   /// Relaxation: stop when the bound of the remaining error is below this, mm, and below 1/50 of the displacement.
   double tolerance = 0.01;
   int load_steps = 400;  ///< relaxation: steps over the load's curve; more where a body may tear
+  /// Relaxation. A coarse start is one from rest all the same for a body that is cut, torn or resected, where snapshots
+  /// are wanted, and where the coarse cloud cannot be solved or its solution does not hold.
+  Start start = Start::rest;
   double time_step = 0;  ///< transient: s; 0: nine tenths of the critical one
   double damping = 0;    ///< transient: c of eq 26, 1/s
   int max_steps = 50000;
@@ -156,7 +165,7 @@ struct SolveMeasures {
   double seconds_stepping = 0;
   HeldBytes bytes;
   std::size_t region_nodes = 0;  ///< solved, those at the region's rim too; 0: no region was asked for
-  double seconds_coarse = 0;     ///< of the coarse solution that chose the region
+  double seconds_coarse = 0;     ///< of the coarse solution that chose the region or was the start
   double coarse_error = 0;       ///< of it, largest next to the region's rim, mm: what the outside may be wrong by
 };
 

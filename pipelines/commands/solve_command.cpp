@@ -215,6 +215,7 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
                            "dynamics",
                            "tolerance",
                            "load_steps",
+                           "start",
                            "time_step",
                            "damping",
                            "duration",

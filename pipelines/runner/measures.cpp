@@ -76,8 +76,10 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
   if (m.region_nodes > 0) {
     report.measures["region"] = {{"nodes", m.region_nodes},
                                  {"share", static_cast<double>(m.region_nodes) / static_cast<double>(m.nodes)},
-                                 {"coarse_error_mm", m.coarse_error},
-                                 {"seconds_coarse", m.seconds_coarse}};
+                                 {"coarse_error_mm", m.coarse_error}};
+  }
+  if (m.seconds_coarse > 0) {
+    report.measures["seconds_coarse"] = m.seconds_coarse;
   }
   if (m.cut) {
     report.measures["cut"] = {{"split_nodes", m.cut->split_nodes}, {"added_nodes", m.cut->added_nodes},

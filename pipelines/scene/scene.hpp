@@ -113,6 +113,13 @@ struct SceneSource {
   std::map<std::string, int> lines;
 };
 
+/// A scene is solved for where the brain ends, not for the way there.
+inline solve::SolveOptions fewest_steps() {
+  solve::SolveOptions options;
+  options.start = solve::Start::coarse;
+  return options;
+}
+
 /// The whole problem. Members that are empty are parts that the scene does not name: they are not built. File names are
 /// absolute or relative to the working directory, not to the scene's file.
 struct Scene {
@@ -127,8 +134,8 @@ struct Scene {
   segmentation::SegmentOptions segment;  ///< brain_labels and skull_label are filled in from tissues and image
   discretise::DiscretiseOptions discretise;
   CraniotomyRefinement refinement;
-  solve::SolveOptions solve;           ///< but for points_per_cell
-  std::optional<int> points_per_cell;  ///< absent: the most that the cells take; adaptive 1
+  solve::SolveOptions solve = fewest_steps();  ///< but for points_per_cell
+  std::optional<int> points_per_cell;          ///< absent: the most that the cells take; adaptive 1
   Loading loading;
   registration::RegisterOptions registration;
   std::array<std::string, all_stages.size()> commands;  ///< external commands that replace stages; empty: our own stage

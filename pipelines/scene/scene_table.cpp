@@ -243,6 +243,11 @@ Element solve_element() {
        number<Scene>("tolerance", MEMBER(solve.tolerance), above_zero, "mm",
                      "relaxation: stop when the bound of the remaining error is below this"),
        number<Scene>("load_steps", MEMBER(solve.load_steps), {.low = 1}, "", "relaxation: steps over the load's curve"),
+       choice<Scene>("start", MEMBER(solve.start),
+                     std::vector<std::pair<std::string, solve::Start>>{{"coarse", solve::Start::coarse},
+                                                                       {"rest", solve::Start::rest}},
+                     "of relaxation: under the full load, as a coarse cloud's solution lies, or undeformed, with a "
+                     "history of the load; also where a body is cut or snapshots are wanted"),
        number<Scene>("time_step", MEMBER(solve.time_step), not_negative, "s",
                      "transient: at most the critical one; 0: nine tenths of that"),
        number<Scene>("damping", MEMBER(solve.damping), not_negative, "1/s", "transient: proportional to mass; 0: none"),

@@ -128,6 +128,16 @@ void Motion::add_energies(std::span<const double> mass, double alpha, double bet
   fraction_ = fraction;
 }
 
+void Motion::start_from(const NodalVectors& parameters, const PointLaws& laws) {
+  now = parameters;
+  fraction_ = fraction_before_ = 1;
+  time = 1;
+  system_.essential.apply(fraction_, now);
+  before = next = now;
+  internal_force(system_.points, laws, now, scratch, force);
+  external_work_ = point_state(system_.points, laws, scratch).strain_energy;
+}
+
 bool Motion::squeezed() {
   constexpr double much = 0.8;
   const double smallest = jacobian_range(scratch).smallest;

@@ -29,6 +29,9 @@ class Motion {
   /// Notes where a point turned inside out first.
   bool squeezed();
 
+  /// Goes on from û under the full load, at rest, with as much work done as the body holds. After weigh().
+  void start_from(const NodalVectors& parameters, const PointLaws& laws);
+
   /// Keeps the state and adds a row to the history when the state is sound, else says in result.failure why it is not.
   /// most_imbalance: of the work and what became of it, over the largest of them so far; infinite: not looked at.
   /// Unsound, too, is a motion with more energy than was put in. Returns whether it is sound.

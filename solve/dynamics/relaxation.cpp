@@ -49,6 +49,11 @@ class Relaxation {
       m *= mass_margin * mass_scale_;
     }
     motion_.weigh(mass_);
+    if (system_.start != nullptr) {
+      motion_.start_from(*system_.start, system_.laws);
+      load_step_ = load_steps_;
+      follow_stiffness();
+    }
   }
 
   SteppingResult run(const Progress& progress) {
@@ -264,6 +269,11 @@ class Relaxation {
 
 SteppingResult relax(const System& system, const SolveOptions& options, const Progress& progress) {
   SteppingResult result = Relaxation(system, options, false).run(progress);
+  if (result.unstable && system.start != nullptr) {
+    System from_rest = system;
+    from_rest.start = nullptr;
+    return relax(from_rest, options, progress);
+  }
   if (result.unstable && system.dissection == nullptr) {  // a body that was cut does not heal
     result = Relaxation(system, options, true).run(progress);
     if (result.unstable) {

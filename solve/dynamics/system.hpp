@@ -27,6 +27,7 @@ struct System {
   const std::vector<std::int32_t>& original;  ///< the cloud's node of each
   Dissection* dissection;                     ///< null: nothing is cut on the way
   FaceContact* face_contact = nullptr;        ///< of cuts; null: nothing is stepped over
+  const NodalVectors* start = nullptr;        ///< û of a coarse solution under the full load; null: from rest
 };
 
 /// What time stepping leaves behind.
