@@ -54,7 +54,7 @@ itk::ContinuousIndex<double, 3> as_itk(const Eigen::Vector3d& index) {
 using ItkScalar = itk::Image<float, 3>;
 
 ScalarImage warp_linear(const ScalarImage& image, const VectorImage& resampling) {
-  const ItkScalar::Pointer voxels = to_itk(image);
+  const ItkScalar::Pointer voxels = seen_by_itk(image);
   const auto interpolator = itk::LinearInterpolateImageFunction<ItkScalar, double>::New();
   interpolator->SetInputImage(voxels);
   return resample(image, resampling, [&](const Eigen::Vector3d& index, int) {
@@ -67,7 +67,7 @@ ScalarImage warp_bspline(const ScalarImage& image, const VectorImage& resampling
     throw std::invalid_argument(
         "cubic B-splines need at least four voxels along each axis of the image; use linear interpolation");
   }
-  const ItkScalar::Pointer voxels = to_itk(image);
+  const ItkScalar::Pointer voxels = seen_by_itk(image);
   const auto interpolator = itk::BSplineInterpolateImageFunction<ItkScalar, double, float>::New();
   interpolator->SetSplineOrder(3);
   interpolator->SetNumberOfWorkUnits(static_cast<itk::ThreadIdType>(omp_get_max_threads()));
