@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -139,8 +138,8 @@ void evaluate(const Solution& solution, const BrainZones& zones, double reach, V
   const solve::ShapeFunctions shape = shape_functions(solution);
   const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
   const Bricks bricks(field.geometry);
-  const double moved = std::numbers::sqrt3 * (zones.shell - reach);  // by place_of(), farthest along a diagonal
-  const NodeInterpolation interpolation(solution, parameters, bricks.radius() + moved + 1e-6);
+  const double widest = bricks.radius() + (zones.shell - reach) / 2;  // as place_of() draws few bricks apart
+  const NodeInterpolation interpolation(solution, parameters, widest);
   const auto near = [&](const Voxel& v) {
     return zones.zone[v.offset] == Zone::brain || zones.zone[v.offset] == Zone::shell;
   };

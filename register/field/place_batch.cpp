@@ -189,27 +189,28 @@ BRAINSHIFT_INLINE void solve_unit(const Triangle<size>& root, Lanes* c) {
   }
 }
 
-/// A hundredth more than the solver asks of a support (moving_least_squares.hpp): the sums differ in the last digits.
-/// The penalty, which is in the factor here, must not have made up for what the nodes lack.
+/// By the solver's limits (moving_least_squares.hpp), but for a hundredth about them, as the sums differ in the last
+/// digits. The penalty, which is in the factor here, must not have made up for what the nodes lack.
 template <int order>
 BRAINSHIFT_INLINE void judge(const Sums<order>& sums, const Lanes& penalty, const Triangle<Basis<order>::size>& root,
-                             Lanes& sure) {
+                             Lanes& verdict) {
   constexpr int linear_terms = Monomials<1>::count, size = Basis<order>::size;
-  constexpr double margin = 1.01;
+  constexpr double more = 1.01, less = 0.99;
   const Lanes& total = sums.moment[0];
-  const Lanes reach = sums.radii / total, reach_squared = reach * reach;
+  const Lanes reach = sums.radii / total;
   Lanes inverse;
   squared_inverse<1, linear_terms>(root, inverse);
-  const auto linear = 1 / (total * inverse) > margin * 1e-3 * reach_squared;
-  sure = linear ? Lanes{} + 1 : Lanes{};
+  const Lanes linear = 1 / (total * inverse), linear_limit = 1e-3 * reach * reach;
+  auto admissible = linear > more * linear_limit;
+  auto inadmissible = linear < less * linear_limit;
   if constexpr (order == 2) {
     squared_inverse<linear_terms, size>(root, inverse);
-    const Lanes determined = 1 / (total * inverse);
-    const auto quadratic = determined > margin * 2e-4 * reach_squared * reach_squared;
-    const auto without_penalty = determined * total > 200 * penalty;
-    sure = quadratic ? sure : Lanes{};
-    sure = without_penalty ? sure : Lanes{};
+    const Lanes quadratic = 1 / (total * inverse), limit = 2e-4 * reach * reach * reach * reach;
+    admissible &= (quadratic > more * limit) & (quadratic * total > 200 * penalty);
+    inadmissible |= quadratic < less * limit;
   }
+  verdict = admissible ? Lanes{} + 1 : Lanes{};
+  verdict = inadmissible ? Lanes{} - 1 : verdict;
 }
 
 template <int order>
@@ -221,7 +222,7 @@ BRAINSHIFT_INLINE void interpolate(PlaceBatch& batch) {
   const Lanes penalty = squared * squared * batch.penalty;  // µ counts where the largest radius is the unit
   Triangle<size> root;
   factorise(sums, penalty, root);
-  judge(sums, penalty, root, batch.sure);
+  judge(sums, penalty, root, batch.verdict);
   Lanes c[size];
   solve_unit(root, c);
   for (int axis = 0; axis < 3; ++axis) {

@@ -12,18 +12,18 @@ using Lanes = double __attribute__((vector_size(batch_size * sizeof(double))));
 
 struct BatchNode {
   double position[3];   ///< mm
-  double radius;        ///< of its support, mm
+  double radius;        ///< of its support, mm; grown where supports are
   double parameter[3];  ///< û, mm
 };
 
-/// Eight places that are interpolated at together, and all nodes that any of them sees.
+/// Places that are interpolated at together, and all nodes that any of them sees.
 struct PlaceBatch {
   std::span<const BatchNode> nodes;
   double length;   ///< that scales the coordinates, mm: about the largest radius
   double penalty;  ///< µ of MMLS
   Lanes place[3];
   Lanes displacement[3];  ///< Σφû, the result
-  Lanes sure;             ///< 1 where the support is admissible beyond doubt and so is not grown, else 0
+  Lanes verdict;          ///< on the support: 1 admissible, -1 not, 0 too near to the limit to tell
 };
 
 /// Moving least squares as in solve/shape, of the linear and of the (modified) quadratic basis.
