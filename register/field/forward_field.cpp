@@ -62,7 +62,7 @@ double mean(const std::vector<double>& values) {
 /// reach, as shape functions extrapolate out there.
 Eigen::Vector3d place_of(const BrainZones& zones, const ImageGeometry& geometry, const Voxel& voxel, double reach) {
   const Eigen::Vector3d place = geometry.to_world(voxel.index());
-  const double outside = zones.outside.value(place);
+  const double outside = zones.zone[voxel.offset] == Zone::brain ? 0 : zones.outside.value(place);
   return outside > reach ? Eigen::Vector3d(place - (outside - reach) * zones.outside.gradient(place)) : place;
 }
 
