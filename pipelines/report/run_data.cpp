@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <future>
 #include <map>
 #include <nanoflann.hpp>
 #include <sstream>
@@ -87,15 +88,19 @@ RunData read_run(const fs::path& run_folder) {
               .history = {}};
   const auto image = [](const fs::path& file) { return read_image(file); };
   run.t1 = read_if_there(input_path(run.record, "image.t1"), image);
+  // The field takes as long to read as all the others together.
+  auto forward = std::async(std::launch::async, [&] {
+    return read_if_there(run_folder / "register/preop_to_intraop.nii.gz",
+                         [](const fs::path& file) { return read_vector_image(file); });
+  });
   run.warped = read_if_there(run_folder / "register/warped.nii.gz", image);
-  run.forward = read_if_there(run_folder / "register/preop_to_intraop.nii.gz",
-                              [](const fs::path& file) { return read_vector_image(file); });
   run.brain = read_if_there(run_folder / "segment/brain.vtp", [](const fs::path& file) { return read_surface(file); });
   run.solution =
       read_if_there(run_folder / "solve/solution.vtu", [](const fs::path& file) { return read_solution(file); });
   if (fs::exists(run_folder / "solve/history.csv")) {
     run.history = read_history(run_folder / "solve/history.csv");
   }
+  run.forward = forward.get();
   return run;
 }
 

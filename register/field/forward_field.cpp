@@ -4,17 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "register/field/field_sampler.hpp"
+#include "register/field/node_interpolation.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::registration {
 
 namespace {
 
-constexpr std::size_t chunk = 1 << 17;     // voxels evaluated between two reports of progress
 constexpr double reach_in_spacings = 0.3;  // how far outside the nodes their shape functions are trusted
 constexpr double smoothing_width = 3.0;    // mm, standard deviation of the smoothing outside the brain
 
@@ -26,18 +28,24 @@ struct Voxel {
   Eigen::Vector3d index() const { return {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}; }
 };
 
+/// In the order of their offsets.
 template <class Wanted>
 std::vector<Voxel> voxels_where(const ImageGeometry& geometry, const Wanted& wanted) {
-  std::vector<Voxel> voxels;
+  std::vector<std::vector<Voxel>> layers(static_cast<std::size_t>(geometry.size.z()));
+#pragma omp parallel for schedule(dynamic, 1)
   for (int k = 0; k < geometry.size.z(); ++k) {
     for (int j = 0; j < geometry.size.y(); ++j) {
       for (int i = 0; i < geometry.size.x(); ++i) {
         const Voxel voxel{i, j, k, geometry.offset(i, j, k)};
         if (wanted(voxel)) {
-          voxels.push_back(voxel);
+          layers[static_cast<std::size_t>(k)].push_back(voxel);
         }
       }
     }
+  }
+  std::vector<Voxel> voxels;
+  for (const std::vector<Voxel>& layer : layers) {
+    voxels.insert(voxels.end(), layer.begin(), layer.end());
   }
   return voxels;
 }
@@ -50,31 +58,115 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Shape functions at the voxels of brain and shell; a voxel farther out than `reach` has the displacement at the
+/// Where the displacement of a voxel of brain or shell is taken: in its middle, or, farther out than `reach`, at the
 /// reach, as shape functions extrapolate out there.
-void evaluate(const Solution& solution, const BrainZones& zones, const std::vector<Voxel>& voxels, double reach,
-              VectorImage& field, const Progress& progress) {
-  const solve::ShapeFunctions shape = shape_functions(solution);
-  const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
-  for (std::size_t begin = 0; begin < voxels.size(); begin += chunk) {
-    report(progress, 0.8 * static_cast<double>(begin) / static_cast<double>(voxels.size()),
-           "displacement at the voxels");
-    const std::size_t end = std::min(begin + chunk, voxels.size());
-    Points places(static_cast<Eigen::Index>(end - begin), 3);
-#pragma omp parallel for schedule(static)
-    for (std::size_t v = begin; v < end; ++v) {
-      Eigen::Vector3d place = field.geometry.to_world(voxels[v].index());
-      const double outside = zones.outside.value(place);
-      if (outside > reach) {
-        place -= (outside - reach) * zones.outside.gradient(place);
+Eigen::Vector3d place_of(const BrainZones& zones, const ImageGeometry& geometry, const Voxel& voxel, double reach) {
+  const Eigen::Vector3d place = geometry.to_world(voxel.index());
+  const double outside = zones.zone[voxel.offset] == Zone::brain ? 0 : zones.outside.value(place);
+  return outside > reach ? Eigen::Vector3d(place - (outside - reach) * zones.outside.gradient(place)) : place;
+}
+
+/// A grid in bricks of four voxels along an axis, or fewer where they are longer: those of a brick see almost the same
+/// nodes.
+class Bricks {
+ public:
+  explicit Bricks(const ImageGeometry& geometry)
+      : geometry_(geometry),
+        size_((4 * geometry.spacing.minCoeff() / geometry.spacing.array()).round().max(1).cast<int>()),
+        count_((geometry.size + size_ - 1) / size_) {}
+
+  const Eigen::Array3i& count() const { return count_; }
+
+  /// From the middle of a brick to the middles of its corner voxels, mm.
+  double radius() const { return ((size_ - 1).cast<double>() * geometry_.spacing.array() / 2).matrix().norm(); }
+
+  /// The wanted voxels of a brick along a Z-order curve, whose every eight are neighbours.
+  template <class Wanted>
+  std::vector<Voxel> voxels(const Eigen::Array3i& brick, const Wanted& wanted) const {
+    std::vector<Voxel> result;
+    for (int n = 0; n < 64; ++n) {
+      const auto bits = [n](int axis) { return (n >> axis & 1) + 2 * (n >> (axis + 3) & 1); };
+      const Eigen::Array3i within(bits(0), bits(1), bits(2)), at = brick * size_ + within;
+      if ((within < size_).all() && (at < geometry_.size).all()) {
+        const Voxel voxel{at.x(), at.y(), at.z(), geometry_.offset(at.x(), at.y(), at.z())};
+        if (wanted(voxel)) {
+          result.push_back(voxel);
+        }
       }
-      places.row(static_cast<Eigen::Index>(v - begin)) = place;
     }
-    const Points displacement = shape.interpolate(places, parameters);
-    for (std::size_t v = begin; v < end; ++v) {
-      field.voxels[voxels[v].offset] = stored(displacement.row(static_cast<Eigen::Index>(v - begin)));
+    return result;
+  }
+
+ private:
+  const ImageGeometry& geometry_;
+  Eigen::Array3i size_, count_;
+};
+
+struct VoxelPlace {
+  std::size_t offset;
+  Eigen::Vector3d place;
+};
+
+/// Sets the voxels where the interpolation is sure; the others are returned.
+std::vector<VoxelPlace> evaluate_together(const NodeInterpolation& interpolation, const std::vector<VoxelPlace>& voxels,
+                                          VectorImage& field) {
+  std::vector<Eigen::Vector3d> places;
+  for (const VoxelPlace& v : voxels) {
+    places.push_back(v.place);
+  }
+  std::vector<std::optional<Eigen::Vector3d>> displacement(voxels.size());
+  interpolation.at(places, displacement);
+  std::vector<VoxelPlace> left;
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    if (displacement[v]) {
+      field.voxels[voxels[v].offset] = stored(*displacement[v]);
+    } else {
+      left.push_back(voxels[v]);
     }
   }
+  return left;
+}
+
+void evaluate_one_by_one(const solve::ShapeFunctions& shape, const Points& parameters,
+                         const std::vector<VoxelPlace>& voxels, VectorImage& field) {
+  Points places(static_cast<Eigen::Index>(voxels.size()), 3);
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    places.row(static_cast<Eigen::Index>(v)) = voxels[v].place;
+  }
+  const Points displacement = shape.interpolate(places, parameters);
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    field.voxels[voxels[v].offset] = stored(displacement.row(static_cast<Eigen::Index>(v)));
+  }
+}
+
+/// The solver's field at the voxels of brain and shell.
+void evaluate(const Solution& solution, const BrainZones& zones, double reach, VectorImage& field,
+              const Progress& progress) {
+  const solve::ShapeFunctions shape = shape_functions(solution);
+  const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
+  const Bricks bricks(field.geometry);
+  const double widest = bricks.radius() + (zones.shell - reach) / 2;  // as place_of() draws few bricks apart
+  const NodeInterpolation interpolation(solution, parameters, widest);
+  const auto near = [&](const Voxel& v) {
+    return zones.zone[v.offset] == Zone::brain || zones.zone[v.offset] == Zone::shell;
+  };
+  std::vector<VoxelPlace> left;
+  for (int layer = 0; layer < bricks.count().z(); ++layer) {
+    report(progress, 0.8 * layer / bricks.count().z(), "displacement at the voxels");
+#pragma omp parallel for collapse(2) schedule(dynamic, 8)
+    for (int row = 0; row < bricks.count().y(); ++row) {
+      for (int column = 0; column < bricks.count().x(); ++column) {
+        std::vector<VoxelPlace> voxels;
+        for (const Voxel& v : bricks.voxels({column, row, layer}, near)) {
+          voxels.push_back({v.offset, place_of(zones, field.geometry, v, reach)});
+        }
+        const std::vector<VoxelPlace> doubtful = evaluate_together(interpolation, voxels, field);
+#pragma omp critical
+        left.insert(left.end(), doubtful.begin(), doubtful.end());
+      }
+    }
+  }
+  evaluate_one_by_one(shape, parameters, left, field);
 }
 
 /// The place near x that is `reach` away from the brain, by walking down the distance. One step suffices but where the
@@ -136,19 +228,71 @@ Displacement mean_of_neighbours(const VectorImage& field, const BrainZones& zone
   return total > 0 ? Displacement{sum[0] / total, sum[1] / total, sum[2] / total} : field.voxels[voxel.offset];
 }
 
+/// Voxels that follow each other along x.
+struct Run {
+  std::size_t first, count;  ///< in the list of voxels
+  bool inner;                ///< all their neighbours count
+};
+
+std::vector<Run> runs_of(const std::vector<Voxel>& voxels, const BrainZones& zones, const ImageGeometry& g) {
+  const std::size_t stride[3] = {1, g.offset(0, 1, 0), g.offset(0, 0, 1)};
+  const auto is_inner = [&](const Voxel& v) {
+    const Eigen::Array3i place(v.i, v.j, v.k);
+    return (place > 0).all() && (place + 1 < g.size).all() &&
+           std::all_of(std::begin(stride), std::end(stride), [&](std::size_t step) {
+             return zones.zone[v.offset - step] != Zone::beyond && zones.zone[v.offset + step] != Zone::beyond;
+           });
+  };
+  std::vector<Run> runs;
+  for (std::size_t v = 0; v < voxels.size(); ++v) {
+    const bool inner = is_inner(voxels[v]);
+    if (!runs.empty() && runs.back().inner == inner && voxels[v].offset == voxels[v - 1].offset + 1) {
+      ++runs.back().count;
+    } else {
+      runs.push_back({v, 1, inner});
+    }
+  }
+  return runs;
+}
+
+/// mean_of_neighbours() of a run of inner voxels, number by number, as a compiler can vectorise it.
+void mean_along_run(const VectorImage& field, std::size_t first, std::size_t count, Displacement* mean) {
+  const ImageGeometry& g = field.geometry;
+  const std::size_t y = 3 * g.offset(0, 1, 0), z = 3 * g.offset(0, 0, 1);
+  const Eigen::Array3f weight = g.spacing.array().square().inverse().cast<float>();
+  const float total = weight[0] + weight[0] + weight[1] + weight[1] + weight[2] + weight[2];
+  const float* const u = field.voxels.front().data() + 3 * first;
+  float* const result = mean->data();
+  for (std::size_t n = 0; n < 3 * count; ++n) {
+    const float along_x = weight[0] * *(u + n - 3) + weight[0] * u[n + 3];
+    result[n] =
+        (along_x + weight[1] * *(u + n - y) + weight[1] * u[n + y] + weight[2] * *(u + n - z) + weight[2] * u[n + z]) /
+        total;
+  }
+}
+
 /// Smooths the displacement outside where two parts of the surface are equally near and it would jump; all other voxels
 /// are held. Each sweep of averaging spreads by the spacing / √3.
 void smooth(const BrainZones& zones, const std::vector<Voxel>& outside, VectorImage& field) {
   const double sweeps = 3 * std::pow(smoothing_width / field.geometry.spacing.maxCoeff(), 2);
+  const std::vector<Run> runs = runs_of(outside, zones, field.geometry);
   std::vector<Displacement> next(outside.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
 #pragma omp parallel for schedule(static)
-    for (std::size_t v = 0; v < outside.size(); ++v) {
-      next[v] = mean_of_neighbours(field, zones, outside[v]);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const auto [first, count, inner] = runs[r];
+      if (inner) {
+        mean_along_run(field, outside[first].offset, count, &next[first]);
+        continue;
+      }
+      for (std::size_t v = first; v < first + count; ++v) {
+        next[v] = mean_of_neighbours(field, zones, outside[v]);
+      }
     }
 #pragma omp parallel for schedule(static)
-    for (std::size_t v = 0; v < outside.size(); ++v) {
-      field.voxels[outside[v].offset] = next[v];
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const auto [first, count, inner] = runs[r];
+      std::copy_n(&next[first], count, &field.voxels[outside[first].offset]);
     }
   }
 }
@@ -182,8 +326,7 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
   VectorImage field{geometry, std::vector<Displacement>(geometry.voxel_count(), Displacement{0, 0, 0})};
   const double reach = std::min(zones.shell / 2, reach_in_spacings * mean(solution.spacing));
   const auto in = [&](Zone wanted) { return [&, wanted](const Voxel& v) { return zones.zone[v.offset] == wanted; }; };
-  const auto near = [&](const Voxel& v) { return in(Zone::brain)(v) || in(Zone::shell)(v); };
-  evaluate(solution, zones, voxels_where(geometry, near), reach, field, progress);
+  evaluate(solution, zones, reach, field, progress);
   report(progress, 0.8, "fading outside the brain");
   extend(zones, voxels_where(geometry, in(Zone::fading)), reach, field);
   const std::vector<Voxel> outside = voxels_where(geometry, [&](const Voxel& v) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <omp.h>
+
 #include <fstream>
 #include <future>
 #include <iomanip>
@@ -31,8 +33,12 @@ void write_landmarks(const std::filesystem::path& file, const Points& preop, con
 }  // namespace
 
 void write_registration(const std::filesystem::path& folder, const Registration& registration) {
-  // HDF5 compresses on one thread, and only one may use it at a time: both transforms go beside the images.
-  std::future<void> transforms = std::async(std::launch::async, [&] {
+  // The transforms go beside the images: each has parts on one thread, which the other's fill up. Not beside each
+  // other: HDF5 knows no threads.
+  const int threads = omp_get_max_threads();
+  const auto when = threads > 1 ? std::launch::async : std::launch::deferred;
+  std::future<void> transforms = std::async(when, [&folder, &registration, threads] {
+    omp_set_num_threads(threads);  // OpenMP keeps it for each thread
     write_transform(folder / "intraop_to_preop.h5", registration.resampling);
     write_transform(folder / "preop_to_intraop.h5", registration.forward);
   });

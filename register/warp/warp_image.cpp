@@ -3,6 +3,7 @@
 #include <itkLinearInterpolateImageFunction.h>
 #include <omp.h>
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -14,6 +15,11 @@ namespace brainshift::registration {
 
 namespace {
 
+Eigen::Vector3d displacement_of_voxel(const VectorImage& field, int i, int j, int k) {
+  const std::array<float, 3>& d = field.at(i, j, k);
+  return {d[0], d[1], d[2]};
+}
+
 /// The image with each voxel that moves replaced by look_up(continuous index of its preop place, thread); 0 where that
 /// lies outside the image.
 template <class T, class LookUp>
@@ -23,14 +29,17 @@ Image<T> resample(const Image<T>& image, const VectorImage& resampling, const Lo
   const bool on_the_fields_grid = same_geometry(g, resampling.geometry);
   const Eigen::Matrix3d to_voxels = (g.direction * g.spacing.asDiagonal()).inverse();
   const Eigen::Array3d high = g.size.cast<double>() - 0.5;
+  const auto field_at = [&](const Eigen::Vector3d& index) -> Eigen::Vector3d {
+    const Eigen::Vector3d at = field.to_index(g.to_world(index));
+    return field.inside(at) ? field.value(at) : Eigen::Vector3d::Zero();
+  };
   Image<T> result = image;
 #pragma omp parallel for schedule(dynamic, 1)
   for (int k = 0; k < g.size.z(); ++k) {
     for (int j = 0; j < g.size.y(); ++j) {
       for (int i = 0; i < g.size.x(); ++i) {
         const Eigen::Vector3d index(i, j, k);
-        const Eigen::Vector3d at = on_the_fields_grid ? index : field.to_index(g.to_world(index));
-        const Eigen::Vector3d d = field.inside(at) ? field.value(at) : Eigen::Vector3d::Zero();
+        const Eigen::Vector3d d = on_the_fields_grid ? displacement_of_voxel(resampling, i, j, k) : field_at(index);
         if (d == Eigen::Vector3d::Zero()) {
           continue;
         }
@@ -54,7 +63,7 @@ itk::ContinuousIndex<double, 3> as_itk(const Eigen::Vector3d& index) {
 using ItkScalar = itk::Image<float, 3>;
 
 ScalarImage warp_linear(const ScalarImage& image, const VectorImage& resampling) {
-  const ItkScalar::Pointer voxels = to_itk(image);
+  const ItkScalar::Pointer voxels = seen_by_itk(image);
   const auto interpolator = itk::LinearInterpolateImageFunction<ItkScalar, double>::New();
   interpolator->SetInputImage(voxels);
   return resample(image, resampling, [&](const Eigen::Vector3d& index, int) {
@@ -67,7 +76,7 @@ ScalarImage warp_bspline(const ScalarImage& image, const VectorImage& resampling
     throw std::invalid_argument(
         "cubic B-splines need at least four voxels along each axis of the image; use linear interpolation");
   }
-  const ItkScalar::Pointer voxels = to_itk(image);
+  const ItkScalar::Pointer voxels = seen_by_itk(image);
   const auto interpolator = itk::BSplineInterpolateImageFunction<ItkScalar, double, float>::New();
   interpolator->SetSplineOrder(3);
   interpolator->SetNumberOfWorkUnits(static_cast<itk::ThreadIdType>(omp_get_max_threads()));

@@ -14,8 +14,9 @@ ScalarImage depth(const Mask& mask) {
   for (std::uint8_t& voxel : outside.voxels) {
     voxel = voxel == 0 ? 1 : 0;
   }
+  const auto seen = seen_by_itk(outside);
   auto filter = itk::SignedMaurerDistanceMapImageFilter<ItkImage<std::uint8_t>, ItkImage<float>>::New();
-  filter->SetInput(to_itk(outside));
+  filter->SetInput(seen);
   filter->SetSquaredDistance(false);
   filter->SetUseImageSpacing(true);
   filter->Update();

@@ -7,6 +7,7 @@
 #include <array>
 #include <fstream>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -14,7 +15,7 @@ namespace brainshift {
 namespace {
 
 constexpr std::size_t block_size = std::size_t{1} << 20;
-constexpr int level = 3;  // images of floats: hardly larger than at level 6, three times as fast
+constexpr int level = 1;  // images of floats: a few per cent larger than at level 3, twice as fast
 
 struct CloseGzip {
   void operator()(gzFile file) const { gzclose(file); }
@@ -29,24 +30,41 @@ GzipFile open_gzip(const std::filesystem::path& file) {
   return stream;
 }
 
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes read_block(const std::filesystem::path& file, std::size_t begin, std::size_t size) {
+  Bytes block(size);
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(begin));
+  in.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(size));
+  block.resize(static_cast<std::size_t>(in.gcount()));
+  return block;
+}
+
 // One block as raw deflate that ends on a byte boundary, so that blocks can be joined; empty when zlib fails.
-std::vector<std::uint8_t> deflate_block(std::span<const std::uint8_t> block, bool last) {
+Bytes deflate_block(const Bytes& block, bool last) {
   z_stream stream{};
   constexpr int raw_deflate = -15;
   if (deflateInit2(&stream, level, Z_DEFLATED, raw_deflate, 9, Z_DEFAULT_STRATEGY) != Z_OK) {
     return {};
   }
   constexpr uLong flush_marker = 16;
-  std::vector<std::uint8_t> result(deflateBound(&stream, static_cast<uLong>(block.size())) + flush_marker);
+  Bytes result(deflateBound(&stream, static_cast<uLong>(block.size())) + flush_marker);
   stream.next_in = const_cast<Bytef*>(block.data());
   stream.avail_in = static_cast<uInt>(block.size());
   stream.next_out = result.data();
   stream.avail_out = static_cast<uInt>(result.size());
   const int status = deflate(&stream, last ? Z_FINISH : Z_SYNC_FLUSH);
   result.resize(status == (last ? Z_STREAM_END : Z_OK) ? stream.total_out : 0);
+  result.shrink_to_fit();
   deflateEnd(&stream);
   return result;
 }
+
+struct Block {
+  Bytes deflated;
+  uLong checksum = 0;  // of the plain bytes
+};
 
 void put_little_endian(std::ostream& out, std::uint32_t value) {
   for (int shift = 0; shift < 32; shift += 8) {
@@ -60,27 +78,31 @@ void put_bytes(std::ostream& out, std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-void write_gzip(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  const std::size_t count = std::max<std::size_t>(1, (bytes.size() + block_size - 1) / block_size);
-  std::vector<std::vector<std::uint8_t>> blocks(count);
-#pragma omp parallel for schedule(dynamic)
+void write_gzip(const std::filesystem::path& file, const std::filesystem::path& plain) {
+  const std::size_t size = std::filesystem::file_size(plain);
+  const std::size_t count = std::max<std::size_t>(1, (size + block_size - 1) / block_size);
+  std::vector<Block> blocks(count);
+  const auto size_of = [&](std::size_t i) { return std::min(block_size, size - i * block_size); };
+  bool whole = true;
+#pragma omp parallel for schedule(dynamic) reduction(&& : whole)
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t begin = i * block_size;
-    blocks[i] = deflate_block(bytes.subspan(begin, std::min(block_size, bytes.size() - begin)), i + 1 == count);
+    const Bytes block = read_block(plain, i * block_size, size_of(i));
+    blocks[i] = {deflate_block(block, i + 1 == count), crc32_z(0, block.data(), block.size())};
+    whole = whole && block.size() == size_of(i) && !blocks[i].deflated.empty();
   }
-  const bool compressed = std::none_of(blocks.begin(), blocks.end(), [](const auto& block) { return block.empty(); });
 
   std::ofstream out(file, std::ios::binary);
   constexpr std::array<std::uint8_t, 10> header = {0x1f, 0x8b, Z_DEFLATED, 0, 0, 0, 0, 0, 0, 0xff};
   put_bytes(out, header);
-  for (const auto& block : blocks) {
-    put_bytes(out, block);
+  uLong checksum = crc32_z(0, nullptr, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    put_bytes(out, blocks[i].deflated);
+    checksum = crc32_combine(checksum, blocks[i].checksum, static_cast<z_off_t>(size_of(i)));
   }
-  const uLong checksum = crc32_z(crc32_z(0, nullptr, 0), bytes.data(), bytes.size());
   put_little_endian(out, static_cast<std::uint32_t>(checksum));
-  put_little_endian(out, static_cast<std::uint32_t>(bytes.size()));
+  put_little_endian(out, static_cast<std::uint32_t>(size));
   out.close();
-  if (!out || !compressed) {
+  if (!out || !whole) {
     std::error_code ignored;
     std::filesystem::remove(file, ignored);
     throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Private to .cpp files of segmentation and register: our images as ITK's and back. Copies the voxels.
+// Private to .cpp files of segmentation and register: our images as ITK's and back.
 // Include it before any of ITK's headers.
 
 #include <Eigen/Dense>  // before ITK, which brings an Eigen of its own under the same include guards
@@ -30,9 +30,9 @@ struct ItkPixel<std::array<float, 3>> {
 template <class T>
 using ItkImage = itk::Image<typename ItkPixel<T>::type, 3>;
 
-/// Gives an ITK image of any pixel our geometry; the voxels are allocated but not set.
+/// Gives an ITK image of any pixel our geometry, but no voxels yet.
 template <class Pixel>
-void set_geometry(itk::Image<Pixel, 3>& image, const ImageGeometry& geometry) {
+void set_grid(itk::Image<Pixel, 3>& image, const ImageGeometry& geometry) {
   typename itk::Image<Pixel, 3>::SizeType size;
   typename itk::Image<Pixel, 3>::SpacingType spacing;
   typename itk::Image<Pixel, 3>::PointType origin;
@@ -49,6 +49,12 @@ void set_geometry(itk::Image<Pixel, 3>& image, const ImageGeometry& geometry) {
   image.SetSpacing(spacing);
   image.SetOrigin(origin);
   image.SetDirection(direction);
+}
+
+/// The same; the voxels are allocated but not set.
+template <class Pixel>
+void set_geometry(itk::Image<Pixel, 3>& image, const ImageGeometry& geometry) {
+  set_grid(image, geometry);
   image.Allocate();
 }
 
@@ -74,6 +80,18 @@ typename ItkImage<T>::Pointer to_itk(const Image<T>& image) {
   using Pixel = typename ItkPixel<T>::type;
   std::transform(image.voxels.begin(), image.voxels.end(), result->GetBufferPointer(),
                  [](const T& value) { return std::bit_cast<Pixel>(value); });
+  return result;
+}
+
+/// Our image as ITK's without a copy, for filters that only read it; it must outlive the result.
+template <class T>
+typename ItkImage<T>::Pointer seen_by_itk(const Image<T>& image) {
+  using Pixel = typename ItkPixel<T>::type;
+  static_assert(sizeof(Pixel) == sizeof(T));
+  auto result = ItkImage<T>::New();
+  set_grid(*result, image.geometry);
+  auto* const voxels = const_cast<T*>(image.voxels.data());  // ITK has no images of const voxels
+  result->GetPixelContainer()->SetImportPointer(reinterpret_cast<Pixel*>(voxels), image.voxels.size(), false);
   return result;
 }
 

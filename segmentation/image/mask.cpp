@@ -93,14 +93,20 @@ bool touches_border(const Mask& mask) {
 Mask cropped(const Mask& mask, int margin) {
   const Box box = bounding_box(mask);
   const Eigen::Array3i lower = box.lower - margin;
-  Mask part;
-  part.geometry = mask.geometry;
-  part.geometry.size = box.upper - box.lower + 1 + 2 * margin;
-  part.geometry.origin = mask.geometry.to_world(lower.cast<double>().matrix());
-  part.voxels.assign(part.geometry.voxel_count(), 0);
+  ImageGeometry part = mask.geometry;
+  part.size = box.upper - box.lower + 1 + 2 * margin;
+  part.origin = mask.geometry.to_world(lower.cast<double>().matrix());
+  return cropped_to(mask, part);
+}
+
+Mask cropped_to(const Mask& mask, const ImageGeometry& grid) {
+  const Eigen::Array3i lower = shift_between(mask.geometry, grid);
+  Mask part{grid, std::vector<std::uint8_t>(grid.voxel_count())};
   for_each_inside(mask, [&](const Eigen::Array3i& voxel) {
     const Eigen::Array3i place = voxel - lower;
-    part.at(place.x(), place.y(), place.z()) = 1;
+    if ((place >= 0).all() && (place < grid.size).all()) {
+      part.at(place.x(), place.y(), place.z()) = 1;
+    }
   });
   return part;
 }

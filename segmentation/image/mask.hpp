@@ -29,6 +29,9 @@ bool touches_border(const Mask& mask);
 /// far or not. The voxels keep their places in the world. The mask must not be empty.
 Mask cropped(const Mask& mask, int margin);
 
+/// What another mask of the same image has on the grid of a part that was cropped from it.
+Mask cropped_to(const Mask& mask, const ImageGeometry& part);
+
 /// A mask cropped before, back on the grid that it was cut from.
 Mask uncropped(const Mask& mask, const ImageGeometry& grid);
 

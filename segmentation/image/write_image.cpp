@@ -46,15 +46,6 @@ void check_written(const fs::path& file, const ItkImageType& image) {
   reader->Update();
 }
 
-std::vector<std::uint8_t> read_bytes(const fs::path& file) {
-  std::vector<std::uint8_t> bytes(fs::file_size(file));
-  std::ifstream in(file, std::ios::binary);
-  if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) {
-    throw std::runtime_error("could not be read back");
-  }
-  return bytes;
-}
-
 template <class T>
 void write_any(const fs::path& file, const Image<T>& image) {
   const ImageFormat format = image_format(file);
@@ -65,11 +56,11 @@ void write_any(const fs::path& file, const Image<T>& image) {
     if (!std::ofstream(written, std::ios::binary)) {
       throw std::runtime_error("cannot be opened for writing");
     }
-    const auto itk_image = to_itk(image);
+    const auto itk_image = seen_by_itk(image);
     write_with_itk(written, *itk_image);
     check_written(written, *itk_image);
     if (written != file) {
-      write_gzip(file, read_bytes(written));
+      write_gzip(file, written);
       fs::remove(written, ignored);
     }
   } catch (const std::exception& fault) {

@@ -22,7 +22,8 @@ ScalarImage smoothed(const Mask& mask, double sigma) {
     return sharp;
   }
   auto filter = itk::DiscreteGaussianImageFilter<ItkImage<float>, ItkImage<float>>::New();
-  filter->SetInput(to_itk(sharp));
+  const auto seen = seen_by_itk(sharp);
+  filter->SetInput(seen);
   filter->SetVariance(sigma * sigma);
   filter->SetUseImageSpacing(true);
   filter->SetMaximumKernelWidth(64);

@@ -51,14 +51,16 @@ Mask grown_back(const Mask& core, const Mask& csf, double distance) {
 }  // namespace
 
 Mask find_ventricles(const Mask& csf, const Mask& brain, double ventricle_depth) {
+  const Mask brain_part = cropped(brain, 1);  // distances are found on a grid, whose voxels they cost
+  const Mask csf_part = cropped_to(csf, brain_part.geometry);
   const double sheet = 1.1 * std::max(1.0, csf.geometry.spacing.minCoeff());  // half a sheet's thickness, mm
-  Mask core = deeper_than(depth(csf), sheet);
+  Mask core = deeper_than(depth(csf_part), sheet);
   const Components bodies = components(core);
-  const auto chosen = chosen_bodies(bodies, depth(brain), ventricle_depth);
+  const auto chosen = chosen_bodies(bodies, depth(brain_part), ventricle_depth);
   for (std::size_t i = 0; i < core.voxels.size(); ++i) {
     core.voxels[i] = bodies.number[i] != 0 && chosen[static_cast<std::size_t>(bodies.number[i] - 1)] ? 1 : 0;
   }
-  return count(core) == 0 ? core : grown_back(core, csf, 1.5 * sheet);
+  return uncropped(count(core) == 0 ? core : grown_back(core, csf_part, 1.5 * sheet), csf.geometry);
 }
 
 }  // namespace brainshift::segmentation
