@@ -65,6 +65,13 @@ PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::in
   return placed;
 }
 
+/// Nodes are pushed back before they are far out, and of those farther inside than this nothing is asked.
+SignedDistance distance_for_contact(const Surface& skull) {
+  SignedDistanceOptions options;
+  options.margin = options.reach = 12;  // mm
+  return SignedDistance(skull, options);
+}
+
 }  // namespace
 
 Prepared lay_out(const Model& model, const SolveOptions& options, const Pieces& pieces, std::span<const FacePair> faces,
@@ -77,7 +84,7 @@ Prepared lay_out(const Model& model, const SolveOptions& options, const Pieces& 
   essential.count_as_held(held);
   std::optional<Contact> contact;
   if (model.skull) {
-    contact.emplace(skull ? std::move(*skull) : SignedDistance(*model.skull), cloud.positions,
+    contact.emplace(skull ? std::move(*skull) : distance_for_contact(*model.skull), cloud.positions,
                     free_surface_nodes(cloud), nodal_rows);
   }
   std::optional<FaceContact> face_contact;

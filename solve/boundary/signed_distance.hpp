@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "segmentation/surface/surface.hpp"
@@ -11,6 +12,8 @@ namespace brainshift::solve {
 struct SignedDistanceOptions {
   double spacing = 1.5;  ///< of the grid, mm
   double margin = 25.0;  ///< by which the grid reaches past the surface's bounding box, mm
+  /// Where the surface is farther, mm, only that it is: the value is that or minus that. At least three spacings.
+  double reach = std::numeric_limits<double>::infinity();
 };
 
 /// Signed distance to a closed surface, mm, LPS; negative inside. Sampled once on a regular grid, then answered in
