@@ -27,11 +27,19 @@ ShapeFunctions::Impl::Impl(const Points& p, std::span<const double> spacing, con
       search(positions, support_radius(spacing, solve::dilatation(o))),
       visibility(std::move(v)) {}
 
-Ball ball_about(const Points& points) {
-  const Eigen::RowVector3d low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
-  const Eigen::RowVector3d centre = 0.5 * (low + high);
+Ball ball_about(std::span<const Place> points) {
+  Eigen::Vector3d low = points[0].at, high = low;
+  for (const Place& p : points) {
+    low = low.cwiseMin(p.at);
+    high = high.cwiseMax(p.at);
+  }
+  Ball ball{0.5 * (low + high), 0};
+  for (const Place& p : points) {
+    ball.extent = std::max(ball.extent, (p.at - ball.centre).squaredNorm());
+  }
   constexpr double rounding = 1 + 1e-9;
-  return {centre, rounding * std::sqrt((points.rowwise() - centre).rowwise().squaredNorm().maxCoeff())};
+  ball.extent = rounding * std::sqrt(ball.extent);
+  return ball;
 }
 
 Candidates candidates_near(const ShapeFunctions::Impl& impl, const Ball& ball, double scale) {
@@ -60,12 +68,13 @@ std::span<const Slope> Evaluator::slopes() {
 }
 
 /// Lanes without a point are at the last one, and not wanted.
-void Evaluator::place(const Points& points, Places& places, Mask& wanted) {
+void Evaluator::place(std::span<const Place> points, Places& places, Mask& wanted) {
   places.ball = ball_about(points);
-  for (int l = 0; l < lanes; ++l) {
-    wanted[l] = l < points.rows() ? -1 : 0;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    wanted[l] = l < points.size() ? -1 : 0;
+    const Eigen::Vector3d& x = points[std::min(l, points.size() - 1)].at;
     for (int axis = 0; axis < 3; ++axis) {
-      places.at[axis][l] = points(std::min<Eigen::Index>(l, points.rows() - 1), axis);
+      places.at[axis][l] = x[axis];
     }
   }
 }

@@ -24,7 +24,13 @@ struct ShapeFunctions::Impl {
   Impl(const Points& p, std::span<const double> spacing, const ShapeOptions& o, std::shared_ptr<const Visibility> v);
 };
 
-Ball ball_about(const Points& points);
+/// A point to evaluate at.
+struct Place {
+  Eigen::Vector3d at;
+  std::int32_t point;
+};
+
+Ball ball_about(std::span<const Place> points);
 
 /// The nodes that places in a ball may see. scale: of the supports.
 Candidates candidates_near(const ShapeFunctions::Impl& impl, const Ball& ball, double scale);
@@ -38,7 +44,7 @@ class Evaluator {
   /// use(found) with the lanes where that was enough, as long as sights and slopes are theirs. near: all nodes near the
   /// points. Returns a lane for which there is none, or -1.
   template <class Use>
-  int move_to(const Points& points, const Candidates& near, const Use& use) {
+  int move_to(std::span<const Place> points, const Candidates& near, const Use& use) {
     Places places{};
     Mask wanted{};
     place(points, places, wanted);
@@ -69,7 +75,7 @@ class Evaluator {
   static constexpr double growth = 1.1;        // of a support that is not admissible, each try
   static constexpr double largest_growth = 8;  // beyond it the cloud is degenerate
 
-  static void place(const Points& points, Places& places, Mask& wanted);
+  static void place(std::span<const Place> points, Places& places, Mask& wanted);
   static int first_of(const Mask& mask);
   void fit(const Places& places, const Candidates& near);
   void look_past_cut(const Places& places);

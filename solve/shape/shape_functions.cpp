@@ -25,36 +25,48 @@ double dilatation(const ShapeOptions& options) {
 
 namespace {
 
-constexpr Eigen::Index group = 128;           // points whose neighbours are searched together
-constexpr Eigen::Index largest_chunk = 4096;  // points that one thread takes at a time
+constexpr std::ptrdiff_t group = 128;  // points whose neighbours are searched together
 constexpr Eigen::Index none = -1;
 
-[[noreturn]] void throw_inadmissible(const Points& points, Eigen::Index i, bool planar, bool cut) {
+[[noreturn]] void throw_inadmissible(const Eigen::Vector3d& x, bool planar, bool cut) {
   std::ostringstream text;
-  text << "no admissible support at the point (" << points(i, 0) << ", " << points(i, 1) << ", " << points(i, 2)
+  text << "no admissible support at the point (" << x[0] << ", " << x[1] << ", " << x[2]
        << ") mm: too few nodes near it, or all of them " << (planar ? "on one line" : "in one plane")
        << (cut ? "; a cut hides the others: move it, or give more nodes there" : "; add nodes or check their spacing");
   throw std::invalid_argument(text.str());
 }
 
 /// Puts points that lie together beside each other, by halves of whole groups and of as many as there are lanes.
-void gather(const Points& points, std::span<std::int32_t> order) {
-  const auto n = static_cast<std::ptrdiff_t>(order.size());
+void gather(std::span<Place> points) {
+  constexpr std::ptrdiff_t worth_a_task = 8192;
+  const auto n = std::ssize(points);
   if (n <= lanes) {
     return;
   }
-  Eigen::RowVector3d low = points.row(order[0]), high = low;
-  for (const std::int32_t i : order) {
-    low = low.cwiseMin(points.row(i));
-    high = high.cwiseMax(points.row(i));
+  Eigen::Vector3d low = points[0].at, high = low;
+  for (const Place& p : points) {
+    low = low.cwiseMin(p.at);
+    high = high.cwiseMax(p.at);
   }
   Eigen::Index axis = 0;
   (high - low).maxCoeff(&axis);
   const std::ptrdiff_t unit = n > group ? group : lanes, half = (n + unit) / (2 * unit) * unit;
-  std::nth_element(order.begin(), order.begin() + half, order.end(),
-                   [&](std::int32_t a, std::int32_t b) { return points(a, axis) < points(b, axis); });
-  gather(points, order.first(static_cast<std::size_t>(half)));
-  gather(points, order.subspan(static_cast<std::size_t>(half)));
+  std::nth_element(points.begin(), points.begin() + half, points.end(),
+                   [axis](const Place& a, const Place& b) { return a.at[axis] < b.at[axis]; });
+#pragma omp task if (n > worth_a_task)
+  gather(points.first(static_cast<std::size_t>(half)));
+  gather(points.subspan(static_cast<std::size_t>(half)));
+}
+
+std::vector<Place> gathered(const Points& points) {
+  std::vector<Place> places(static_cast<std::size_t>(points.rows()));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    places[i] = {points.row(static_cast<Eigen::Index>(i)), static_cast<std::int32_t>(i)};
+  }
+#pragma omp parallel
+#pragma omp single
+  gather(places);
+  return places;
 }
 
 /// A point whose shape functions an evaluator has found, and where it keeps them.
@@ -63,67 +75,60 @@ struct Found {
   Eigen::Index point;
 };
 
-std::vector<Found> found_points(const Mask& mask, std::span<const std::int32_t> points, Eigen::Index before) {
+std::vector<Found> found_points(const Mask& mask, std::span<const Place> points) {
   std::vector<Found> found;
-  for (int lane = 0; lane < lanes; ++lane) {
-    if (mask[lane] != 0) {
-      found.push_back({lane, before + points[static_cast<std::size_t>(lane)]});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (mask[i] != 0) {
+      found.push_back({static_cast<int>(i), points[i].point});
     }
   }
   return found;
 }
 
-/// Takes the points from..to in groups that lie together. Returns the first without a support, or none.
+/// Takes a group of points. Returns one without a support, or none.
 template <class Use>
-Eigen::Index take(const Points& points, Eigen::Index from, Eigen::Index to, const ShapeFunctions::Impl& impl,
-                  Evaluator& evaluator, const Use& use) {
-  const Points part = points.middleRows(from, to - from);
-  std::vector<std::int32_t> order(static_cast<std::size_t>(to - from));
-  std::iota(order.begin(), order.end(), 0);
-  gather(part, order);
-  const Points ordered = part(order, Eigen::all);
-  for (Eigen::Index i = 0; i < ordered.rows(); i += group) {
-    const Eigen::Index end = std::min(i + group, ordered.rows());
-    const Candidates near = candidates_near(impl, ball_about(ordered.middleRows(i, end - i)), 1);
-    for (Eigen::Index first = i; first < end; first += lanes) {
-      const std::span eight = std::span(order).subspan(static_cast<std::size_t>(first));
-      const int bad = evaluator.move_to(ordered.middleRows(first, std::min<Eigen::Index>(lanes, end - first)), near,
-                                        [&](const Mask& found) { use(found_points(found, eight, from)); });
-      if (bad >= 0) {
-        return from + eight[static_cast<std::size_t>(bad)];
-      }
+Eigen::Index take(std::span<const Place> points, const ShapeFunctions::Impl& impl, Evaluator& evaluator,
+                  const Use& use) {
+  const Candidates near = candidates_near(impl, ball_about(points), 1);
+  for (std::size_t i = 0; i < points.size(); i += lanes) {
+    const std::span eight = points.subspan(i, std::min<std::size_t>(lanes, points.size() - i));
+    const int bad =
+        evaluator.move_to(eight, near, [&](const Mask& found) { use(evaluator, found_points(found, eight)); });
+    if (bad >= 0) {
+      return eight[static_cast<std::size_t>(bad)].point;
     }
   }
   return none;
 }
 
-/// Calls use(evaluator, found points) for all points, not in their order; chunks go to whichever thread is free.
+/// Calls use(evaluator, found points) for all gathered points; groups of them go to whichever thread is free.
 template <class Use>
-void for_each_point(const ShapeFunctions::Impl& impl, const Points& points, const Use& use) {
-  const Eigen::Index chunk = std::clamp<Eigen::Index>(points.rows() / 32, group, largest_chunk);
+void for_each_point(const ShapeFunctions::Impl& impl, std::span<const Place> points, const Use& use) {
   std::atomic<Eigen::Index> bad = none;
 #pragma omp parallel
   {
     Evaluator evaluator(impl);
 #pragma omp for schedule(dynamic)
-    for (Eigen::Index from = 0; from < points.rows(); from += chunk) {
+    for (std::size_t i = 0; i < points.size(); i += group) {
       if (bad == none) {
-        const Eigen::Index fault = take(points, from, std::min(from + chunk, points.rows()), impl, evaluator,
-                                        [&](std::span<const Found> found) { use(evaluator, found); });
+        const Eigen::Index fault =
+            take(points.subspan(i, std::min<std::size_t>(group, points.size() - i)), impl, evaluator, use);
         bad = fault != none ? fault : bad.load();
       }
     }
   }
   if (bad != none) {
-    throw_inadmissible(points, bad, impl.options.planar, impl.visibility != nullptr);
+    const auto of_it = [&](const Place& p) { return p.point == bad; };
+    throw_inadmissible(std::find_if(points.begin(), points.end(), of_it)->at, impl.options.planar,
+                       impl.visibility != nullptr);
   }
 }
 
 /// Rows with room for the support of each point, and nothing in it. Counting first costs less than rows that grow, in
 /// time and in memory.
-ShapeRows empty_rows(const ShapeFunctions::Impl& impl, const Points& points, bool with_derivatives) {
+ShapeRows empty_rows(const ShapeFunctions::Impl& impl, std::span<const Place> points, bool with_derivatives) {
   ShapeRows rows;
-  rows.begin.assign(static_cast<std::size_t>(points.rows()) + 1, 0);
+  rows.begin.assign(points.size() + 1, 0);
   std::atomic<std::size_t> grown = 0;
   for_each_point(impl, points, [&](const Evaluator& at, std::span<const Found> found) {
     for (const auto& [lane, point] : found) {
@@ -190,8 +195,9 @@ std::size_t ShapeFunctions::nodes() const {
 
 ShapeRows ShapeFunctions::evaluate(const Points& points, bool with_derivatives) const {
   check_plane(points, impl_->options, "point");
-  ShapeRows rows = empty_rows(*impl_, points, with_derivatives);
-  for_each_point(*impl_, points, [&](Evaluator& at, std::span<const Found> found) {
+  const std::vector<Place> places = gathered(points);
+  ShapeRows rows = empty_rows(*impl_, places, with_derivatives);
+  for_each_point(*impl_, places, [&](Evaluator& at, std::span<const Found> found) {
     fill_rows(at.sights(), with_derivatives ? at.slopes() : std::span<const Slope>(), found, rows);
   });
   return rows;
@@ -200,7 +206,7 @@ ShapeRows ShapeFunctions::evaluate(const Points& points, bool with_derivatives) 
 Points ShapeFunctions::interpolate(const Points& points, const Points& values) const {
   check_plane(points, impl_->options, "point");
   Points result(points.rows(), 3);
-  for_each_point(*impl_, points, [&](const Evaluator& at, std::span<const Found> found) {
+  for_each_point(*impl_, gathered(points), [&](const Evaluator& at, std::span<const Found> found) {
     Lane sum[3];
     blend(at.sights(), values, sum);
     for (const auto& [lane, point] : found) {
