@@ -5,7 +5,8 @@
 
 // Functions with hot loops over lanes are compiled for three levels of the x86-64 instruction set, of which the loader
 // picks the best.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__AVX__)
 #define BRAINSHIFT_LANES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
 #define BRAINSHIFT_LANES
