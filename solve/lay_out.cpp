@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/lay_out.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "solve/dynamics/stiffness_bound.hpp"
@@ -65,6 +66,20 @@ PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::in
   return placed;
 }
 
+/// Contact pushes nodes back before they are far out, so it is enough to know the distance near the skull; but where a
+/// node starts farther out.
+SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cloud) {
+  SignedDistanceOptions near;
+  near.far = false;
+  near.margin = 2 * near.band();
+  SignedDistance distance(skull, near);
+  const std::vector<std::int32_t> nodes = free_surface_nodes(cloud);
+  const bool far_out = std::any_of(nodes.begin(), nodes.end(), [&](std::int32_t a) {
+    return distance.value(cloud.positions.row(a)) > near.band() - near.spacing;
+  });
+  return far_out ? SignedDistance(skull) : distance;
+}
+
 }  // namespace
 
 Prepared lay_out(const Model& model, const SolveOptions& options, const Pieces& pieces, std::span<const FacePair> faces,
@@ -77,7 +92,7 @@ Prepared lay_out(const Model& model, const SolveOptions& options, const Pieces& 
   essential.count_as_held(held);
   std::optional<Contact> contact;
   if (model.skull) {
-    contact.emplace(skull ? std::move(*skull) : SignedDistance(*model.skull), cloud.positions,
+    contact.emplace(skull ? std::move(*skull) : distance_for_contact(*model.skull, cloud), cloud.positions,
                     free_surface_nodes(cloud), nodal_rows);
   }
   std::optional<FaceContact> face_contact;

@@ -16,7 +16,6 @@
 namespace brainshift::solve {
 namespace {
 
-constexpr double band_in_spacings = 3;
 constexpr double most_samples = 2e8;
 constexpr std::int32_t none = -1;
 
@@ -174,7 +173,7 @@ void sweep(const std::vector<TriangleFrame>& frames, const Grid& grid, double ba
 /// Signs: within the band by the normal of the nearest part; elsewhere that of the sample before in the row, as no
 /// step between samples outside the band crosses the surface. A row starts outside, or within the band.
 std::vector<float> signed_samples(const std::vector<TriangleFrame>& frames, const Pseudonormals& normals,
-                                  const Grid& grid, double band, const Nearest& nearest) {
+                                  const Grid& grid, double band, double farthest, const Nearest& nearest) {
   std::vector<float> samples(grid.count());
 #pragma omp parallel for schedule(dynamic, 1)
   for (int k = 0; k < grid.size.z(); ++k) {
@@ -189,7 +188,7 @@ std::vector<float> signed_samples(const std::vector<TriangleFrame>& frames, cons
           const NearestOnTriangle on = nearest_on_triangle(frames[t], p);
           sign = (p - on.point).dot(normals.of(t, on.part)) < 0 ? -1 : 1;
         }
-        samples[sample] = static_cast<float>(sign * std::sqrt(squared));
+        samples[sample] = static_cast<float>(sign * std::min(farthest, std::sqrt(squared)));
       }
     }
   }
@@ -202,9 +201,9 @@ SignedDistance::SignedDistance(const Surface& surface, const SignedDistanceOptio
   const Pseudonormals normals = pseudonormals(surface);
   const Grid grid = grid_around(surface, options);
   const std::vector<TriangleFrame> frames = triangle_frames(surface);
-  const double band = band_in_spacings * grid.spacing;
+  const double band = options.band();
   Nearest nearest = nearest_in_band(frames, grid, band);
-  for (int along = 2; along >= 0; --along) {
+  for (int along = 2; along >= 0 && options.far; --along) {
     for (const int across : {(along + 1) % 3, (along + 2) % 3}) {
       sweep(frames, grid, band, {along, across, true}, nearest);
       sweep(frames, grid, band, {along, across, false}, nearest);
@@ -213,7 +212,8 @@ SignedDistance::SignedDistance(const Surface& surface, const SignedDistanceOptio
   spacing_ = grid.spacing;
   origin_ = grid.origin;
   size_ = grid.size;
-  samples_ = signed_samples(frames, normals, grid, band, nearest);
+  samples_ = signed_samples(frames, normals, grid, band, options.far ? std::numeric_limits<double>::infinity() : band,
+                            nearest);
 }
 
 double SignedDistance::value(const Eigen::Vector3d& position) const {

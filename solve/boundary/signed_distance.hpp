@@ -11,6 +11,9 @@ namespace brainshift::solve {
 struct SignedDistanceOptions {
   double spacing = 1.5;  ///< of the grid, mm
   double margin = 25.0;  ///< by which the grid reaches past the surface's bounding box, mm
+  bool far = true;       ///< false: where the surface is farther than the band, only that it is: the value is ± band
+
+  double band() const { return 3 * spacing; }  ///< within it samples are exact, mm
 };
 
 /// Signed distance to a closed surface, mm, LPS; negative inside. Sampled once on a regular grid, then answered in

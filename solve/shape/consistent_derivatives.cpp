@@ -4,7 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "solve/shape/shape_matrix.hpp"
@@ -17,22 +19,37 @@ constexpr int most_iterations = 2000;
 constexpr int most_iterations_of_part = 50;
 constexpr double hopeless = 100;  // times the least residual so far
 
-using Coefficients = Eigen::Matrix<double, 4, 3>;
+using Coefficients = Eigen::Matrix<double, 4, 3, Eigen::RowMajor>;
+
+/// The inverse, or the pseudo-inverse where the nodes lie in a plane or nearly so. nodes: how many.
+Eigen::Matrix3d inverse_moments(const Eigen::Matrix3d& moments, double nodes) {
+  const double mean = moments.trace() / 3;
+  if (moments.determinant() > 1e-3 * mean * mean * mean) {
+    return moments.inverse();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moments);
+  const double least = 1e-12 * std::max(eigen.eigenvalues()[2], nodes);
+  const Eigen::Vector3d inverse = eigen.eigenvalues().unaryExpr([&](double v) { return v > least ? 1 / v : 0.0; });
+  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+}
 
 /// λ_a minus, at each point, its best linear fit over the support; weighted and summed over the points. Symmetric and
-/// positive semi-definite: S of the header's system.
+/// positive semi-definite: S of the header's system. Linear functions and first moments are about one origin for all
+/// points, so that a pair takes no more than a sum of twelve numbers.
 class FitResidual {
  public:
   /// points: those whose derivatives may be corrected.
   FitResidual(const Points& positions, std::span<const double> volume, const ShapeRows& rows,
               std::span<const std::int32_t> points)
-      : positions_(positions),
+      : away_(positions.rowwise() - positions.colwise().mean()),
         volume_(volume),
         rows_(rows),
         points_(points),
         centre_(rows.size()),
         inverse_(rows.size()),
-        coefficients_(rows.size()) {
+        fitted_(rows.size()),
+        moment_(static_cast<std::size_t>(positions.rows())),
+        weight_(static_cast<std::size_t>(positions.rows()), 0.0) {
     const auto count = static_cast<std::int64_t>(points_.size());
 #pragma omp parallel for schedule(static)
     for (std::int64_t i = 0; i < count; ++i) {
@@ -53,31 +70,29 @@ class FitResidual {
 #pragma omp parallel
     {
 #pragma omp for schedule(static)
+      for (std::int64_t a = 0; a < nodes; ++a) {
+        moment_[static_cast<std::size_t>(a)] << lambda.row(a), away_.row(a).transpose() * lambda.row(a);
+      }
+#pragma omp for schedule(static)
       for (std::int64_t i = 0; i < count; ++i) {
-        fit(static_cast<std::size_t>(points_[static_cast<std::size_t>(i)]), lambda);
+        fit(static_cast<std::size_t>(points_[static_cast<std::size_t>(i)]));
       }
 #pragma omp for schedule(static)
       for (std::int64_t a = 0; a < nodes; ++a) {
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        for (auto k = node_begin_[static_cast<std::size_t>(a)]; k < node_begin_[static_cast<std::size_t>(a) + 1]; ++k) {
-          const auto point = static_cast<std::size_t>(node_point_[static_cast<std::size_t>(k)]);
-          sum += volume_[point] * correction(point, static_cast<std::int32_t>(a), lambda);
-        }
-        result.row(a) = sum;
+        const auto node = static_cast<std::size_t>(a);
+        result.row(a) = weight_[node] * lambda.row(a) - at_node(a, sum_of_fits(node));
       }
     }
   }
 
   /// δB of a pair.
   Eigen::RowVector3d correction(std::size_t point, std::int32_t node, const Points& lambda) const {
-    return lambda.row(node) - monomials_at(point, node).transpose() * coefficients_[point];
+    return lambda.row(node) - at_node(node, fitted_[point]);
   }
 
  private:
-  Eigen::Vector4d monomials_at(std::size_t point, std::int32_t node) const {
-    Eigen::Vector4d p;
-    p << 1, positions_.row(node).transpose() - centre_[point];
-    return p;
+  Eigen::RowVector3d at_node(Eigen::Index node, const Coefficients& c) const {
+    return c.row(0) + away_.row(node) * c.bottomRows<3>();
   }
 
   std::span<const std::int32_t> support(std::size_t point) const {
@@ -85,37 +100,44 @@ class FitResidual {
     return std::span(rows_.node).subspan(begin, static_cast<std::size_t>(rows_.begin[point + 1]) - begin);
   }
 
-  /// Centre of the support and the pseudo-inverse of its moments: in the plane the z terms drop out.
+  /// Centre of the support and the inverse of its second moments: in the plane the z terms drop out.
   void prepare(std::size_t point) {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    const auto nodes = static_cast<double>(support(point).size());
+    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
     for (const std::int32_t a : support(point)) {
-      centre += positions_.row(a).transpose() / static_cast<double>(support(point).size());
+      centre += away_.row(a) / nodes;
+    }
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for (const std::int32_t a : support(point)) {
+      const Eigen::RowVector3d x = away_.row(a) - centre;
+      moments += x.transpose() * x;
     }
     centre_[point] = centre;
-    Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
-    for (const std::int32_t a : support(point)) {
-      const Eigen::Vector4d p = monomials_at(point, a);
-      moments += p * p.transpose();
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(moments);
-    Eigen::Vector4d inverse = Eigen::Vector4d::Zero();
-    for (int k = 0; k < 4; ++k) {
-      const double value = eigen.eigenvalues()[k];
-      inverse[k] = value > 1e-12 * eigen.eigenvalues()[3] ? 1 / value : 0;
-    }
-    inverse_[point] = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+    inverse_[point] = inverse_moments(moments, nodes);
   }
 
-  void fit(std::size_t point, const Points& lambda) {
+  void fit(std::size_t point) {
     Coefficients sum = Coefficients::Zero();
     for (const std::int32_t a : support(point)) {
-      sum += monomials_at(point, a) * lambda.row(a);
+      sum += moment_[static_cast<std::size_t>(a)];
     }
-    coefficients_[point] = inverse_[point] * sum;
+    const Eigen::RowVector3d mean = sum.row(0) / static_cast<double>(support(point).size());
+    const Eigen::Matrix3d slope = inverse_[point] * (sum.bottomRows<3>() - centre_[point].transpose() * sum.row(0));
+    fitted_[point] << mean - centre_[point] * slope, slope;
+  }
+
+  /// Of the points that see the node, by volume.
+  Coefficients sum_of_fits(std::size_t node) const {
+    Coefficients sum = Coefficients::Zero();
+    for (auto k = node_begin_[node]; k < node_begin_[node + 1]; ++k) {
+      const auto point = static_cast<std::size_t>(node_point_[static_cast<std::size_t>(k)]);
+      sum += volume_[point] * fitted_[point];
+    }
+    return sum;
   }
 
   void list_points_of_nodes() {
-    node_begin_.assign(static_cast<std::size_t>(positions_.rows()) + 1, 0);
+    node_begin_.assign(static_cast<std::size_t>(away_.rows()) + 1, 0);
     for (const std::int32_t point : points_) {
       for (const std::int32_t a : support(static_cast<std::size_t>(point))) {
         ++node_begin_[static_cast<std::size_t>(a) + 1];
@@ -127,17 +149,20 @@ class FitResidual {
     for (const std::int32_t point : points_) {
       for (const std::int32_t a : support(static_cast<std::size_t>(point))) {
         node_point_[static_cast<std::size_t>(next[static_cast<std::size_t>(a)]++)] = point;
+        weight_[static_cast<std::size_t>(a)] += volume_[static_cast<std::size_t>(point)];
       }
     }
   }
 
-  const Points& positions_;
+  const Points away_;  ///< of the nodes from their mean
   std::span<const double> volume_;
   const ShapeRows& rows_;
   std::span<const std::int32_t> points_;
-  std::vector<Eigen::Vector3d> centre_;
-  std::vector<Eigen::Matrix4d> inverse_;
-  std::vector<Coefficients> coefficients_;
+  std::vector<Eigen::RowVector3d> centre_;  ///< of each point's support, from the same mean
+  std::vector<Eigen::Matrix3d> inverse_;
+  std::vector<Coefficients> fitted_;  ///< at each point: value at the mean, and slopes
+  std::vector<Coefficients> moment_;  ///< of each node: λ and X ⊗ λ
+  std::vector<double> weight_;        ///< of each node: the volume that sees it
   std::vector<std::int64_t> node_begin_;
   std::vector<std::int32_t> node_point_;
 };
@@ -173,14 +198,15 @@ Points integrated_derivatives(std::span<const double> volume, const ShapeRows& r
 
 /// Mean over the nodes of Σ_I w |B_a|: what the defect is measured by.
 double mean_magnitude(std::span<const double> volume, const ShapeRows& rows, Eigen::Index nodes) {
-  double sum = 0;
+  std::vector<double> sum(rows.size(), 0.0);  // of each point, so that threads change nothing
+#pragma omp parallel for schedule(static)
   for (std::size_t point = 0; point < rows.size(); ++point) {
     for (auto k = static_cast<std::size_t>(rows.begin[point]); k < static_cast<std::size_t>(rows.begin[point + 1]);
          ++k) {
-      sum += volume[point] * Eigen::Map<const Eigen::Vector3d>(&rows.derivative[3 * k]).norm();
+      sum[point] += volume[point] * Eigen::Map<const Eigen::Vector3d>(&rows.derivative[3 * k]).norm();
     }
   }
-  return sum / static_cast<double>(nodes);
+  return std::accumulate(sum.begin(), sum.end(), 0.0) / static_cast<double>(nodes);
 }
 
 /// Conjugate gradients on the three columns at once, within the unbalanced vectors. Leaves the λ of the least residual:
@@ -270,8 +296,12 @@ ConsistencyMeasures make_derivatives_consistent(const Points& positions, std::sp
   measures.defect_before = defect.cwiseAbs().maxCoeff() / unit;
 
   Points lambda = Points::Zero(positions.rows(), 3);
-  const Unbalanced within(reached_surface(system, surface, nodal_rows), nodal_rows, positions.rows());
-  measures.iterations = conjugate_gradients(system, within, -defect, tolerance * unit,
+  const std::vector<std::int32_t> reached = reached_surface(system, surface, nodal_rows);
+  std::optional<Unbalanced> within;
+  if (reached.size() < surface.size()) {
+    within.emplace(reached, nodal_rows, positions.rows());
+  }
+  measures.iterations = conjugate_gradients(system, within ? *within : unbalanced, -defect, tolerance * unit,
                                             part.empty() ? most_iterations : most_iterations_of_part, lambda);
   Points image(positions.rows(), 3);
   system.apply(lambda, image);

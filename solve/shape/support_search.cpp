@@ -55,6 +55,7 @@ struct SupportCollector {
   const std::vector<std::int32_t>& nodes;
   const std::vector<double>& radius;
   double scale;
+  double extent;
   double squared_reach;
   std::vector<Supporter>& found;
 
@@ -63,7 +64,7 @@ struct SupportCollector {
   double worstDist() const { return squared_reach; }
   bool addPoint(double squared, std::uint32_t i) {
     const std::int32_t node = nodes[i];
-    const double limit = scale * radius[static_cast<std::size_t>(node)];
+    const double limit = scale * radius[static_cast<std::size_t>(node)] + extent;
     if (squared < limit * limit) {
       found.push_back({node, std::sqrt(squared)});
     }
@@ -73,11 +74,11 @@ struct SupportCollector {
 
 }  // namespace
 
-void SupportSearch::find(const Eigen::Vector3d& x, double scale, std::vector<Supporter>& found) const {
+void SupportSearch::find(const Eigen::Vector3d& x, double scale, std::vector<Supporter>& found, double extent) const {
   found.clear();
   for (const auto& level : levels_) {
-    const double reach = scale * level->largest_radius;
-    SupportCollector collector{level->nodes, radius_, scale, reach * reach, found};
+    const double reach = scale * level->largest_radius + extent;
+    SupportCollector collector{level->nodes, radius_, scale, extent, reach * reach, found};
     level->tree->findNeighbors(collector, x.data(), nanoflann::SearchParams(32, 0, false));
   }
   std::sort(found.begin(), found.end(), [](const Supporter& a, const Supporter& b) { return a.node < b.node; });

@@ -26,8 +26,9 @@ class SupportSearch {
   ~SupportSearch();
   SupportSearch(SupportSearch&&) noexcept;
 
-  /// Replaces found by the support of x, sorted by node.
-  void find(const Eigen::Vector3d& x, double scale, std::vector<Supporter>& found) const;
+  /// Replaces found by the support of x, sorted by node. extent: by how much farther than their radii nodes may be, so
+  /// that the supports of all places as near to x are found; mm.
+  void find(const Eigen::Vector3d& x, double scale, std::vector<Supporter>& found, double extent = 0) const;
   std::span<const double> radius() const { return radius_; }
 
  private:
