@@ -71,7 +71,7 @@ PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::in
 SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cloud) {
   SignedDistanceOptions near;
   near.far = false;
-  near.margin = 2 * near.band();
+  near.margin -= 10 * near.spacing;  // whole steps: the samples lie where those of the full field do
   SignedDistance distance(skull, near);
   const std::vector<std::int32_t> nodes = free_surface_nodes(cloud);
   const bool far_out = std::any_of(nodes.begin(), nodes.end(), [&](std::int32_t a) {

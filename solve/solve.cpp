@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <sstream>
 
 #include "solve/cut/dissection.hpp"
 #include "solve/cut/resection.hpp"
@@ -74,6 +75,18 @@ NodalVectors coarse_start(const Model& model, SolveOptions options, const std::v
   return start;
 }
 
+/// Contact knows the skull near it only: a node that got far out is not pushed back.
+std::string lost_contact(const SolveMeasures& measures) {
+  constexpr double farthest = 3;  // mm, beyond where nodes may start
+  if (!(measures.largest_penetration > farthest)) {
+    return {};
+  }
+  std::ostringstream text;
+  text << "the surface passed through the skull, by " << measures.largest_penetration
+       << " mm or more: the load comes too fast; spread it over more steps";
+  return text.str();
+}
+
 CutMeasures measure_cut(const Prepared& p, const SteppingResult& stepped, std::size_t nodes, CutMeasures measures) {
   measures.split_nodes = p.cut->split;
   measures.added_nodes = p.cut->cloud.size() - nodes;
@@ -110,7 +123,9 @@ SolveResult step(const Model& model, const SolveOptions& options, Prepared prepa
                                                                     : march(system, p.prony, p.mass, options, progress);
   const NodeCloud& cloud = p.cut ? p.cut->cloud : model.cloud;
   SolveResult result;
-  result.failure = stepped.failure;
+  result.measures = measures;
+  measure(p, stepped, result.measures);
+  result.failure = stepped.failure.empty() ? lost_contact(result.measures) : stepped.failure;
   if (stepped.fault) {
     result.failure += ' ';
     result.failure += describe(*stepped.fault, {p.points, p.laws, cloud.positions, p.original, p.placed});
@@ -127,8 +142,6 @@ SolveResult step(const Model& model, const SolveOptions& options, Prepared prepa
   if (p.cut) {
     result.inside = p.cut->inside;
   }
-  result.measures = measures;
-  measure(p, stepped, result.measures);
   if (p.cut) {
     result.measures.cut =
         measure_cut(p, stepped, model.cloud.size(), dissection ? dissection->measures() : CutMeasures());
