@@ -206,18 +206,30 @@ struct PlainRows {
     displacement.assign(bend.begin(), bend.end());
   }
 
+  /// Four floats a node, the last unused: a load of a vector register.
+  using Node = Eigen::Map<Eigen::Vector4f, Eigen::Aligned16>;
+  using ConstNode = Eigen::Map<const Eigen::Vector4f, Eigen::Aligned16>;
+
   void add_point(std::size_t p, std::vector<float>& to) const {
     constexpr float mu = 1000, lambda = 50000;
-    Eigen::Matrix3f gradient = Eigen::Matrix3f::Zero();
-    for (auto k = static_cast<std::size_t>(begin[p]); k < static_cast<std::size_t>(begin[p + 1]); ++k) {
-      gradient += Eigen::Map<const Eigen::Vector3f>(&displacement[4 * static_cast<std::size_t>(node[k])]) *
-                  Eigen::Map<const Eigen::RowVector3f>(&derivative[3 * k]);
+    const auto first = static_cast<std::size_t>(begin[p]), last = static_cast<std::size_t>(begin[p + 1]);
+    Eigen::Vector4f column[3] = {Eigen::Vector4f::Zero(), Eigen::Vector4f::Zero(), Eigen::Vector4f::Zero()};
+    for (std::size_t k = first; k < last; ++k) {
+      const ConstNode u(&displacement[4 * static_cast<std::size_t>(node[k])]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        column[axis] += derivative[3 * k + axis] * u;
+      }
     }
+    Eigen::Matrix3f gradient;
+    gradient << column[0].head<3>(), column[1].head<3>(), column[2].head<3>();
     const Eigen::Matrix3f stress =
         volume[p] * (mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3f::Identity());
-    for (auto k = static_cast<std::size_t>(begin[p]); k < static_cast<std::size_t>(begin[p + 1]); ++k) {
-      Eigen::Map<Eigen::Vector3f>(&to[4 * static_cast<std::size_t>(node[k])]) +=
-          stress * Eigen::Map<const Eigen::Vector3f>(&derivative[3 * k]);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      column[axis].head<3>() = stress.col(axis);
+    }
+    for (std::size_t k = first; k < last; ++k) {
+      Node(&to[4 * static_cast<std::size_t>(node[k])]) +=
+          derivative[3 * k] * column[0] + derivative[3 * k + 1] * column[1] + derivative[3 * k + 2] * column[2];
     }
   }
 
