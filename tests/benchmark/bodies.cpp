@@ -47,4 +47,8 @@ void as_published(solve::SolveOptions& options) {
   options.points_per_cell = 1;
 }
 
+double bytes_read(const solve::PointBlocks& points) {
+  return static_cast<double>(points.shape_bytes() + solve::bytes(points.mode) + 4 * sizeof(double) * points.nodes());
+}
+
 }  // namespace brainshift::bench

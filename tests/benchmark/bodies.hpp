@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "solve/dynamics/point_blocks.hpp"
 #include "solve/solve.hpp"
 
 namespace brainshift::bench {
@@ -27,5 +28,8 @@ Body body_of_run(const std::filesystem::path& scene, const std::filesystem::path
 /// setting of most published MTLED models.
 void as_published(solve::SolveOptions& options);
 inline constexpr double published_cells_per_node = 1.9;
+
+/// Bytes that an evaluation of the internal force reads at least once: what was laid out, and the nodes' parameters.
+double bytes_read(const solve::PointBlocks& points);
 
 }  // namespace brainshift::bench

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <memory>
 
-#include "solve/lay_out.hpp"
+#include "solve/prepare.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/shape/consistent_derivatives.hpp"
 #include "solve/shape/support_search.hpp"
@@ -44,27 +44,20 @@ Points ordered_positions(const Model& model, const std::vector<std::int32_t>& or
 
 /// All that the table knows of the layout of the step: what is prepared, one evaluation, what it reads and handles.
 struct Step {
+  SolveMeasures measures = {};
   Prepared prepared;
   NodalVectors parameters, force;
   ForceScratch scratch;
 
   explicit Step(const Body& body)
-      : prepared(made(body)),
+      : prepared(prepare(body.model, body.options, {}, measures, {})),
         parameters(bent(ordered_positions(body.model, prepared.original))),
         force(parameters.size(), 0.0),
         scratch(prepared.points, prepared.laws) {}
 
   void once() { internal_force(prepared.points, prepared.laws, parameters, scratch, force); }
-  double pairs() const { return static_cast<double>(prepared.points.pair_slot.size()); }
-  double bytes_read() const {
-    return static_cast<double>(prepared.points.shape_bytes() + bytes(prepared.points.mode) + bytes(parameters));
-  }
-
- private:
-  static Prepared made(const Body& body) {
-    SolveMeasures measures;
-    return prepare(body.model, body.options, {}, measures, {});
-  }
+  double pairs() const { return static_cast<double>(measures.pairs); }
+  double bytes_read() const { return bench::bytes_read(prepared.points); }
 };
 
 /// What preparing a model makes first, for the kernels of the set-up.

@@ -125,8 +125,7 @@ Row measure(std::size_t nodes) {
   row.emplace_back("nodes", measures.nodes);
   row.emplace_back("points", measures.integration_points);
   row.emplace_back("pairs", measures.pairs);
-  row.emplace_back("bytes_read_a_step", prepared.points.shape_bytes() + bytes(prepared.points.mode) +
-                                            4 * sizeof(double) * prepared.points.nodes());
+  row.emplace_back("bytes_read_a_step", bench::bytes_read(prepared.points));
   row.emplace_back("force_s", force_seconds(prepared));
   row.emplace_back("step_s", measured(row, "stepping", [&] { return step_seconds(body, std::move(prepared), row); }));
   row.emplace_back("threads", omp_get_max_threads());

@@ -19,15 +19,18 @@ sys.path.insert(0, REFERENCES)
 from fe import brain, ccx, deck, evaluate, tables, tetrahedra, vtp  # noqa: E402
 
 LIMIT = 300  # s, for one solution
+UNREFINED = "C3D10 unrefined"
 
 
 def meshes(folder):
-    """By element: mesh and prescribed displacements of its nodes. Both have the same nodes."""
+    """By name: mesh and prescribed displacements of its nodes. Those of C3D10 and C3D4 have the same nodes; UNREFINED is not finer
+    around the load, so that CalculiX, too, has a coarse answer to show."""
     surface = vtp.read_surface(f"{REFERENCES}/brain_surface.vtp")
     load = tables.read(f"{REFERENCES}/brain_load.csv")
-    coarse, values = brain.fill(1, surface, load, folder)
-    quadratic, at_nodes = brain.with_midnodes(coarse, values)
-    return {"C3D10": (quadratic, at_nodes), "C3D4": (tetrahedra.refined(coarse), at_nodes)}
+    refined, values = brain.fill(1, surface, load, folder)
+    quadratic, at_nodes = brain.with_midnodes(refined, values)
+    return {"C3D10": (quadratic, at_nodes), "C3D4": (tetrahedra.refined(refined), at_nodes),
+            UNREFINED: brain.with_midnodes(*brain.fill(0, surface, load, folder))}
 
 
 def as_quadratic(mesh, field):
@@ -43,16 +46,16 @@ def errors(difference):
     return {"error_95_mm": np.percentile(lengths, 95), "error_largest_mm": lengths.max(), "error_mean_mm": lengths.mean()}
 
 
-def calculix(kind, mesh, values, solver, threads, folder, reference):
-    stem = f"{folder}/{kind}_{solver.replace(' ', '_')}_{threads}"
+def calculix(name, mesh, values, solver, threads, folder, reference):
+    stem = f"{folder}/{name}_{solver}_{threads}".replace(" ", "_")
     held = np.flatnonzero(np.isfinite(values[:, 0]))
     rows = [row for axis in range(3) for row in deck.prescribe(held, axis + 1, values[held, axis])]
-    deck.write_deck(stem + ".inp", mesh, kind, deck.NeoHookean.from_young(brain.YOUNG, brain.NU),
+    deck.write_deck(stem + ".inp", mesh, name.split()[0], deck.NeoHookean.from_young(brain.YOUNG, brain.NU),
                     deck.Loading(rows, np.array([1.0]), 1.0), {"HELD": held}, solver=solver)
     if os.path.exists(stem + ".dat"):
         os.remove(stem + ".dat")
     took = timed.run(["ccx", "-i", os.path.basename(stem)], threads, stem + ".log", folder, LIMIT)
-    row = {"program": "CalculiX", "setting": f"{kind}, {solver.lower()}", "threads": threads, "nodes": len(mesh.nodes),
+    row = {"program": "CalculiX", "setting": f"{name}, {solver.lower()}", "threads": threads, "nodes": len(mesh.nodes),
            "seconds": took.seconds, "peak_mb": took.peak_mb, **errors(np.full((1, 3), np.nan))}
     solution = ccx.read_dat(stem + ".dat", len(mesh.nodes)) if os.path.exists(stem + ".dat") else ccx.Solution()
     if took.status == 124 or 1.0 not in solution.fields:
@@ -87,7 +90,7 @@ LINEAR = ("linear, 8 points", ["--basis", "linear"])
 SINGLE = ("linear, 8 points, single, stop at 0.1 mm", ["--basis", "linear", "--precision", "single", "--tolerance", "0.1"])
 MODIFIED = ("MMLS, 8 points", [])
 # Debian's CalculiX has neither PARDISO nor PaStiX. Nearly incompressible quadratic tetrahedra take its iterative solver minutes.
-SOLVERS = [("C3D10", "SPOOLES"), ("C3D4", "SPOOLES"), ("C3D4", "ITERATIVE CHOLESKY")]
+SOLVERS = [("C3D10", "SPOOLES"), (UNREFINED, "SPOOLES"), ("C3D4", "SPOOLES"), ("C3D4", "ITERATIVE CHOLESKY")]
 SLOW = [("C3D10", "ITERATIVE CHOLESKY"), ("C3D10", "ITERATIVE SCALING"), ("C3D4", "ITERATIVE SCALING")]
 NODES = {"quick": ["2000"], "usual": ["5000", "10000", "20000"], "full": ["5000", "10000", "20000"]}
 
@@ -109,8 +112,8 @@ def main(out, folder, program, loader, size="usual"):
         for nodes in NODES[size]:
             for setting in (LINEAR, SINGLE) + ((MODIFIED,) if nodes == "20000" else ()):
                 keep(brainshift(program, loader, nodes, setting, threads, folder, reference))
-        for kind, solver in solvers:
-            keep(calculix(kind, *filled[kind], solver, threads, folder, reference))
+        for name, solver in solvers:
+            keep(calculix(name, *filled[name], solver, threads, folder, reference))
 
 
 if __name__ == "__main__":
