@@ -7,6 +7,7 @@ far side held, no contact. CalculiX solves a coarser mesh of its kind: quadratic
 
 usage: brain.py OUT.csv FOLDER BRAINSHIFT BRAIN_LOAD [quick|usual|full]   (the built programs)
 """
+import json
 import os
 import sys
 
@@ -79,11 +80,11 @@ def brainshift(program, loader, nodes, setting, threads, folder, reference):
         raise RuntimeError(f"{name}: see {place}/cloud.log and solve.log")
     timed.run([loader, "at", f"{place}/solution.vtu", f"{place}/samples.csv"], threads, place + "/at.log")
     samples = np.loadtxt(f"{place}/samples.csv", delimiter=",", skiprows=1)
-    with open(f"{place}/nodes.txt") as file:
-        count = int(file.read())
-    return {"program": "brainshift", "setting": name, "threads": threads, "nodes": count, "seconds": took.seconds,
+    with open(f"{place}/stage.json") as file:
+        sizes = json.load(file)["entry"]["sizes"]
+    return {"program": "brainshift", "setting": name, "threads": threads, "nodes": sizes["nodes"], "seconds": took.seconds,
             "peak_mb": took.peak_mb, **errors(samples - reference[:, 3:]),
-            "note": f"cloud and cells: {made.seconds:.1f} s"}
+            "note": f"{sizes['steps']} steps; cloud and cells: {made.seconds:.1f} s"}
 
 
 LINEAR = ("linear, 8 points", ["--basis", "linear"])

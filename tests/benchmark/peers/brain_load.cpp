@@ -85,7 +85,6 @@ void make_cloud(const std::vector<std::string>& words) {
     }
   }
   discretise::write_discretisation(words[1], made);
-  std::ofstream(words[1] + "/nodes.txt") << cloud.size() << '\n';
 }
 
 void evaluate(const std::vector<std::string>& words) {
