@@ -32,6 +32,7 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
+[ $size != quick ] || out=$root/build/benchmark-quick # not among figures that count
 [ ${#tables[@]} -gt 0 ] || tables=(machine kernels scale stages brain resample)
 
 [ $install = no ] || install_packages libbenchmark-dev calculix-ccx gmsh elastix plastimatch python3-numpy python3-scipy time >&2
