@@ -9,7 +9,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../pipelines/setup.sh"
 
 case ${1:-} in
-  '') install_packages clang-format ;;
+  '') install_packages clang-format libbenchmark-dev ;;
   --no-install) ;;
   *)
     echo "usage: bash tests/run.sh [--no-install]" >&2

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The kernels of the solve stage, each alone, on one and more threads.
+//
+//   kernels [--runs SCENE PUBLISHED USUAL] [options of Google Benchmark]
+//
+// PUBLISHED and USUAL are folders of runs of the scene, discretised with two cells a node and as usual; without them
+// small ellipsoids, to see that all runs. seconds_a_pair is time over the pairs of a point and a node of its support
+// that were handled.
+#include <benchmark/benchmark.h>
+#include <omp.h>
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "solve/prepare.hpp"
+#include "solve/quadrature/integration_points.hpp"
+#include "solve/shape/consistent_derivatives.hpp"
+#include "solve/shape/support_search.hpp"
+#include "tests/benchmark/bodies.hpp"
+
+namespace {
+
+using namespace brainshift;
+using namespace brainshift::solve;
+using bench::Body;
+using ::benchmark::State;
+
+/// Parameters of a smooth deformation of a few per cent.
+NodalVectors bent(const Points& positions) {
+  NodalVectors parameters(4 * static_cast<std::size_t>(positions.rows()), 0.0);
+  for (Eigen::Index a = 0; a < positions.rows(); ++a) {
+    const Eigen::Vector3d x = positions.row(a);
+    at(parameters, static_cast<std::size_t>(a)).head<3>() =
+        Eigen::Vector3d(std::sin(x.y() / 20), std::cos(x.z() / 25), std::sin(x.x() / 15));
+  }
+  return parameters;
+}
+
+Points ordered_positions(const Model& model, const std::vector<std::int32_t>& original) {
+  return model.cloud.positions(original, Eigen::all);
+}
+
+/// All that the table knows of the layout of the step: what is prepared, one evaluation, what it reads and handles.
+struct Step {
+  SolveMeasures measures = {};
+  Prepared prepared;
+  NodalVectors parameters, force;
+  ForceScratch scratch;
+
+  explicit Step(const Body& body)
+      : prepared(prepare(body.model, body.options, {}, measures, {})),
+        parameters(bent(ordered_positions(body.model, prepared.original))),
+        force(parameters.size(), 0.0),
+        scratch(prepared.points, prepared.laws) {}
+
+  void once() { internal_force(prepared.points, prepared.laws, parameters, scratch, force); }
+  double pairs() const { return static_cast<double>(measures.pairs); }
+  double bytes_read() const { return bench::bytes_read(prepared.points); }
+};
+
+/// What preparing a model makes first, for the kernels of the set-up.
+struct SetUp {
+  OrderedCloud cloud;
+  ShapeOptions shape;
+  IntegrationPoints points;
+
+  explicit SetUp(const Body& body) : cloud(order_nodes(body.model.cloud)), shape(body.options.shape) {
+    std::vector<std::int32_t> tissues;
+    for (const auto& [label, material] : body.model.materials) {
+      tissues.push_back(label);
+    }
+    points = integration_points(body.model.cells, body.options.points_per_cell,
+                                body.model.labels ? &*body.model.labels : nullptr, tissues);
+  }
+  ShapeFunctions functions() const { return {cloud.positions, cloud.spacing, shape}; }
+};
+
+/// Settings of a body, with what was made of it; made when first asked for.
+struct Setting {
+  std::string name;
+  Body body;
+  std::shared_ptr<Step> step = {};
+  std::shared_ptr<SetUp> set_up = {};
+
+  Step& stepping() {
+    step = step ? step : std::make_shared<Step>(body);
+    return *step;
+  }
+  SetUp& setting_up() {
+    set_up = set_up ? set_up : std::make_shared<SetUp>(body);
+    return *set_up;
+  }
+};
+
+/// What the CSV has in its columns; Google Benchmark wants the same of all rows.
+void count(State& state, double handled_pairs, double read) {
+  using ::benchmark::Counter;
+  const auto inverted = Counter::kIsIterationInvariantRate | Counter::kInvert;
+  state.counters["threads"] = omp_get_max_threads();
+  state.counters["pairs"] = handled_pairs;
+  state.counters["seconds_a_pair"] = Counter(handled_pairs, inverted);
+  state.counters["bytes_read"] = read;
+  state.counters["bytes_a_second"] = Counter(read, Counter::kIsIterationInvariantRate);
+}
+
+void time_step(State& state, Setting& setting) {
+  Step& step = setting.stepping();
+  step.once();
+  for (auto _ : state) {
+    step.once();
+  }
+  count(state, step.pairs(), step.bytes_read());
+}
+
+void time_search(State& state, Setting& setting) {
+  const SetUp& made = setting.setting_up();
+  std::vector<double> radius(made.cloud.spacing);
+  for (double& r : radius) {
+    r *= dilatation(made.shape);
+  }
+  std::size_t found = 0;
+  for (auto _ : state) {
+    const SupportSearch search(made.cloud.positions, radius);
+    found = 0;
+#pragma omp parallel for schedule(dynamic, 256) reduction(+ : found)
+    for (Eigen::Index p = 0; p < made.points.positions.rows(); ++p) {
+      thread_local std::vector<Supporter> support;
+      search.find(made.points.positions.row(p), 1, support);
+      found += support.size();
+    }
+  }
+  count(state, static_cast<double>(found), 0);
+}
+
+void time_shape_functions(State& state, Setting& setting) {
+  const SetUp& made = setting.setting_up();
+  ShapeRows rows;
+  for (auto _ : state) {
+    rows = made.functions().evaluate(made.points.positions, true);
+  }
+  count(state, static_cast<double>(rows.node.size()), 0);
+}
+
+void time_correction(State& state, Setting& setting) {
+  const SetUp& made = setting.setting_up();
+  const ShapeFunctions functions = made.functions();
+  const ShapeRows nodal = functions.evaluate(made.cloud.positions, false);
+  const ShapeRows plain = functions.evaluate(made.points.positions, true);
+  const std::vector<std::int32_t> surface = surface_nodes(made.cloud);
+  for (auto _ : state) {
+    state.PauseTiming();
+    ShapeRows rows = plain;
+    state.ResumeTiming();
+    make_derivatives_consistent(made.cloud.positions, surface, nodal, made.points.volume,
+                                setting.body.options.consistency_defect, rows);
+  }
+  count(state, static_cast<double>(plain.node.size()), 0);
+}
+
+void time_conditions(State& state, Setting& setting) {
+  Step& step = setting.stepping();
+  const std::vector<double> mass(step.prepared.points.nodes(), 1.0);
+  step.prepared.essential.factorise(mass);
+  NodalVectors parameters = step.parameters;
+  for (auto _ : state) {
+    step.prepared.essential.apply(0.5, parameters);
+  }
+  count(state, 0, 0);
+}
+
+void time_contact(State& state, Setting& setting) {
+  Step& step = setting.stepping();
+  const std::vector<double> mass(step.prepared.points.nodes(), 1.0);
+  step.prepared.contact->weigh(mass);
+  NodalVectors parameters(step.parameters.size(), 0.0);
+  for (auto _ : state) {
+    step.prepared.contact->apply(parameters);
+  }
+  count(state, 0, 0);
+}
+
+/// The floor: displacement gradients and a stress linear in them, scattered to the nodes, over rows of single-precision
+/// derivatives and plain node numbers as a first program would have them.
+struct PlainRows {
+  std::vector<std::int64_t> begin;
+  std::vector<std::int32_t> node;
+  std::vector<float> derivative, volume, displacement;
+  std::vector<std::vector<float>> force;  ///< one a thread
+
+  explicit PlainRows(const SetUp& made) {
+    const ShapeRows rows = made.functions().evaluate(made.points.positions, true);
+    begin = rows.begin;
+    node = rows.node;
+    derivative.assign(rows.derivative.begin(), rows.derivative.end());
+    volume.assign(made.points.volume.begin(), made.points.volume.end());
+    const NodalVectors bend = bent(made.cloud.positions);
+    displacement.assign(bend.begin(), bend.end());
+  }
+
+  /// Four floats a node, the last unused: a load of a vector register.
+  using Node = Eigen::Map<Eigen::Vector4f, Eigen::Aligned16>;
+  using ConstNode = Eigen::Map<const Eigen::Vector4f, Eigen::Aligned16>;
+
+  void add_point(std::size_t p, std::vector<float>& to) const {
+    constexpr float mu = 1000, lambda = 50000;
+    const auto first = static_cast<std::size_t>(begin[p]), last = static_cast<std::size_t>(begin[p + 1]);
+    Eigen::Vector4f column[3] = {Eigen::Vector4f::Zero(), Eigen::Vector4f::Zero(), Eigen::Vector4f::Zero()};
+    for (std::size_t k = first; k < last; ++k) {
+      const ConstNode u(&displacement[4 * static_cast<std::size_t>(node[k])]);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        column[axis] += derivative[3 * k + axis] * u;
+      }
+    }
+    Eigen::Matrix3f gradient;
+    gradient << column[0].head<3>(), column[1].head<3>(), column[2].head<3>();
+    const Eigen::Matrix3f stress =
+        volume[p] * (mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3f::Identity());
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      column[axis].head<3>() = stress.col(axis);
+    }
+    for (std::size_t k = first; k < last; ++k) {
+      Node(&to[4 * static_cast<std::size_t>(node[k])]) +=
+          derivative[3 * k] * column[0] + derivative[3 * k + 1] * column[1] + derivative[3 * k + 2] * column[2];
+    }
+  }
+
+  void once() {
+    force.resize(static_cast<std::size_t>(omp_get_max_threads()));
+#pragma omp parallel
+    {
+      std::vector<float>& own = force[static_cast<std::size_t>(omp_get_thread_num())];
+      own.assign(displacement.size(), 0.F);
+#pragma omp for schedule(static)
+      for (std::size_t p = 0; p < volume.size(); ++p) {
+        add_point(p, own);
+      }
+#pragma omp for schedule(static)
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        for (std::size_t other = 1; other < force.size(); ++other) {
+          force[0][i] += force[other][i];
+        }
+      }
+    }
+  }
+};
+
+void time_plain_rows(State& state, Setting& setting) {
+  PlainRows plain(setting.setting_up());
+  plain.once();
+  for (auto _ : state) {
+    plain.once();
+    ::benchmark::DoNotOptimize(plain.force[0].data());
+  }
+  count(state, static_cast<double>(plain.node.size()),
+        static_cast<double>(bytes(plain.begin) + bytes(plain.node) + bytes(plain.derivative) + bytes(plain.volume) +
+                            bytes(plain.displacement)));
+}
+
+/// As published in double and single precision, and the program's defaults, on a body for each.
+std::vector<Setting> settings(const Body& published, const Body& usual) {
+  std::vector<Setting> all;
+  for (const auto precision : {Precision::double_precision, Precision::single_precision}) {
+    const std::string name = precision == Precision::double_precision ? "double" : "single";
+    all.push_back({"linear, 1 point, " + name, published});
+    bench::as_published(all.back().body.options);
+    all.back().body.options.precision = precision;
+    all.push_back({"MMLS, 8 points, " + name, usual});
+    all.back().body.options.precision = precision;
+  }
+  return all;
+}
+
+void enrol(Setting& setting, const std::string& kernel, void (*time)(State&, Setting&)) {
+  for (int threads = 1; threads <= omp_get_num_procs(); threads *= 2) {
+    ::benchmark::RegisterBenchmark((kernel + "; " + setting.name + "; " + std::to_string(threads)).c_str(),
+                                   [&setting, time, threads](State& state) {
+                                     omp_set_num_threads(threads);
+                                     time(state, setting);
+                                   })
+        ->Unit(::benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime();
+  }
+}
+
+void enrol_all(std::vector<Setting>& all) {
+  for (Setting& setting : all) {
+    enrol(setting, "internal force", time_step);
+  }
+  enrol(all[0], "plain rows in single precision", time_plain_rows);
+  for (const std::size_t i : {0U, 1U}) {
+    enrol(all[i], "neighbour search", time_search);
+    enrol(all[i], "shape functions, search included", time_shape_functions);
+    enrol(all[i], "correction of the derivatives", time_correction);
+  }
+  enrol(all[0], "essential conditions", time_conditions);
+  if (all[0].body.model.skull) {
+    enrol(all[0], "contact", time_contact);
+  }
+}
+
+Body small_ellipsoid(double cells_per_node) {
+  Body body = bench::ellipsoid(800, cells_per_node);
+  body.model.skull = bench::ellipsoid_surface(0.5);
+  return body;
+}
+
+std::vector<Setting> brains(char** argv) {
+  return settings(bench::body_of_run(argv[0], argv[1]), bench::body_of_run(argv[0], argv[2]));
+}
+
+std::vector<Setting> small_ones() {
+  return settings(small_ellipsoid(bench::published_cells_per_node), small_ellipsoid(0.75));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool of_runs = argc >= 5 && std::strcmp(argv[1], "--runs") == 0;
+  std::vector<Setting> all = of_runs ? brains(argv + 2) : small_ones();
+  if (of_runs) {
+    std::copy(argv + 5, argv + argc, argv + 1);
+    argc -= 4;
+  }
+  ::benchmark::Initialize(&argc, argv);
+  if (::benchmark::ReportUnrecognizedArguments(argc, argv)) {
+    return 2;
+  }
+  enrol_all(all);
+  ::benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
