@@ -113,10 +113,11 @@ struct SceneSource {
   std::map<std::string, int> lines;
 };
 
-/// A scene is solved for where the brain ends, not for the way there.
-inline solve::SolveOptions fewest_steps() {
+/// A scene is solved for where the brain ends, not for the way there, and not to more than a micrometre.
+inline solve::SolveOptions quickest() {
   solve::SolveOptions options;
   options.start = solve::Start::coarse;
+  options.precision = solve::Precision::single_precision;
   return options;
 }
 
@@ -134,8 +135,8 @@ struct Scene {
   segmentation::SegmentOptions segment;  ///< brain_labels and skull_label are filled in from tissues and image
   discretise::DiscretiseOptions discretise;
   CraniotomyRefinement refinement;
-  solve::SolveOptions solve = fewest_steps();  ///< but for points_per_cell
-  std::optional<int> points_per_cell;          ///< absent: the most that the cells take; adaptive 1
+  solve::SolveOptions solve = quickest();  ///< but for points_per_cell
+  std::optional<int> points_per_cell;      ///< absent: the most that the cells take; adaptive 1
   Loading loading;
   registration::RegisterOptions registration;
   std::array<std::string, all_stages.size()> commands;  ///< external commands that replace stages; empty: our own stage

@@ -234,7 +234,9 @@ Element solve_element() {
            "precision", MEMBER(solve.precision),
            std::vector<std::pair<std::string, solve::Precision>>{{"double", solve::Precision::double_precision},
                                                                  {"single", solve::Precision::single_precision}},
-           "in which the derivatives are kept while stepping; arithmetic is double in any case"),
+           "of the derivatives while stepping and of the sums over pairs of points and nodes; stresses are double in "
+           "any "
+           "case. On the demo single is within 0.0001 mm of double"),
        choice<Scene>("dynamics", MEMBER(solve.dynamics),
                      std::vector<std::pair<std::string, solve::Dynamics>>{{"relaxation", solve::Dynamics::relaxation},
                                                                           {"transient", solve::Dynamics::transient}},

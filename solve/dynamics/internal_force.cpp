@@ -85,8 +85,8 @@ void force_of(const PointBlocks& points, const PointLaws& laws, const NodalVecto
               NodalVectors& force) {
   const auto blocks = static_cast<std::int64_t>(points.blocks.size());
   const auto nodes = static_cast<std::int64_t>(points.nodes());
-  const int threads = std::min(omp_get_max_threads(), static_cast<int>(scratch.batches.size()));
-#pragma omp parallel num_threads(threads)
+  scratch.batches.resize(static_cast<std::size_t>(omp_get_max_threads()), scratch.batches.front());
+#pragma omp parallel
   {
     Batch& room = scratch.batches[static_cast<std::size_t>(omp_get_thread_num())];
 #pragma omp for schedule(dynamic)

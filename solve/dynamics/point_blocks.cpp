@@ -95,7 +95,7 @@ PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows,
   out.pair_begin.push_back(0);
   const std::size_t most_pairs = rows.node.size() + (quad - 1) * order.size();
   out.pair_slot.reserve(most_pairs);
-  const std::size_t most_derivatives = 3 * most_pairs + read_past_end;
+  const std::size_t most_derivatives = 3 * most_pairs;
   const bool single = precision == Precision::single_precision;
   single ? out.pair_single.reserve(most_derivatives) : out.pair_derivative.reserve(most_derivatives);
   out.support.reserve(order.size());
@@ -135,8 +135,6 @@ PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows,
     pairs += more;
   }
   append_block(out, rows, order, block, precision, slot_of_node);
-  single ? out.pair_single.resize(out.pair_single.size() + read_past_end)
-         : out.pair_derivative.resize(out.pair_derivative.size() + read_past_end);
   list_slots_of_nodes(out, nodes);
   return out;
 }

@@ -10,7 +10,6 @@ namespace {
 #define BRAINSHIFT_INLINE [[gnu::always_inline]] inline
 
 namespace basic {
-constexpr int floats_together = 1, doubles_together = 1;
 #include "solve/dynamics/step_kernels_body.hpp"
 }  // namespace basic
 
@@ -20,7 +19,6 @@ constexpr int floats_together = 1, doubles_together = 1;
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 namespace avx2 {
-constexpr int floats_together = 2, doubles_together = 1;
 #include "solve/dynamics/step_kernels_body.hpp"
 }  // namespace avx2
 #pragma GCC pop_options
@@ -28,18 +26,16 @@ constexpr int floats_together = 2, doubles_together = 1;
 #pragma GCC push_options
 #pragma GCC target("avx2,fma,avx512f,avx512vl,avx512bw,avx512dq")
 namespace avx512 {
-constexpr int floats_together = 2, doubles_together = 2;
 #include "solve/dynamics/step_kernels_body.hpp"
 }  // namespace avx512
 #pragma GCC pop_options
 #endif
 
 // A constant table: no function of a level may run before it is known that the processor can.
-#define BRAINSHIFT_KERNELS(level, name)                                                                        \
-  {                                                                                                            \
-    name, {level::gradients<double, level::doubles_together>, level::spread<double, level::doubles_together>}, \
-        {level::gradients<float, level::floats_together>, level::spread<float, level::floats_together>},       \
-        level::jacobian, level::neo_hookean                                                                    \
+#define BRAINSHIFT_KERNELS(level, name)                                                                       \
+  {                                                                                                           \
+    name, {level::gradients<double>, level::spread<double>}, {level::gradients<float>, level::spread<float>}, \
+        level::jacobian, level::neo_hookean                                                                   \
   }
 
 constexpr StepKernels all[] = {

@@ -13,8 +13,6 @@ namespace brainshift::solve {
 /// Rows of shape functions are padded with zeros to whole quads of pairs, so that rows of nearly the same length take
 /// the same number of turns, which processors foresee.
 inline constexpr std::size_t quad = 4;
-/// Derivatives that may be read, not used, after the last one.
-inline constexpr std::size_t read_past_end = 2;
 /// Points whose tensors lie side by side.
 inline constexpr std::size_t lanes = 8;
 

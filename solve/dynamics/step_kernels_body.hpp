@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Included by step_kernels.cpp once for each instruction set, inside a namespace that says how many nodes' vectors fill
-// a register there: floats_together, doubles_together.
+// Included by step_kernels.cpp once for each instruction set, inside a namespace of its own.
 
 template <class Scalar, int size>
 struct VectorOf {
@@ -10,145 +9,78 @@ struct VectorOf {
 /// How far ahead derivatives are fetched: each is read once a step, and the processor foresees too little of it.
 constexpr std::size_t ahead = 4096;  // bytes
 
-/// `together` nodes' vectors of four in a register.
-template <class Scalar, int together>
-struct Nodes {
-  using One = typename VectorOf<Scalar, 4>::Type;
-  using All = typename VectorOf<Scalar, 4 * together>::Type;
-  using Read = typename VectorOf<Scalar, 8>::Type;
+/// A node's vector of four. One fills half a register or a quarter: filling it with two or four nodes, by shuffles or
+/// insertions, was slower, as they all go through one port of the processor.
+template <class Scalar>
+using Node = typename VectorOf<Scalar, 4>::Type;
 
-  BRAINSHIFT_INLINE static void load(const Scalar* values, const std::uint16_t* slot, All& nodes) {
-    One first;
-    __builtin_memcpy(&first, values + 4 * std::size_t{slot[0]}, sizeof first);
-    if constexpr (together == 2) {
-      One second;
-      __builtin_memcpy(&second, values + 4 * std::size_t{slot[1]}, sizeof second);
-      nodes = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
-    } else {
-      nodes = first;
-    }
-  }
+template <class Scalar>
+BRAINSHIFT_INLINE void load(const Scalar* values, std::uint16_t slot, Node<Scalar>& node) {
+  __builtin_memcpy(&node, values + 4 * std::size_t{slot}, sizeof node);
+}
 
-  BRAINSHIFT_INLINE static void store(const All& nodes, const std::uint16_t* slot, Scalar* values) {
-    if constexpr (together == 2) {
-      const One first = __builtin_shufflevector(nodes, nodes, 0, 1, 2, 3);
-      const One second = __builtin_shufflevector(nodes, nodes, 4, 5, 6, 7);
-      __builtin_memcpy(values + 4 * std::size_t{slot[0]}, &first, sizeof first);
-      __builtin_memcpy(values + 4 * std::size_t{slot[1]}, &second, sizeof second);
-    } else {
-      __builtin_memcpy(values + 4 * std::size_t{slot[0]}, &nodes, sizeof nodes);
-    }
-  }
-
-  /// sum[axis] += nodes · B_axis of each.
-  BRAINSHIFT_INLINE static void add_products(const All& nodes, const Scalar* derivative, All* sum) {
-    if constexpr (together == 2) {
-      Read b;
-      __builtin_memcpy(&b, derivative, sizeof b);
-      sum[0] += nodes * __builtin_shufflevector(b, b, 0, 0, 0, 0, 3, 3, 3, 3);
-      sum[1] += nodes * __builtin_shufflevector(b, b, 1, 1, 1, 1, 4, 4, 4, 4);
-      sum[2] += nodes * __builtin_shufflevector(b, b, 2, 2, 2, 2, 5, 5, 5, 5);
-    } else {
-      for (int axis = 0; axis < 3; ++axis) {
-        sum[axis] += nodes * derivative[axis];
-      }
-    }
-  }
-
-  /// nodes += Σ_axis columns[axis] B_axis of each.
-  BRAINSHIFT_INLINE static void add_columns(const All* columns, const Scalar* derivative, All& nodes) {
-    if constexpr (together == 2) {
-      Read b;
-      __builtin_memcpy(&b, derivative, sizeof b);
-      nodes += columns[0] * __builtin_shufflevector(b, b, 0, 0, 0, 0, 3, 3, 3, 3);
-      nodes += columns[1] * __builtin_shufflevector(b, b, 1, 1, 1, 1, 4, 4, 4, 4);
-      nodes += columns[2] * __builtin_shufflevector(b, b, 2, 2, 2, 2, 5, 5, 5, 5);
-    } else {
-      for (int axis = 0; axis < 3; ++axis) {
-        nodes += columns[axis] * derivative[axis];
-      }
-    }
-  }
-
-  BRAINSHIFT_INLINE static void fold(const All& nodes, One& sum) {
-    if constexpr (together == 2) {
-      sum = __builtin_shufflevector(nodes, nodes, 0, 1, 2, 3) + __builtin_shufflevector(nodes, nodes, 4, 5, 6, 7);
-    } else {
-      sum = nodes;
-    }
-  }
-
-  BRAINSHIFT_INLINE static void spread_out(const One& one, All& nodes) {
-    if constexpr (together == 2) {
-      nodes = __builtin_shufflevector(one, one, 0, 1, 2, 3, 0, 1, 2, 3);
-    } else {
-      nodes = one;
-    }
-  }
-};
-
-template <class Scalar, int together>
+template <class Scalar>
 void gradients(const PairRows<Scalar>& rows, std::int32_t first, std::int32_t last, const Scalar* displacement,
                TensorLanes* gradient) {
-  using Vectors = Nodes<Scalar, together>;
   const std::uint16_t* slot = rows.slot + rows.begin[first];
   const Scalar* derivative = rows.derivative + 3 * rows.begin[first];
   for (std::int32_t p = first; p < last; ++p) {
     const std::uint16_t* const end = rows.slot + rows.begin[p + 1];
-    typename Vectors::All sum[2][3] = {};  // two, so that an addition need not wait for the one before
+    Node<Scalar> sum[2][3] = {};  // two, so that an addition need not wait for the one before
     do {
       __builtin_prefetch(reinterpret_cast<const char*>(derivative) + ahead);
       __builtin_prefetch(reinterpret_cast<const char*>(slot) + ahead / 8);
 #pragma GCC unroll 4
-      for (int k = 0; k < static_cast<int>(quad) / together; ++k) {
-        typename Vectors::All nodes;
-        Vectors::load(displacement, slot + k * together, nodes);
-        Vectors::add_products(nodes, derivative + 3 * k * together, sum[k % 2]);
+      for (std::size_t k = 0; k < quad; ++k) {
+        Node<Scalar> node;
+        load(displacement, slot[k], node);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          sum[k % 2][axis] += node * derivative[3 * k + axis];
+        }
       }
       slot += quad;
       derivative += 3 * quad;
     } while (slot != end);
     const auto i = static_cast<std::size_t>(p - first);
     TensorLanes& out = gradient[i / lanes];
-    for (int axis = 0; axis < 3; ++axis) {
-      typename Vectors::One column;
-      Vectors::fold(sum[0][axis] + sum[1][axis], column);
-      for (int row = 0; row < 3; ++row) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Node<Scalar> column = sum[0][axis] + sum[1][axis];
+      for (std::size_t row = 0; row < 3; ++row) {
         out.entry[3 * axis + row][i % lanes] = (row == axis ? 1.0 : 0.0) + static_cast<double>(column[row]);
       }
     }
   }
   for (auto i = static_cast<std::size_t>(last - first); i % lanes != 0; ++i) {
-    for (int k = 0; k < 9; ++k) {
+    for (std::size_t k = 0; k < 9; ++k) {
       gradient[i / lanes].entry[k][i % lanes] = k % 4 == 0 ? 1.0 : 0.0;
     }
   }
 }
 
-template <class Scalar, int together>
+template <class Scalar>
 void spread(const PairRows<Scalar>& rows, std::int32_t first, std::int32_t last, const TensorLanes* stress,
             Scalar* force) {
-  using Vectors = Nodes<Scalar, together>;
   const std::uint16_t* slot = rows.slot + rows.begin[first];
   const Scalar* derivative = rows.derivative + 3 * rows.begin[first];
   for (std::int32_t p = first; p < last; ++p) {
     const auto i = static_cast<std::size_t>(p - first);
     const TensorLanes& of = stress[i / lanes];
-    typename Vectors::All column[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      const typename Vectors::One one = {static_cast<Scalar>(of.entry[3 * axis][i % lanes]),
-                                         static_cast<Scalar>(of.entry[3 * axis + 1][i % lanes]),
-                                         static_cast<Scalar>(of.entry[3 * axis + 2][i % lanes]), 0};
-      Vectors::spread_out(one, column[axis]);
+    Node<Scalar> column[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      column[axis] = Node<Scalar>{static_cast<Scalar>(of.entry[3 * axis][i % lanes]),
+                                  static_cast<Scalar>(of.entry[3 * axis + 1][i % lanes]),
+                                  static_cast<Scalar>(of.entry[3 * axis + 2][i % lanes]), 0};
     }
     const std::uint16_t* const end = rows.slot + rows.begin[p + 1];
     do {
 #pragma GCC unroll 4
-      for (int k = 0; k < static_cast<int>(quad) / together; ++k) {
-        typename Vectors::All nodes;
-        Vectors::load(force, slot + k * together, nodes);
-        Vectors::add_columns(column, derivative + 3 * k * together, nodes);
-        Vectors::store(nodes, slot + k * together, force);
+      for (std::size_t k = 0; k < quad; ++k) {
+        Node<Scalar> node;
+        load(force, slot[k], node);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          node += column[axis] * derivative[3 * k + axis];
+        }
+        __builtin_memcpy(force + 4 * std::size_t{slot[k]}, &node, sizeof node);
       }
       slot += quad;
       derivative += 3 * quad;

@@ -34,8 +34,6 @@ struct Rows {
       }
       begin.push_back(static_cast<std::int64_t>(slot.size()));
     }
-    in_double.resize(in_double.size() + read_past_end);
-    in_single.resize(in_single.size() + read_past_end);
   }
 
   double number() { return std::uniform_real_distribution<double>(-1, 1)(random); }
