@@ -70,6 +70,32 @@ TEST(Region, DiffersFromTheWholeByLessThanItself) {
               0.1 * std::abs(whole.history.back().reaction.z()));
 }
 
+TEST(CoarseStart, EndsWhereTheStartFromRestEndsInFewerSteps) {
+  const Model model = pressed_bar();
+  SolveOptions options;
+  options.tolerance = 0.001;
+  const SolveResult from_rest = solve(model, options);
+  options.start = Start::coarse;
+  const SolveResult from_coarse = solve(model, options);
+  ASSERT_TRUE(from_coarse.failure.empty()) << from_coarse.failure;
+  EXPECT_LT(from_coarse.measures.steps, 3 * from_rest.measures.steps / 4);
+  EXPECT_LT(largest_difference_of(from_coarse, from_rest), 2 * options.tolerance);
+  EXPECT_GT(from_coarse.measures.seconds_coarse, 0);
+  EXPECT_EQ(from_rest.measures.seconds_coarse, 0);
+  EXPECT_NEAR(from_coarse.history.back().strain_energy, from_rest.history.back().strain_energy,
+              0.01 * from_rest.history.back().strain_energy);
+}
+
+TEST(CoarseStart, IsFromRestWhereTheWayThereIsWanted) {
+  const Model model = pressed_bar();
+  SolveOptions options;
+  options.start = Start::coarse;
+  options.snapshot_every = 100;
+  const SolveResult result = solve(model, options);
+  EXPECT_EQ(result.measures.seconds_coarse, 0);
+  EXPECT_LT(result.history.front().time, 1);
+}
+
 TEST(Region, OfEverythingIsTheWholeBitForBit) {
   const Model model = pressed_bar();
   SolveOptions options;
