@@ -5,8 +5,8 @@
 
 namespace brainshift::solve {
 
-/// In which the derivatives of the shape functions are kept while stepping, most of what a step reads. All arithmetic
-/// is double in any case.
+/// Of the derivatives of the shape functions while stepping, most of what a step reads, and of the sums over pairs of
+/// points and nodes. Stresses are double in any case.
 enum class Precision : std::uint8_t { double_precision, single_precision };
 
 }  // namespace brainshift::solve

@@ -100,7 +100,10 @@ TEST_F(Run, ExplainsWhatEachPartChanged) {
   const ProgramResult before = run_shell(command);
   ASSERT_EQ(before.code, 0) << before.err;
   EXPECT_NE(before.out.find("% of time"), std::string::npos) << before.out;
-  const ProgramResult after = run_shell(command + "--after " + finished().string());
+  const fs::path in_double = copy_of_finished("in_double");
+  const std::string set_double = "--set solve.precision=double ";
+  ASSERT_EQ(run(in_double, set_double).code, 0);
+  const ProgramResult after = run_shell(command + set_double + "--after " + in_double.string());
   ASSERT_EQ(after.code, 0) << after.err;
   EXPECT_NE(after.out.find("contact (left out): needed"), std::string::npos) << after.out;
   EXPECT_NE(after.out.find("you can take it"), std::string::npos) << "single precision:\n" << after.out;
