@@ -6,17 +6,16 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <optional>
 #include <vector>
 
 #include "register/field/field_sampler.hpp"
-#include "register/field/node_interpolation.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::registration {
 
 namespace {
 
+constexpr std::size_t chunk = 1 << 19;     // voxels evaluated between two reports of progress
 constexpr double reach_in_spacings = 0.3;  // how far outside the nodes their shape functions are trusted
 constexpr double smoothing_width = 3.0;    // mm, standard deviation of the smoothing outside the brain
 
@@ -66,107 +65,26 @@ Eigen::Vector3d place_of(const BrainZones& zones, const ImageGeometry& geometry,
   return outside > reach ? Eigen::Vector3d(place - (outside - reach) * zones.outside.gradient(place)) : place;
 }
 
-/// A grid in bricks of four voxels along an axis, or fewer where they are longer: those of a brick see almost the same
-/// nodes.
-class Bricks {
- public:
-  explicit Bricks(const ImageGeometry& geometry)
-      : geometry_(geometry),
-        size_((4 * geometry.spacing.minCoeff() / geometry.spacing.array()).round().max(1).cast<int>()),
-        count_((geometry.size + size_ - 1) / size_) {}
-
-  const Eigen::Array3i& count() const { return count_; }
-
-  /// From the middle of a brick to the middles of its corner voxels, mm.
-  double radius() const { return ((size_ - 1).cast<double>() * geometry_.spacing.array() / 2).matrix().norm(); }
-
-  /// The wanted voxels of a brick along a Z-order curve, whose every eight are neighbours.
-  template <class Wanted>
-  std::vector<Voxel> voxels(const Eigen::Array3i& brick, const Wanted& wanted) const {
-    std::vector<Voxel> result;
-    for (int n = 0; n < 64; ++n) {
-      const auto bits = [n](int axis) { return (n >> axis & 1) + 2 * (n >> (axis + 3) & 1); };
-      const Eigen::Array3i within(bits(0), bits(1), bits(2)), at = brick * size_ + within;
-      if ((within < size_).all() && (at < geometry_.size).all()) {
-        const Voxel voxel{at.x(), at.y(), at.z(), geometry_.offset(at.x(), at.y(), at.z())};
-        if (wanted(voxel)) {
-          result.push_back(voxel);
-        }
-      }
-    }
-    return result;
-  }
-
- private:
-  const ImageGeometry& geometry_;
-  Eigen::Array3i size_, count_;
-};
-
-struct VoxelPlace {
-  std::size_t offset;
-  Eigen::Vector3d place;
-};
-
-/// Sets the voxels where the interpolation is sure; the others are returned.
-std::vector<VoxelPlace> evaluate_together(const NodeInterpolation& interpolation, const std::vector<VoxelPlace>& voxels,
-                                          VectorImage& field) {
-  std::vector<Eigen::Vector3d> places;
-  for (const VoxelPlace& v : voxels) {
-    places.push_back(v.place);
-  }
-  std::vector<std::optional<Eigen::Vector3d>> displacement(voxels.size());
-  interpolation.at(places, displacement);
-  std::vector<VoxelPlace> left;
-  for (std::size_t v = 0; v < voxels.size(); ++v) {
-    if (displacement[v]) {
-      field.voxels[voxels[v].offset] = stored(*displacement[v]);
-    } else {
-      left.push_back(voxels[v]);
-    }
-  }
-  return left;
-}
-
-void evaluate_one_by_one(const solve::ShapeFunctions& shape, const Points& parameters,
-                         const std::vector<VoxelPlace>& voxels, VectorImage& field) {
-  Points places(static_cast<Eigen::Index>(voxels.size()), 3);
-  for (std::size_t v = 0; v < voxels.size(); ++v) {
-    places.row(static_cast<Eigen::Index>(v)) = voxels[v].place;
-  }
-  const Points displacement = shape.interpolate(places, parameters);
-  for (std::size_t v = 0; v < voxels.size(); ++v) {
-    field.voxels[voxels[v].offset] = stored(displacement.row(static_cast<Eigen::Index>(v)));
-  }
-}
-
 /// The solver's field at the voxels of brain and shell.
-void evaluate(const Solution& solution, const BrainZones& zones, double reach, VectorImage& field,
-              const Progress& progress) {
+void evaluate(const Solution& solution, const BrainZones& zones, const std::vector<Voxel>& voxels, double reach,
+              VectorImage& field, const Progress& progress) {
   const solve::ShapeFunctions shape = shape_functions(solution);
   const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
-  const Bricks bricks(field.geometry);
-  const double widest = bricks.radius() + (zones.shell - reach) / 2;  // as place_of() draws few bricks apart
-  const NodeInterpolation interpolation(solution, parameters, widest);
-  const auto near = [&](const Voxel& v) {
-    return zones.zone[v.offset] == Zone::brain || zones.zone[v.offset] == Zone::shell;
-  };
-  std::vector<VoxelPlace> left;
-  for (int layer = 0; layer < bricks.count().z(); ++layer) {
-    report(progress, 0.8 * layer / bricks.count().z(), "displacement at the voxels");
-#pragma omp parallel for collapse(2) schedule(dynamic, 8)
-    for (int row = 0; row < bricks.count().y(); ++row) {
-      for (int column = 0; column < bricks.count().x(); ++column) {
-        std::vector<VoxelPlace> voxels;
-        for (const Voxel& v : bricks.voxels({column, row, layer}, near)) {
-          voxels.push_back({v.offset, place_of(zones, field.geometry, v, reach)});
-        }
-        const std::vector<VoxelPlace> doubtful = evaluate_together(interpolation, voxels, field);
-#pragma omp critical
-        left.insert(left.end(), doubtful.begin(), doubtful.end());
-      }
+  for (std::size_t begin = 0; begin < voxels.size(); begin += chunk) {
+    report(progress, 0.8 * static_cast<double>(begin) / static_cast<double>(voxels.size()),
+           "displacement at the voxels");
+    const std::size_t end = std::min(begin + chunk, voxels.size());
+    Points places(static_cast<Eigen::Index>(end - begin), 3);
+#pragma omp parallel for schedule(static)
+    for (std::size_t v = begin; v < end; ++v) {
+      places.row(static_cast<Eigen::Index>(v - begin)) = place_of(zones, field.geometry, voxels[v], reach);
+    }
+    const Points displacement = shape.interpolate(places, parameters);
+#pragma omp parallel for schedule(static)
+    for (std::size_t v = begin; v < end; ++v) {
+      field.voxels[voxels[v].offset] = stored(displacement.row(static_cast<Eigen::Index>(v - begin)));
     }
   }
-  evaluate_one_by_one(shape, parameters, left, field);
 }
 
 /// The place near x that is `reach` away from the brain, by walking down the distance. One step suffices but where the
@@ -326,7 +244,8 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
   VectorImage field{geometry, std::vector<Displacement>(geometry.voxel_count(), Displacement{0, 0, 0})};
   const double reach = std::min(zones.shell / 2, reach_in_spacings * mean(solution.spacing));
   const auto in = [&](Zone wanted) { return [&, wanted](const Voxel& v) { return zones.zone[v.offset] == wanted; }; };
-  evaluate(solution, zones, reach, field, progress);
+  const auto near = [&](const Voxel& v) { return in(Zone::brain)(v) || in(Zone::shell)(v); };
+  evaluate(solution, zones, voxels_where(geometry, near), reach, field, progress);
   report(progress, 0.8, "fading outside the brain");
   extend(zones, voxels_where(geometry, in(Zone::fading)), reach, field);
   const std::vector<Voxel> outside = voxels_where(geometry, [&](const Voxel& v) {
