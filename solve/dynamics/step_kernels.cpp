@@ -7,8 +7,6 @@ namespace brainshift::solve {
 
 namespace {
 
-#define BRAINSHIFT_INLINE [[gnu::always_inline]] inline
-
 namespace basic {
 #include "solve/dynamics/step_kernels_body.hpp"
 }  // namespace basic

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "solve/lanes.hpp"
+
 namespace brainshift::solve {
 
 // The loops that take the time of a step, compiled for several levels of the x86-64 instruction set. Plain pointers:
@@ -13,8 +15,6 @@ namespace brainshift::solve {
 /// Rows of shape functions are padded with zeros to whole quads of pairs, so that rows of nearly the same length take
 /// the same number of turns, which processors foresee.
 inline constexpr std::size_t quad = 4;
-/// Points whose tensors lie side by side.
-inline constexpr std::size_t lanes = 8;
 
 /// A tensor of 3 × 3, column-major, at each of `lanes` points.
 struct alignas(64) TensorLanes {

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Included by step_kernels.cpp once for each instruction set, inside a namespace of its own.
 
-template <class Scalar, int size>
-struct VectorOf {
-  typedef Scalar Type __attribute__((vector_size(size * sizeof(Scalar))));
-};
-
 /// How far ahead derivatives are fetched: each is read once a step, and the processor foresees too little of it.
 constexpr std::size_t ahead = 4096;  // bytes
 
 /// A node's vector of four. One fills half a register or a quarter: filling it with two or four nodes, by shuffles or
 /// insertions, was slower, as they all go through one port of the processor.
 template <class Scalar>
-using Node = typename VectorOf<Scalar, 4>::Type;
+struct NodeOf {
+  typedef Scalar Type __attribute__((vector_size(4 * sizeof(Scalar))));
+};
+template <class Scalar>
+using Node = typename NodeOf<Scalar>::Type;
 
 template <class Scalar>
 BRAINSHIFT_INLINE void load(const Scalar* values, std::uint16_t slot, Node<Scalar>& node) {
@@ -88,18 +87,16 @@ void spread(const PairRows<Scalar>& rows, std::int32_t first, std::int32_t last,
   }
 }
 
-using Lanes = VectorOf<double, static_cast<int>(lanes)>::Type;
-
 /// Deformation, of `lanes` points.
 struct DeformationLanes {
-  Lanes gradient[9], cofactor[9], jacobian;
+  Lane gradient[9], cofactor[9], jacobian;
 };
 
 BRAINSHIFT_INLINE void deform(const TensorLanes& gradient, DeformationLanes& d) {
   __builtin_memcpy(d.gradient, gradient.entry, sizeof d.gradient);
   for (int column = 0; column < 3; ++column) {
-    const Lanes* a = d.gradient + 3 * ((column + 1) % 3);
-    const Lanes* b = d.gradient + 3 * ((column + 2) % 3);
+    const Lane* a = d.gradient + 3 * ((column + 1) % 3);
+    const Lane* b = d.gradient + 3 * ((column + 2) % 3);
     for (int row = 0; row < 3; ++row) {
       const int next = (row + 1) % 3, last = (row + 2) % 3;
       d.cofactor[3 * column + row] = a[next] * b[last] - a[last] * b[next];
@@ -109,7 +106,7 @@ BRAINSHIFT_INLINE void deform(const TensorLanes& gradient, DeformationLanes& d) 
 }
 
 /// x^(−1/3) by Newton's method; NaN where x is not positive. The start, from the bits of x, is within 5 %.
-BRAINSHIFT_INLINE void inverse_cube_root(const Lanes& x, Lanes& root) {
+BRAINSHIFT_INLINE void inverse_cube_root(const Lane& x, Lane& root) {
   std::uint64_t bits[lanes];
   __builtin_memcpy(bits, &x, sizeof bits);
   for (std::uint64_t& b : bits) {
@@ -119,7 +116,7 @@ BRAINSHIFT_INLINE void inverse_cube_root(const Lanes& x, Lanes& root) {
   for (int i = 0; i < 4; ++i) {
     root = root * (4.0 - x * root * root * root) * (1.0 / 3);
   }
-  const Lanes nowhere = Lanes{} + std::numeric_limits<double>::quiet_NaN();
+  const Lane nowhere = Lane{} + std::numeric_limits<double>::quiet_NaN();
   root = x > 0.0 ? root : nowhere;
 }
 
@@ -136,17 +133,17 @@ void neo_hookean(const TensorLanes* gradient, std::size_t groups, double shear_m
   for (std::size_t g = 0; g < groups; ++g) {
     DeformationLanes d;
     deform(gradient[g], d);
-    Lanes root, p, w, squared_norm = {};
+    Lane root, p, w, squared_norm = {};
     inverse_cube_root(d.jacobian, root);
     __builtin_memcpy(&p, pressure + lanes * g, sizeof p);
     __builtin_memcpy(&w, volume + lanes * g, sizeof w);
-    for (const Lanes& f : d.gradient) {
+    for (const Lane& f : d.gradient) {
       squared_norm += f * f;
     }
-    const Lanes scale = shear_modulus * root * root;
-    const Lanes of_cofactor = w * (p - scale * squared_norm / (3.0 * d.jacobian)), of_gradient = w * scale;
+    const Lane scale = shear_modulus * root * root;
+    const Lane of_cofactor = w * (p - scale * squared_norm / (3.0 * d.jacobian)), of_gradient = w * scale;
     for (int k = 0; k < 9; ++k) {
-      const Lanes entry = of_gradient * d.gradient[k] + of_cofactor * d.cofactor[k];
+      const Lane entry = of_gradient * d.gradient[k] + of_cofactor * d.cofactor[k];
       __builtin_memcpy(stress[g].entry[k], &entry, sizeof entry);
     }
   }

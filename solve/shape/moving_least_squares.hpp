@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "segmentation/surface/surface.hpp"
-#include "solve/shape/lanes.hpp"
+#include "solve/lanes.hpp"
 #include "solve/shape/shape_options.hpp"
 
 namespace brainshift::solve {

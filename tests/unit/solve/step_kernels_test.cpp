@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "solve/dynamics/batch_stress.hpp"
 #include "solve/material/neo_hookean.hpp"
 
 namespace brainshift::solve {
@@ -55,14 +56,6 @@ std::vector<Scalar> random_values(Rows& rows, std::size_t count) {
     v = static_cast<Scalar>(rows.number());
   }
   return values;
-}
-
-Eigen::Matrix3d tensor(const std::vector<TensorLanes>& t, std::size_t i) {
-  Eigen::Matrix3d m;
-  for (std::size_t k = 0; k < 9; ++k) {
-    m.data()[k] = t[i / lanes].entry[k][i % lanes];
-  }
-  return m;
 }
 
 template <class Scalar>
