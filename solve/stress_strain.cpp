@@ -43,7 +43,7 @@ std::vector<StressStrainRow> stress_strain(const Model& model, Dynamics dynamics
   std::vector<StressStrainRow> rows;
   int calm = 0;
   for (const HistoryRow& h : history) {
-    calm = h.residual <= residual_at_rest ? calm + 1 : 0;
+    calm = calm_rows(calm, h.residual);
     if (dynamics == Dynamics::relaxation && calm < rows_of_rest && &h != &history.back()) {
       continue;
     }

@@ -151,7 +151,7 @@ class Relaxation {
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     HistoryRow& row = motion_.result.history.back();
     row.residual = residual();
-    calm_ = row.residual <= residual_at_rest ? calm_ + 1 : 0;
+    calm_ = calm_rows(calm_, row.residual);
     row.error_bound = bound_;
     const int windows = motion_.result.steps / window;
     if (windows % (motion_.time < 1 ? 3 : 10) == 0) {

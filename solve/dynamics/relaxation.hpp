@@ -11,6 +11,11 @@ namespace brainshift::solve {
 inline constexpr double residual_at_rest = 0.02;
 inline constexpr int rows_of_rest = 4;
 
+/// How many rows up to one with this residual are calm, from how many up to the one before.
+inline int calm_rows(int before, double residual) {
+  return residual <= residual_at_rest ? before + 1 : 0;
+}
+
 /// Adaptive dynamic relaxation (Joldes, Wittek & Miller 2011) to the steady state under the full load. Steps by
 ///   û⁺ = û + β(û − û⁻) + α M⁻¹ (f_ext − f_int),  then contact, then the essential conditions,
 /// with the bound of the stiffness as mass, scaled to the largest eigenvalue A_m = 1 that power iteration finds (should
