@@ -18,7 +18,7 @@
 
 #include "discretise/discretise.hpp"
 #include "solve/prepare.hpp"
-#include "tests/unit/discretise/bodies.hpp"
+#include "tests/benchmark/bodies.hpp"
 
 using namespace brainshift;
 using namespace brainshift::solve;
@@ -37,31 +37,6 @@ struct Part {
   Add shared;
   Add with;
 };
-
-Surface ellipsoid(double larger) {
-  Surface surface = test::ball(1, Eigen::Vector3d::Zero(), 5);
-  surface.vertices *= Eigen::Vector3d(80 + larger, 65 + larger, 60 + larger).asDiagonal();
-  return surface;
-}
-
-/// The top of the ellipsoid sinks by up to 4 mm, the rest is free.
-Model brain(std::size_t nodes) {
-  discretise::DiscretiseOptions options;
-  options.nodes = nodes;
-  auto [cloud, cells, measures] = discretise::discretise(ellipsoid(0), nullptr, options);
-  Model model;
-  model.cloud = std::move(cloud);
-  model.cells = std::move(cells);
-  model.materials[1] = {3000, 0.49, 1000};
-  model.cloud.prescribed_displacement = Points::Constant(model.cloud.positions.rows(), 3, std::nan(""));
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    const double r = model.cloud.positions.row(a).head<2>().norm() / 28;
-    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0 && model.cloud.positions(a, 2) > 0 && r < 1) {
-      model.cloud.prescribed_displacement.row(a) << 0, 0, -4 * (1 - r * r);
-    }
-  }
-  return model;
-}
 
 void nothing(Model&, SolveOptions&) {}
 
@@ -102,7 +77,8 @@ void three_materials(Model& model, SolveOptions&) {
 }
 
 std::vector<Part> parts() {
-  return {{"contact", &HeldBytes::contact, nothing, [](Model& m, SolveOptions&) { m.skull = ellipsoid(0.5); }},
+  return {{"contact", &HeldBytes::contact, nothing,
+           [](Model& m, SolveOptions&) { m.skull = bench::ellipsoid_surface(0.5); }},
           {"viscosity, two Prony terms (transient)", &HeldBytes::viscosity, in_time,
            [](Model& m, SolveOptions&) {
              m.materials[1].prony = {{0.450, 0.50}, {0.365, 50}};
@@ -178,7 +154,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: parts OUT.csv [nodes [repeats]]\n");
     return 2;
   }
-  const Model base = brain(argc > 2 ? static_cast<std::size_t>(std::atoi(argv[2])) : 10000);
+  const std::size_t nodes = argc > 2 ? static_cast<std::size_t>(std::atoi(argv[2])) : 10000;
+  const Model base = bench::ellipsoid(nodes, discretise::DiscretiseOptions().cells_per_node).model;
   const int repeats = argc > 3 ? std::atoi(argv[3]) : 5;
   std::ofstream csv(argv[1]);
   csv << "part,bytes_absent,bytes_present,seconds_a_step_absent,seconds_a_step_present,ratio\n";
