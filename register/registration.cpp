@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/registration.hpp"
 
+#include <chrono>
 #include <sstream>
 #include <stdexcept>
 
@@ -59,6 +60,7 @@ Progress part_of(const Progress& progress, double begin, double end) {
 
 Registration register_images(const RegisterInput& input, const RegisterOptions& options, const Progress& progress) {
   check(input, options);
+  const auto start = std::chrono::steady_clock::now();
   const ImageGeometry& grid = input.t1.geometry;
   report(progress, 0.0, "distance to the brain's surface");
   const BrainZones zones = brain_zones(input.brain, grid, options.fade);
@@ -72,12 +74,14 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   if (input.labels) {
     result.warped_labels = warp(*input.labels, result.resampling);
   }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   result.preop_landmarks = input.landmarks;
   result.landmarks = move_points(result.forward, input.landmarks);
   report(progress, 0.9, "measuring the fields");
   result.jacobian = jacobian(result.forward);
   result.measures = measure_fields(result.forward, result.resampling, result.jacobian, zones.zone, input.solution);
   result.measures.not_inverted = inverted.not_inverted;
+  result.measures.seconds = seconds.count();
   report(progress, 1.0, "done");
   return result;
 }

@@ -44,6 +44,7 @@ struct RegisterMeasures {
   std::size_t folded_voxels = 0;    ///< where the Jacobian is not positive
   double largest_displacement = 0;  ///< over the voxels, mm
   double fit_error = 0;             ///< largest over nodes of |field at the node - solution's displacement|, mm
+  double seconds = 0;               ///< that fields and warped images took
 };
 
 struct Registration {

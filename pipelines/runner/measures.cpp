@@ -114,7 +114,8 @@ StageReport report_of(const registration::Registration& result) {
                      {"field_jacobian_min", m.field_jacobian_min},
                      {"folded_voxels", m.folded_voxels},
                      {"largest_displacement_mm", m.largest_displacement},
-                     {"fit_error_mm", m.fit_error}};
+                     {"fit_error_mm", m.fit_error},
+                     {"seconds_fields_and_images", m.seconds}};
   return report;
 }
 

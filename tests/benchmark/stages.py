@@ -31,7 +31,8 @@ def run(folder, program, scene, preset, threads):
     for name in STAGES:
         row[f"{name}_s"] = stages[name]["seconds"]
         row[f"{name}_mb"] = stages[name]["peak_memory_mb"]
-    return {**row, "stepping_s": solved["measures"]["seconds_stepping"]}
+    return {**row, "stepping_s": solved["measures"]["seconds_stepping"],
+            "fields_and_images_s": stages["register"]["measures"]["seconds_fields_and_images"]}
 
 
 def main(out, folder, program, scene, presets="default,fast,balanced,accurate"):
