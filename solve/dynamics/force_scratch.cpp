@@ -7,27 +7,29 @@
 
 namespace brainshift::solve {
 
-Batch::Batch(std::size_t points)
-    : gradient(groups_of(points)),
+Batch::Batch(std::size_t slots, std::size_t points, Precision precision)
+    : displacement(slots, precision),
+      gradient(groups_of(points)),
       stress(groups_of(points)),
       jacobian(lanes * groups_of(points)),
       dilatation(jacobian),
       pressure(jacobian),
       volume(jacobian) {}
 
-ForceScratch::ForceScratch(const PointBlocks& points, const PointLaws& laws) : block_jacobian(points.blocks.size()) {
-  if (points.precision() == Precision::single_precision) {
-    in_single.displacement.resize(4 * points.slots());
-    in_single.force.resize(4 * points.slots());
-  } else {
-    in_double.displacement.resize(4 * points.slots());
-    in_double.force.resize(4 * points.slots());
-  }
-  std::int32_t largest = batch_points;
+ForceScratch::ForceScratch(const PointBlocks& points, const PointLaws& laws)
+    : parameters(4 * points.nodes(), 0.0),
+      force(points.slots(), points.precision()),
+      block_jacobian(points.blocks.size()) {
+  std::int32_t most_points = batch_points, most_slots = 0;
   for (const Patch& patch : points.patches) {
-    largest = std::max(largest, patch.last_point - patch.first_point);
+    most_points = std::max(most_points, patch.last_point - patch.first_point);
   }
-  batches.assign(static_cast<std::size_t>(omp_get_max_threads()), Batch(static_cast<std::size_t>(largest)));
+  for (const Block& block : points.blocks) {
+    most_slots = std::max(most_slots, block.slots);
+  }
+  batches.assign(
+      static_cast<std::size_t>(omp_get_max_threads()),
+      Batch(static_cast<std::size_t>(most_slots), static_cast<std::size_t>(most_points), points.precision()));
   if (laws.in_time) {
     jacobian.assign(points.points(), 1.0);
   }
@@ -67,8 +69,8 @@ void ForceScratch::remember(const ForceScratch& other, std::span<const std::int3
 }
 
 std::size_t ForceScratch::scratch_bytes() const {
-  std::size_t sum = in_double.held_bytes() + in_single.held_bytes() + bytes(batches) + bytes(jacobian) +
-                    bytes(block_jacobian) + bytes(thickness);
+  std::size_t sum = bytes(parameters) + force.held_bytes() + bytes(batches) + bytes(jacobian) + bytes(block_jacobian) +
+                    bytes(thickness);
   for (const Batch& batch : batches) {
     sum += batch.held_bytes();
   }

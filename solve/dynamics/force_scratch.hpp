@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
+#include "solve/dynamics/nodal_vectors.hpp"
 #include "solve/dynamics/point_blocks.hpp"
 #include "solve/dynamics/point_laws.hpp"
 
@@ -23,31 +25,43 @@ struct JacobianRange {
   double least_ratio = 1;  ///< of J to that of the internal_force() before; 1 where it is not followed
 };
 
-/// Nodal values of the blocks, four a slot, in the precision of the derivatives.
-template <class Scalar>
+/// Nodal values, four a slot, in the precision of the derivatives: one of the two is empty.
 struct SlotVectors {
-  /// û less that of the block's first slot: single precision keeps its digits for what strains.
-  std::vector<Scalar> displacement;
-  std::vector<Scalar> force;
+  std::vector<double> in_double;
+  std::vector<float> in_single;
 
-  std::size_t held_bytes() const { return bytes(displacement) + bytes(force); }
+  SlotVectors(std::size_t slots, Precision precision)
+      : in_double(precision == Precision::double_precision ? 4 * slots : 0),
+        in_single(precision == Precision::single_precision ? 4 * slots : 0) {}
+
+  template <class Scalar>
+  std::vector<Scalar>& of() {
+    if constexpr (std::is_same_v<Scalar, float>) {
+      return in_single;
+    } else {
+      return in_double;
+    }
+  }
+  std::size_t held_bytes() const { return bytes(in_double) + bytes(in_single); }
 };
 
-/// Room for the points of a batch of patches, of one thread.
+/// Room of one thread: for the nodes of a block and the points of a batch of its patches.
 struct Batch {
+  SlotVectors displacement;  ///< û less that of the block's first slot: single precision keeps its digits for strains
   std::vector<TensorLanes> gradient, stress;
   std::vector<double> jacobian, dilatation, pressure, volume;  ///< `lanes` a group
 
-  explicit Batch(std::size_t points);
+  Batch(std::size_t slots, std::size_t points, Precision precision);
   std::size_t held_bytes() const {
-    return bytes(gradient) + bytes(stress) + bytes(jacobian) + bytes(dilatation) + bytes(pressure) + bytes(volume);
+    return displacement.held_bytes() + bytes(gradient) + bytes(stress) + bytes(jacobian) + bytes(dilatation) +
+           bytes(pressure) + bytes(volume);
   }
 };
 
 /// Scratch of internal_force(), made once and reused in every step, and what points remember between steps.
 struct ForceScratch {
-  SlotVectors<double> in_double;                ///< empty in single precision
-  SlotVectors<float> in_single;                 ///< empty in double precision
+  NodalVectors parameters;                      ///< those of the last internal_force()
+  SlotVectors force;                            ///< of the blocks
   std::vector<Batch> batches;                   ///< one a thread
   std::vector<double> jacobian;                 ///< transient: J of each point
   std::vector<JacobianRange> block_jacobian;    ///< one a block

@@ -4,22 +4,12 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <type_traits>
 
 #include "solve/dynamics/batch_stress.hpp"
 
 namespace brainshift::solve {
 
 namespace {
-
-template <class Scalar>
-auto& slots_of(ForceScratch& scratch) {
-  if constexpr (std::is_same_v<Scalar, float>) {
-    return scratch.in_single;
-  } else {
-    return scratch.in_double;
-  }
-}
 
 /// The patches from the first that are worked on at once.
 std::size_t batch_length(std::span<const Patch> patches) {
@@ -47,9 +37,8 @@ template <class Scalar>
 void block_force(const PointBlocks& points, const Block& block, const PointLaws& laws, const NodalVectors& parameters,
                  ForceScratch& scratch, Batch& room) {
   const StepKernels& kernels = step_kernels().front();
-  const auto first = 4 * static_cast<std::size_t>(block.first_slot);
-  Scalar* displacement = slots_of<Scalar>(scratch).displacement.data() + first;
-  Scalar* force = slots_of<Scalar>(scratch).force.data() + first;
+  Scalar* displacement = room.displacement.of<Scalar>().data();
+  Scalar* force = scratch.force.of<Scalar>().data() + 4 * static_cast<std::size_t>(block.first_slot);
   gather(points, block, parameters, displacement);
   std::fill_n(force, 4 * static_cast<std::size_t>(block.slots), Scalar{0});
   JacobianRange range;
@@ -88,6 +77,10 @@ void force_of(const PointBlocks& points, const PointLaws& laws, const NodalVecto
   scratch.batches.resize(static_cast<std::size_t>(omp_get_max_threads()), scratch.batches.front());
 #pragma omp parallel
   {
+#pragma omp for schedule(static) nowait
+    for (std::int64_t a = 0; a < nodes; ++a) {
+      at(scratch.parameters, static_cast<std::size_t>(a)) = at(parameters, static_cast<std::size_t>(a));
+    }
     Batch& room = scratch.batches[static_cast<std::size_t>(omp_get_thread_num())];
 #pragma omp for schedule(dynamic)
     for (std::int64_t b = 0; b < blocks; ++b) {
@@ -96,21 +89,24 @@ void force_of(const PointBlocks& points, const PointLaws& laws, const NodalVecto
 #pragma omp for schedule(static)
     for (std::int64_t a = 0; a < nodes; ++a) {
       const auto node = static_cast<std::size_t>(a);
-      sum_at_node(points, slots_of<Scalar>(scratch).force, node, force.data() + 4 * node);
+      sum_at_node(points, scratch.force.of<Scalar>(), node, force.data() + 4 * node);
     }
   }
 }
 
 template <class Scalar>
-Eigen::Matrix3d gradient_at(const PointBlocks& points, std::int32_t point, const Scalar* displacement) {
-  Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();
+Eigen::Matrix3d gradient_at(const PointBlocks& points, std::int32_t point, const std::int32_t* slot_node,
+                            const NodalVectors& parameters) {
+  Eigen::Vector4d column[3] = {Eigen::Vector4d::UnitX(), Eigen::Vector4d::UnitY(), Eigen::Vector4d::UnitZ()};
   const Scalar* derivative = points.derivatives_of<Scalar>(point);
   for (const std::uint16_t slot : points.slots_of(point)) {
-    using Vector = Eigen::Matrix<Scalar, 3, 1>;
-    gradient += Eigen::Map<const Vector>(displacement + 4 * std::size_t{slot}).template cast<double>() *
-                Eigen::Map<const Vector>(derivative).template cast<double>().transpose();
-    derivative += 3;
+    const auto of_node = at(parameters, static_cast<std::size_t>(slot_node[slot]));
+    for (Eigen::Vector4d& c : column) {
+      c += of_node * static_cast<double>(*derivative++);
+    }
   }
+  Eigen::Matrix3d gradient;
+  gradient << column[0].head<3>(), column[1].head<3>(), column[2].head<3>();
   return gradient;
 }
 
@@ -135,13 +131,13 @@ void internal_force(const PointBlocks& points, const PointLaws& laws, const Noda
 }
 
 std::vector<Eigen::Matrix3d> gradients_of(const PointBlocks& points, const Patch& patch, const ForceScratch& scratch) {
-  const auto first = 4 * static_cast<std::size_t>(patch.first_slot);
+  const std::int32_t* slot_node = points.slot_node.data() + patch.first_slot;
   std::vector<Eigen::Matrix3d> gradients;
   gradients.reserve(static_cast<std::size_t>(patch.last_point - patch.first_point));
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     gradients.push_back(points.precision() == Precision::single_precision
-                            ? gradient_at(points, p, scratch.in_single.displacement.data() + first)
-                            : gradient_at(points, p, scratch.in_double.displacement.data() + first));
+                            ? gradient_at<float>(points, p, slot_node, scratch.parameters)
+                            : gradient_at<double>(points, p, slot_node, scratch.parameters));
     if (!scratch.thickness.empty()) {
       gradients.back()(2, 2) = scratch.thickness[static_cast<std::size_t>(p)];
     }

@@ -38,12 +38,14 @@ double weighted_norm(const Eigen::Matrix3Xd& b) {
 /// Sums over the slots of a block.
 struct BlockSums {
   double* bound;
-  std::vector<double> mode;            ///< 3 a slot: b of one pressure mode; zero between patches
-  std::vector<std::uint16_t> touched;  ///< slots of the patch
+  std::vector<Eigen::Matrix<double, 3, 4>> mode;  ///< one a slot: b of each pressure mode; zero between patches
+  std::vector<const Patch*> last;                 ///< one a slot: the last patch that touched it
+  std::vector<std::uint16_t> touched;             ///< slots of the patch
 
-  Eigen::Map<Eigen::Vector3d> mode_at(std::uint16_t slot) {
-    return Eigen::Map<Eigen::Vector3d>(mode.data() + 3 * std::size_t{slot});
-  }
+  BlockSums(const Block& block, double* of_slots)
+      : bound(of_slots + block.first_slot),
+        mode(static_cast<std::size_t>(block.slots), Eigen::Matrix<double, 3, 4>::Zero()),
+        last(static_cast<std::size_t>(block.slots), nullptr) {}
 };
 
 template <class ElasticLaw>
@@ -67,39 +69,32 @@ void add_shape_bound(const PointBlocks& points, const Patch& patch, const Elasti
   }
 }
 
-void find_touched(const PointBlocks& points, const Patch& patch, std::vector<std::uint16_t>& touched) {
-  touched.clear();
-  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-    const auto slots = points.slots_of(p);
-    touched.insert(touched.end(), slots.begin(), slots.end());
-  }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-}
-
 template <class ElasticLaw>
 void add_volume_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law,
                       std::span<const Eigen::Matrix3d> gradients, BlockSums& sums) {
-  find_touched(points, patch, sums.touched);
-  for (Eigen::Index k = 0; k < 4; ++k) {
-    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-      const Eigen::Matrix3d slope =
-          points.volume[static_cast<std::size_t>(p)] * points.modes_of(p)[k] *
-          law.dilatation_slope(Deformation(gradients[static_cast<std::size_t>(p - patch.first_point)]));
-      const auto b = derivatives(points, p);
-      Eigen::Index a = 0;
-      for (const std::uint16_t slot : points.slots_of(p)) {
-        sums.mode_at(slot) += slope * b.col(a++);
+  sums.touched.clear();
+  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+    const Eigen::Matrix3d slope =
+        points.volume[static_cast<std::size_t>(p)] *
+        law.dilatation_slope(Deformation(gradients[static_cast<std::size_t>(p - patch.first_point)]));
+    const Eigen::RowVector4d modes = points.modes_of(p).transpose();
+    const auto b = derivatives(points, p);
+    Eigen::Index a = 0;
+    for (const std::uint16_t slot : points.slots_of(p)) {
+      sums.mode[slot] += slope * b.col(a++) * modes;
+      if (sums.last[slot] != &patch) {
+        sums.last[slot] = &patch;
+        sums.touched.push_back(slot);
       }
     }
-    double total = 0;
-    for (const std::uint16_t slot : sums.touched) {
-      total += sums.mode_at(slot).norm();
-    }
-    for (const std::uint16_t slot : sums.touched) {
-      sums.bound[slot] += law.bulk_modulus * total * sums.mode_at(slot).norm();
-      sums.mode_at(slot).setZero();
-    }
+  }
+  Eigen::RowVector4d total = Eigen::RowVector4d::Zero();
+  for (const std::uint16_t slot : sums.touched) {
+    total += sums.mode[slot].colwise().norm();
+  }
+  for (const std::uint16_t slot : sums.touched) {
+    sums.bound[slot] += law.bulk_modulus * total.dot(sums.mode[slot].colwise().norm());
+    sums.mode[slot].setZero();
   }
 }
 
@@ -119,8 +114,7 @@ std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& 
 #pragma omp parallel for schedule(dynamic)
   for (std::int64_t i = 0; i < blocks; ++i) {
     const Block& block = points.blocks[static_cast<std::size_t>(i)];
-    BlockSums sums{
-        slot_bound.data() + block.first_slot, std::vector<double>(3 * static_cast<std::size_t>(block.slots)), {}};
+    BlockSums sums(block, slot_bound.data());
     for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
       const Patch& patch = points.patches[static_cast<std::size_t>(k)];
       const std::vector<Eigen::Matrix3d> gradients = gradients_of(points, patch, scratch);
