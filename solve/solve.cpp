@@ -37,10 +37,9 @@ HeldBytes held_bytes(const Prepared& p, HeldBytes stepping) {
   return stepping;
 }
 
-/// What the end state says of itself.
-void measure(const Prepared& p, const SteppingResult& stepped, SolveMeasures& m) {
+/// What the end state says of itself; sets a failure that stepping does not see.
+void measure(const Prepared& p, const SteppingResult& stepped, SolveMeasures& m, std::string& failure) {
   m.steps = stepped.steps;
-  m.converged = stepped.failure.empty();
   m.error_bound = stepped.error_bound;
   m.critical_step = stepped.critical_step;
   m.constraint_error = p.essential.largest_error(stepped.fraction, stepped.parameters);
@@ -48,7 +47,14 @@ void measure(const Prepared& p, const SteppingResult& stepped, SolveMeasures& m)
     const Contact::Measures touch = p.contact->measure(stepped.parameters);
     m.contact_nodes = touch.touching;
     m.largest_penetration = touch.largest_penetration;
+    if (touch.lost && failure.empty()) {
+      std::ostringstream text;
+      text << "the surface passed through the skull, by " << touch.largest_penetration
+           << " mm or more: the load comes too fast; spread it over more steps";
+      failure = text.str();
+    }
   }
+  m.converged = failure.empty();
   m.smallest_jacobian = stepped.state.smallest_jacobian;
   m.largest_stretch = stepped.state.largest_stretch;
   m.compressed_share = stepped.state.compressed_share;
@@ -57,7 +63,8 @@ void measure(const Prepared& p, const SteppingResult& stepped, SolveMeasures& m)
 
 bool starts_coarse(const Model& model, const SolveOptions& options) {
   return options.start == Start::coarse && options.dynamics == Dynamics::relaxation && options.snapshot_every == 0 &&
-         model.plane == Plane::none && model.cuts.empty() && !model.rupture && !model.resection;
+         model.plane == Plane::none && model.cuts.empty() && !model.rupture && !model.resection &&
+         model.curve.at(model.curve.duration()) == 1;
 }
 
 /// The coarse solution's displacement at the nodes, taken for their parameters: near enough for a start.
@@ -73,18 +80,6 @@ NodalVectors coarse_start(const Model& model, SolveOptions options, const std::v
     }
   }
   return start;
-}
-
-/// Contact knows the skull near it only: a node that got far out is not pushed back.
-std::string lost_contact(const SolveMeasures& measures) {
-  constexpr double farthest = 3;  // mm, beyond where nodes may start
-  if (!(measures.largest_penetration > farthest)) {
-    return {};
-  }
-  std::ostringstream text;
-  text << "the surface passed through the skull, by " << measures.largest_penetration
-       << " mm or more: the load comes too fast; spread it over more steps";
-  return text.str();
 }
 
 CutMeasures measure_cut(const Prepared& p, const SteppingResult& stepped, std::size_t nodes, CutMeasures measures) {
@@ -124,8 +119,8 @@ SolveResult step(const Model& model, const SolveOptions& options, Prepared prepa
   const NodeCloud& cloud = p.cut ? p.cut->cloud : model.cloud;
   SolveResult result;
   result.measures = measures;
-  measure(p, stepped, result.measures);
-  result.failure = stepped.failure.empty() ? lost_contact(result.measures) : stepped.failure;
+  result.failure = stepped.failure;
+  measure(p, stepped, result.measures, result.failure);
   if (stepped.fault) {
     result.failure += ' ';
     result.failure += describe(*stepped.fault, {p.points, p.laws, cloud.positions, p.original, p.placed});

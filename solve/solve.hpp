@@ -57,14 +57,15 @@ struct SolveOptions {
   Imposition imposition = Imposition::exact;
   double integration_tolerance = 0;                   ///< τ of adaptive_points(); 0: points_per_cell in every cell
   int integration_depth = 3;                          ///< of adaptive_points()
-  Precision precision = Precision::double_precision;  ///< of the derivatives that stepping reads
+  Precision precision = Precision::double_precision;  ///< of derivatives, sums over pairs, forces of points
   int points_per_cell = 8;  ///< or part of one: hexahedra 1 or 8, tetrahedra and quads 1 or 4, triangles 1 or 3
   Dynamics dynamics = Dynamics::relaxation;
   /// Relaxation: stop when the bound of the remaining error is below this, mm, and below 1/50 of the displacement.
   double tolerance = 0.01;
   int load_steps = 400;  ///< relaxation: steps over the load's curve; more where a body may tear
-  /// Relaxation. A coarse start is one from rest all the same for a body that is cut, torn or resected, where snapshots
-  /// are wanted, and where the coarse cloud cannot be solved or its solution does not hold.
+  /// Relaxation of a whole body in space. A coarse start is one from rest all the same for a body that is cut, torn or
+  /// resected, where snapshots are wanted or the load's curve does not end at 1, and where the coarse cloud cannot be
+  /// solved or its solution does not hold.
   Start start = Start::rest;
   double time_step = 0;  ///< transient: s; 0: nine tenths of the critical one
   double damping = 0;    ///< transient: c of eq 26, 1/s

@@ -75,9 +75,11 @@ void Contact::apply(NodalVectors& parameters) {
 }
 
 Contact::Measures Contact::measure(const NodalVectors& parameters) const {
+  constexpr double rounding = 1e-4;  // mm, of samples in single precision
   Measures measures;
   for (std::size_t i = 0; i < allowed_.size(); ++i) {
-    const double outside = skull_.value(place(i, parameters)) - allowed_[i];
+    const double distance = skull_.value(place(i, parameters)), outside = distance - allowed_[i];
+    measures.lost = measures.lost || distance > skull_.horizon() - rounding;
     measures.touching += outside > -0.01 ? 1 : 0;
     measures.largest_penetration = std::max(measures.largest_penetration, outside);
   }

@@ -30,6 +30,7 @@ class Contact {
   struct Measures {
     std::size_t touching = 0;        ///< nodes within a hundredth of a millimetre of the skull or outside it
     double largest_penetration = 0;  ///< mm further outside the skull than at the start
+    bool lost = false;               ///< a node is so far outside that nothing pushes it back
   };
   Measures measure(const NodalVectors& parameters) const;
 

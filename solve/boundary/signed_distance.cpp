@@ -212,8 +212,8 @@ SignedDistance::SignedDistance(const Surface& surface, const SignedDistanceOptio
   spacing_ = grid.spacing;
   origin_ = grid.origin;
   size_ = grid.size;
-  samples_ = signed_samples(frames, normals, grid, band, options.far ? std::numeric_limits<double>::infinity() : band,
-                            nearest);
+  horizon_ = options.far ? std::numeric_limits<double>::infinity() : band;
+  samples_ = signed_samples(frames, normals, grid, band, horizon_, nearest);
 }
 
 double SignedDistance::value(const Eigen::Vector3d& position) const {

@@ -36,10 +36,13 @@ class SignedDistance {
   /// (continuous); the zero vector where there is none.
   Eigen::Vector3d gradient(const Eigen::Vector3d& position) const;
 
+  /// Where the surface is at least so far away only that is known, mm; infinite where all is sampled.
+  double horizon() const { return horizon_; }
+
   std::size_t bytes() const { return samples_.capacity() * sizeof(float); }
 
  private:
-  double spacing_;
+  double spacing_, horizon_;
   Eigen::Vector3d origin_;
   Eigen::Array3i size_;
   std::vector<float> samples_;  ///< mm, x fastest

@@ -232,6 +232,7 @@ void Motion::carry_over(const PointLaws& laws, const std::function<NodalVectors(
   good_reactions_.conservativeResize(static_cast<Eigen::Index>(nodes_), 3);
   good_reactions_.bottomRows(more).setZero();
   ForceScratch fresh(system_.points, laws);
+  fresh.parameters = map(scratch.parameters);
   fresh.remember(scratch, point_from);
   scratch = std::move(fresh);
 }

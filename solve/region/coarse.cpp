@@ -62,27 +62,27 @@ std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud) {
   const SupportSearch search(cloud.positions, cloud.spacing);
   std::vector<std::uint8_t> excluded(cloud.size(), 0);
   std::vector<std::int32_t> chosen;
-  std::vector<Supporter> near;
+  std::vector<std::int32_t> near;
   for (const std::int32_t a : by_importance(cloud)) {
     if (excluded[static_cast<std::size_t>(a)] != 0) {
       continue;
     }
     chosen.push_back(a);
     search.find(cloud.positions.row(a), least_distance, near);
-    for (const Supporter& s : near) {
-      excluded[static_cast<std::size_t>(s.node)] = 1;
+    for (const std::int32_t node : near) {
+      excluded[static_cast<std::size_t>(node)] = 1;
     }
   }
   std::sort(chosen.begin(), chosen.end());
   return chosen;
 }
 
-std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& given, const Progress& progress) {
+namespace {
+
+std::optional<Points> solved_on(const NodeCloud& nodes, const Model& model, const SolveOptions& given,
+                                const Progress& progress) {
   Model coarse = model;
-  coarse.cloud = subset(model.cloud, coarse_nodes(model.cloud));
-  if (coarse.cloud.size() < fewest_nodes) {
-    return std::nullopt;
-  }
+  coarse.cloud = nodes;
   for (double& spacing : coarse.cloud.spacing) {
     spacing *= coarser;
   }
@@ -111,6 +111,22 @@ std::optional<Points> coarse_displacement(const Model& model, const SolveOptions
     }
   }
   return displacement;
+}
+
+}  // namespace
+
+std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress) {
+  const NodeCloud nodes = subset(model.cloud, coarse_nodes(model.cloud));
+  if (nodes.size() < fewest_nodes) {
+    return std::nullopt;
+  }
+  try {
+    return solved_on(nodes, model, options, progress);
+  } catch (const std::logic_error&) {
+    return std::nullopt;  // what the whole cloud holds in place, the coarse one may not
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace brainshift::solve

@@ -15,7 +15,7 @@ std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud);
 
 /// The displacement at all nodes (n × 3) mm of the solution on the coarse nodes, their spacing doubled, with linear
 /// shape functions and one point a cell; prescribed components as prescribed. Empty when that cannot be solved: too few
-/// nodes, or not converged.
+/// nodes, or refused, or not converged.
 std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress);
 
 }  // namespace brainshift::solve

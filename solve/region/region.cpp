@@ -63,12 +63,11 @@ struct Region {
 std::vector<std::uint8_t> moving_cells(const BackgroundCells& cells, const SupportSearch& search,
                                        const Eigen::VectorXd& moved, double region) {
   std::vector<std::uint8_t> moving;
-  std::vector<Supporter> near;
+  std::vector<std::int32_t> near;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     const Eigen::Vector3d centre = corners_of(cells, cell).colwise().mean();
     search.find(centre, margin, near);
-    const bool moves =
-        std::any_of(near.begin(), near.end(), [&](const Supporter& s) { return moved[s.node] > region; });
+    const bool moves = std::any_of(near.begin(), near.end(), [&](std::int32_t node) { return moved[node] > region; });
     moving.push_back(moves ? 1 : 0);
   }
   return moving;
@@ -170,7 +169,7 @@ SolveResult solve_whole(const Model& model, SolveOptions options, double seconds
   options.region = 0;
   SolveResult result = solve(model, options, progress);
   result.measures.region_nodes = model.cloud.size();
-  result.measures.seconds_coarse = seconds_coarse;
+  result.measures.seconds_coarse += seconds_coarse;
   return result;
 }
 

@@ -113,7 +113,9 @@ void for_each_point(const ShapeFunctions::Impl& impl, std::span<const Place> poi
       if (bad == none) {
         const Eigen::Index fault =
             take(points.subspan(i, std::min<std::size_t>(group, points.size() - i)), impl, evaluator, use);
-        bad = fault != none ? fault : bad.load();
+        if (fault != none) {
+          bad = fault;
+        }
       }
     }
   }

@@ -177,6 +177,18 @@ TEST_F(ContactWithABox, PutsPenetratingNodesBackAlongTheNormal) {
   EXPECT_LE(moved.rightCols<2>().cwiseAbs().maxCoeff(), 0.2);  // frictionless: only the normals at the rim are oblique
 }
 
+TEST_F(ContactWithABox, SaysWhenANodeIsTooFarOutToBePushedBack) {
+  SignedDistanceOptions near;
+  near.far = false;
+  const Surface box = box_surface(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(side + 2));
+  Contact contact(SignedDistance(box, near), cloud.nodes.positions, surface_nodes(), cloud.rows);
+  EXPECT_FALSE(contact.measure(shifted({2 + 0.9 * near.band(), 0, 0})).lost);
+  EXPECT_TRUE(contact.measure(shifted({2 + 1.5 * near.band(), 0, 0})).lost);
+  EXPECT_FALSE(Contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows)
+                   .measure(shifted({2 + 1.5 * near.band(), 0, 0}))
+                   .lost);  // all distances are known
+}
+
 TEST_F(ContactWithABox, AllowsNodesToStayWhereTheyStarted) {
   const SignedDistance tight(box_surface(Eigen::Vector3d::Constant(0.3), Eigen::Vector3d::Constant(side - 0.3)));
   Contact contact(tight, cloud.nodes.positions, surface_nodes(), cloud.rows);

@@ -96,6 +96,37 @@ TEST(CoarseStart, IsFromRestWhereTheWayThereIsWanted) {
   EXPECT_LT(result.history.front().time, 1);
 }
 
+TEST(CoarseStart, IsFromRestWhereTheLoadDoesNotEndInFull) {
+  Model model = pressed_bar();
+  model.curve = LoadCurve({0, 1}, {0, 0.5}, LoadCurve::Join::smooth);
+  SolveOptions options;
+  const SolveResult from_rest = solve(model, options);
+  options.start = Start::coarse;
+  const SolveResult result = solve(model, options);
+  EXPECT_TRUE(result.failure.empty()) << result.failure;
+  EXPECT_EQ(result.measures.seconds_coarse, 0);
+  EXPECT_EQ(largest_difference_of(result, from_rest), 0);
+}
+
+/// Held at three neighbours, of which a coarse cloud has one.
+TEST(CoarseStart, IsFromRestWhereTheCoarseCloudIsNotHeld) {
+  Model model = pressed_bar();
+  const Eigen::Index corner = 9 * 9 * 20;
+  model.cloud.prescribed_displacement.setConstant(std::nan(""));
+  for (const Eigen::Index node : {corner, corner + 1, corner + 9}) {
+    model.cloud.prescribed_displacement.row(node).setZero();
+  }
+  model.gravity = {0, 0, 0.01};
+  SolveOptions options;
+  options.max_steps = 40;  // it need not come to rest
+  const SolveResult from_rest = solve(model, options);
+  options.start = Start::coarse;
+  const SolveResult result = solve(model, options);
+  EXPECT_GT(result.measures.seconds_coarse, 0);
+  EXPECT_GT(result.measures.largest_displacement, 0);
+  EXPECT_EQ(largest_difference_of(result, from_rest), 0);
+}
+
 TEST(Region, OfEverythingIsTheWholeBitForBit) {
   const Model model = pressed_bar();
   SolveOptions options;

@@ -120,6 +120,31 @@ TEST(SignedDistance, IsExactAtSamplesNearASurfaceWithSharpFeatures) {
   EXPECT_GT(near, 1000);
 }
 
+TEST(SignedDistance, KnownNearTheSurfaceAloneIsTheSameThereAndItsHorizonBeyond) {
+  const Surface ball = sphere({7, -4, 2}, 30, 3);
+  SignedDistanceOptions options;
+  const SignedDistance all(ball, options);
+  options.far = false;
+  const SignedDistance near(ball, options);
+  EXPECT_EQ(near.horizon(), options.band());
+  EXPECT_FALSE(std::isfinite(all.horizon()));
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> reach(-20.0, 20.0);
+  int within = 0;
+  for (int n = 0; n < 5000; ++n) {
+    const Eigen::Vector3d p = Eigen::Vector3d(7, -4, 2) + (30 + reach(random)) * random_direction(random);
+    const double distance = all.value(p);
+    if (std::abs(distance) < options.band() - 2 * options.spacing) {  // all eight samples are within the band
+      ++within;
+      EXPECT_EQ(near.value(p), distance) << p.transpose();
+    } else if (std::abs(distance) > options.band() + 2 * options.spacing) {
+      EXPECT_NEAR(near.value(p), std::copysign(near.horizon(), distance), 1e-6) << p.transpose();
+      EXPECT_EQ(near.gradient(p).norm(), 0) << p.transpose();
+    }
+  }
+  EXPECT_GT(within, 100);
+}
+
 TEST(SignedDistance, FarFromTheSurfaceIsWithinATenthOfTheGridSpacingOfTheExactDistance) {
   Surface blob = sphere({0, 0, 0}, 50, 4);
   for (auto vertex : blob.vertices.rowwise()) {
