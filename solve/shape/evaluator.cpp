@@ -43,15 +43,13 @@ Ball ball_about(std::span<const Place> points) {
 }
 
 Candidates candidates_near(const ShapeFunctions::Impl& impl, const Ball& ball, double scale) {
-  std::vector<Supporter> found;
-  impl.search.find(ball.centre, scale, found, ball.extent);
   Candidates near;
-  for (const Supporter& s : found) {
-    near.node.push_back(s.node);
-    near.x.push_back(impl.positions(s.node, 0));
-    near.y.push_back(impl.positions(s.node, 1));
-    near.z.push_back(impl.positions(s.node, 2));
-    near.radius.push_back(impl.search.radius()[static_cast<std::size_t>(s.node)]);
+  impl.search.find(ball.centre, scale, near.node, ball.extent);
+  for (const std::int32_t node : near.node) {
+    near.x.push_back(impl.positions(node, 0));
+    near.y.push_back(impl.positions(node, 1));
+    near.z.push_back(impl.positions(node, 2));
+    near.radius.push_back(impl.search.radius()[static_cast<std::size_t>(node)]);
   }
   return near;
 }

@@ -57,7 +57,7 @@ struct SupportCollector {
   double scale;
   double extent;
   double squared_reach;
-  std::vector<Supporter>& found;
+  std::vector<std::int32_t>& found;
 
   std::size_t size() const { return found.size(); }
   bool full() const { return true; }
@@ -66,7 +66,7 @@ struct SupportCollector {
     const std::int32_t node = nodes[i];
     const double limit = scale * radius[static_cast<std::size_t>(node)] + extent;
     if (squared < limit * limit) {
-      found.push_back({node, std::sqrt(squared)});
+      found.push_back(node);
     }
     return true;
   }
@@ -74,14 +74,15 @@ struct SupportCollector {
 
 }  // namespace
 
-void SupportSearch::find(const Eigen::Vector3d& x, double scale, std::vector<Supporter>& found, double extent) const {
+void SupportSearch::find(const Eigen::Vector3d& x, double scale, std::vector<std::int32_t>& found,
+                         double extent) const {
   found.clear();
   for (const auto& level : levels_) {
     const double reach = scale * level->largest_radius + extent;
     SupportCollector collector{level->nodes, radius_, scale, extent, reach * reach, found};
     level->tree->findNeighbors(collector, x.data(), nanoflann::SearchParams(32, 0, false));
   }
-  std::sort(found.begin(), found.end(), [](const Supporter& a, const Supporter& b) { return a.node < b.node; });
+  std::sort(found.begin(), found.end());
 }
 
 }  // namespace brainshift::solve

@@ -11,12 +11,6 @@
 
 namespace brainshift::solve {
 
-/// A node that a point sees: its distance over its support radius is below one.
-struct Supporter {
-  std::int32_t node;
-  double distance;  ///< |x − X_a|, mm
-};
-
 /// Finds the support of a point: all nodes a with |x − X_a| < scale · radius_a. Nodes are held in one k-d tree an
 /// octave of radius, so that a cloud with spacings from 1 to 20 costs little more than a uniform one.
 class SupportSearch {
@@ -26,9 +20,9 @@ class SupportSearch {
   ~SupportSearch();
   SupportSearch(SupportSearch&&) noexcept;
 
-  /// Replaces found by the support of x, sorted by node. extent: by how much farther than their radii nodes may be, so
-  /// that the supports of all places as near to x are found; mm.
-  void find(const Eigen::Vector3d& x, double scale, std::vector<Supporter>& found, double extent = 0) const;
+  /// Replaces found by the nodes of the support of x, ascending. extent: by how much farther than their radii nodes may
+  /// be, so that the supports of all places as near to x are found; mm.
+  void find(const Eigen::Vector3d& x, double scale, std::vector<std::int32_t>& found, double extent = 0) const;
   std::span<const double> radius() const { return radius_; }
 
  private:

@@ -126,7 +126,7 @@ void time_search(State& state, Setting& setting) {
     found = 0;
 #pragma omp parallel for schedule(dynamic, 256) reduction(+ : found)
     for (Eigen::Index p = 0; p < made.points.positions.rows(); ++p) {
-      thread_local std::vector<Supporter> support;
+      thread_local std::vector<std::int32_t> support;
       search.find(made.points.positions.row(p), 1, support);
       found += support.size();
     }
