@@ -13,7 +13,7 @@ constexpr std::int64_t pairs_per_block =
     65535;  // so that a block's nodes are numbered in 16 bits, whatever the supports
 
 constexpr std::int32_t points_per_block =
-    512;  // a block's nodes, forces and derivatives stay in the second-level cache
+    1024;  // a block's nodes, forces and derivatives stay in the second-level cache
 
 std::int64_t pairs_of(const Patch& patch, const ShapeRows& rows, const std::vector<std::int32_t>& order) {
   std::int64_t pairs = 0;
@@ -86,21 +86,10 @@ void list_slots_of_nodes(PointBlocks& out, std::size_t nodes) {
   }
 }
 
-}  // namespace
-
-PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows, std::span<const std::int32_t> material,
-                         std::size_t nodes, const PressurePatches& patched, Precision precision) {
+void list_patches(const IntegrationPoints& points, std::span<const std::int32_t> material,
+                  const PressurePatches& patched, PointBlocks& out) {
   const std::vector<std::int32_t>& order = patched.order;
-  PointBlocks out;
-  out.pair_begin.push_back(0);
-  const std::size_t most_pairs = rows.node.size() + (quad - 1) * order.size();
-  out.pair_slot.reserve(most_pairs);
-  const std::size_t most_derivatives = 3 * most_pairs;
-  const bool single = precision == Precision::single_precision;
-  single ? out.pair_single.reserve(most_derivatives) : out.pair_derivative.reserve(most_derivatives);
-  out.support.reserve(order.size());
   out.volume.reserve(order.size());
-  out.pair_begin.reserve(order.size() + 1);
   out.patches.reserve(patched.size());
   for (const std::int32_t p : order) {
     out.volume.push_back(points.volume[static_cast<std::size_t>(p)]);
@@ -117,6 +106,17 @@ PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows,
                      std::span(out.mode).subspan(4 * first, 4 * count));
     }
   }
+}
+
+void divide_into_blocks(const ShapeRows& rows, const std::vector<std::int32_t>& order, std::size_t nodes,
+                        Precision precision, PointBlocks& out) {
+  const std::size_t most_pairs = rows.node.size() + (quad - 1) * order.size();
+  out.pair_slot.reserve(most_pairs);
+  const bool single = precision == Precision::single_precision;
+  single ? out.pair_single.reserve(3 * most_pairs) : out.pair_derivative.reserve(3 * most_pairs);
+  out.support.reserve(order.size());
+  out.pair_begin.reserve(order.size() + 1);
+  out.pair_begin.push_back(0);
   std::vector<std::int32_t> slot_of_node(nodes, 0);
   Block block{0, 0, 0, 0};
   const auto patches = static_cast<std::int32_t>(out.patches.size());
@@ -135,6 +135,15 @@ PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows,
     pairs += more;
   }
   append_block(out, rows, order, block, precision, slot_of_node);
+}
+
+}  // namespace
+
+PointBlocks point_blocks(const IntegrationPoints& points, const ShapeRows& rows, std::span<const std::int32_t> material,
+                         std::size_t nodes, const PressurePatches& patches, Precision precision) {
+  PointBlocks out;
+  list_patches(points, material, patches, out);
+  divide_into_blocks(rows, patches.order, nodes, precision, out);
   list_slots_of_nodes(out, nodes);
   return out;
 }

@@ -23,9 +23,9 @@ struct Patch {
   std::int64_t first_slot = 0;           ///< of its block
 };
 
-/// A few hundred consecutive points, handled by one thread at a time with its nodes gathered side by side. The division
-/// into blocks does not depend on the number of threads, and the blocks' forces are added in their order: so results
-/// are the same bit for bit.
+/// About a thousand consecutive points, handled by one thread at a time with its nodes gathered side by side. The
+/// division into blocks does not depend on the number of threads, and the blocks' forces are added in their order: so
+/// results are the same bit for bit.
 struct Block {
   std::int32_t first_patch, last_patch;  ///< [first, last)
   std::int64_t first_slot;               ///< of its local nodes in slot_node
