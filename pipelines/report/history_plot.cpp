@@ -120,7 +120,7 @@ std::string convergence_plot(const std::vector<Row>& history, double tolerance) 
                   .logarithmic = true};
   std::ostringstream svg = begin_svg("bound of the remaining error over the steps");
   const auto loaded = std::ranges::find_if(history, [](const Row& row) { return row.time >= 1; });
-  if (loaded != history.end()) {
+  if (loaded != history.begin() && loaded != history.end()) {  // a coarse start is under the whole load
     svg << "<rect x=\"" << left << "\" y=\"" << top << "\" width=\"" << axes.x(loaded->step) - left << "\" height=\""
         << height - top - bottom << "\" fill=\"#eef2f7\"/>\n";
     text(svg, left + 8, height - bottom - 10, "start", "loading");

@@ -126,10 +126,10 @@ std::string convergence_section(const PageContent& content) {
     return html;
   }
   const bool in_time = dynamics_of(content.record) == solve::Dynamics::transient;
-  const std::string words = in_time
-                                ? "<h2>Energies</h2>\n<p>The motion in time, with the tissue's own mass.</p>"
-                                : "<h2>How the solver converged</h2>\n<p>The load is applied smoothly, then the motion "
-                                  "is damped until the bound of the remaining error falls below the tolerance.</p>";
+  const std::string words = in_time ? "<h2>Energies</h2>\n<p>The motion in time, with the tissue's own mass.</p>"
+                                    : "<h2>How the solver converged</h2>\n<p>The load is applied smoothly, or all of "
+                                      "it from a coarse cloud's solution on; then the motion is damped until the bound "
+                                      "of the remaining error falls below the tolerance.</p>";
   return words + "\n<div class=\"plots\">\n" + html + "</div>\n";
 }
 
