@@ -73,16 +73,6 @@ ImageGeometry geometry_of(const itk::Image<Pixel, 3>& image) {
   return geometry;
 }
 
-template <class T>
-typename ItkImage<T>::Pointer to_itk(const Image<T>& image) {
-  auto result = ItkImage<T>::New();
-  set_geometry(*result, image.geometry);
-  using Pixel = typename ItkPixel<T>::type;
-  std::transform(image.voxels.begin(), image.voxels.end(), result->GetBufferPointer(),
-                 [](const T& value) { return std::bit_cast<Pixel>(value); });
-  return result;
-}
-
 /// Our image as ITK's without a copy, for filters that only read it; it must outlive the result.
 template <class T>
 typename ItkImage<T>::Pointer seen_by_itk(const Image<T>& image) {

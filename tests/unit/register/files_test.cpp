@@ -54,7 +54,7 @@ ItkTransform::Pointer transform_of(const ItkField& field) {
 template <class T>
 Image<T> resample_with_itk(const Image<T>& picture, const ItkTransform* transform, bool nearest) {
   using Itk = ItkImage<T>;
-  const typename Itk::Pointer input = to_itk(picture);
+  const typename Itk::Pointer input = seen_by_itk(picture);
   const auto filter = itk::ResampleImageFilter<Itk, Itk>::New();
   filter->SetInput(input);
   filter->SetReferenceImage(input);

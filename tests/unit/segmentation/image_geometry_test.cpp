@@ -9,7 +9,8 @@ const Eigen::Vector3d far_away(120.0, -80.0, 300.0);
 
 TEST(ImageGeometry, WorldAndIndexAgreeWithItkInALeftHandedObliqueFrame) {
   const auto geometry = grid_around(far_away, 9, {0.9, 1.1, 2.5}, oblique_left_handed());
-  const auto itk_image = to_itk(ScalarImage{geometry, std::vector<float>(geometry.voxel_count())});
+  const ScalarImage image{geometry, std::vector<float>(geometry.voxel_count())};
+  const auto itk_image = seen_by_itk(image);
   itk::ContinuousIndex<double, 3> index;
   index[0] = 1.25;
   index[1] = 7.5;
@@ -27,7 +28,7 @@ TEST(ImageGeometry, TheItkBridgeKeepsVoxelsAndPlace) {
   const auto geometry = grid_around(far_away, 4, {1.0, 2.0, 3.0}, oblique_left_handed());
   VectorImage image{geometry, std::vector<std::array<float, 3>>(geometry.voxel_count())};
   image.at(1, 2, 3) = {4.0F, -5.0F, 6.0F};
-  const auto itk_image = to_itk(image);
+  const auto itk_image = seen_by_itk(image);
   EXPECT_EQ(itk_image->GetPixel({1, 2, 3})[1], -5.0F);
   const auto back = from_itk<std::array<float, 3>>(*itk_image);
   EXPECT_EQ(back.voxels, image.voxels);

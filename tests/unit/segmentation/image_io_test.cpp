@@ -135,7 +135,7 @@ TEST(ImageIo, ADicomFolderIsOneImage) {
   auto writer = itk::ImageSeriesWriter<ItkImage<std::int16_t>, itk::Image<std::int16_t, 2>>::New();
   auto io = itk::GDCMImageIO::New();
   io->SetKeepOriginalUID(false);
-  writer->SetInput(to_itk(labels));
+  writer->SetInput(seen_by_itk(labels));
   writer->SetImageIO(io);
   writer->SetFileNames(names->GetFileNames());
   writer->Update();
