@@ -72,7 +72,7 @@ def best_kernels(folder, name):
 
 
 def kernel_table(folder):
-    best, native = best_kernels(folder, "kernels.csv"), best_kernels(folder, "kernels_native.csv")
+    best, native = best_kernels(folder, "kernels.csv"), best_kernels(folder, "kernels-native.csv")
     out = []
     for (kernel, setting, threads), row in best.items():
         floor = next((r for k, r in best.items() if k[0].startswith("plain rows") and k[2] == threads), None)
@@ -138,11 +138,11 @@ def stage_table(folder):
     alone = {r["preset"]: r["seconds"] for r in rows if r["threads"] == 1}
     names = ("segment", "discretise", "solve", "register", "report")
     out = [[r["preset"], str(int(r["threads"])), r["nodes"], r["points"], r["steps"], r["seconds"],
-            ratio(alone[r["preset"]], r["seconds"]), *[r[f"{n}_s"] for n in names], r["stepping_s"], r["peak_mb"],
+            ratio(alone[r["preset"]], r["seconds"]), *[r[f"{n}_s"] for n in names], r["stepping_s"], r["fields_and_images_s"], r["peak_mb"],
             ", ".join(number(r[f"{n}_mb"]) for n in names)] for r in rows]
     return table("Whole runs", ["The demo's head, from the image to the report; `default` is the scene as it is. Files are read and written in all of them."],
                  ["preset", "threads", "nodes", "points", "steps", "whole, s", "1 thread / threads", *[f"{n}, s" for n in names],
-                  "of solve: stepping, s", "peak, MB", "peak of each stage, MB"], out)
+                  "of solve: stepping, s", "of register: fields and warped images, s", "peak, MB", "peak of each stage, MB"], out)
 
 
 TEXTS = ("program", "setting", "note")

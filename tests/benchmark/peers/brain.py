@@ -90,7 +90,7 @@ def brainshift(program, loader, nodes, setting, threads, folder, reference):
 LINEAR = ("linear, 8 points", ["--basis", "linear"])
 SINGLE = ("linear, 8 points, single, stop at 0.1 mm", ["--basis", "linear", "--precision", "single", "--tolerance", "0.1"])
 MODIFIED = ("MMLS, 8 points", [])
-# Debian's CalculiX has neither PARDISO nor PaStiX. Nearly incompressible quadratic tetrahedra take its iterative solver minutes.
+# Debian's CalculiX has neither PARDISO nor PaStiX.
 SOLVERS = [("C3D10", "SPOOLES"), (UNREFINED, "SPOOLES"), ("C3D4", "SPOOLES"), ("C3D4", "ITERATIVE CHOLESKY")]
 SLOW = [("C3D10", "ITERATIVE CHOLESKY"), ("C3D10", "ITERATIVE SCALING"), ("C3D4", "ITERATIVE SCALING")]
 NODES = {"quick": ["2000"], "usual": ["5000", "10000", "20000"], "full": ["5000", "10000", "20000"]}
