@@ -113,7 +113,7 @@ struct SceneSource {
   std::map<std::string, int> lines;
 };
 
-/// A scene is solved for where the brain ends, not for the way there, and not to more than a micrometre.
+/// What a scene does not say: it is solved for where the brain ends, not for the way there, and to a micrometre.
 inline solve::SolveOptions quickest() {
   solve::SolveOptions options;
   options.start = solve::Start::coarse;
