@@ -50,7 +50,7 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
     c.shape = shape_matrix(nodal_rows, c.node, prescribed.rows());
     c.prescribed = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
     c.loaded = Eigen::Map<const Eigen::VectorXd>(loaded.data(), static_cast<Eigen::Index>(loaded.size()));
-    c.multiplier = Eigen::VectorXd::Zero(c.prescribed.size());
+    c.multiplier = c.scratch = Eigen::VectorXd::Zero(c.prescribed.size());
   }
   if (nothing_prescribed()) {
     std::vector<std::int32_t>().swap(names_);  // and its memory
@@ -88,10 +88,11 @@ void EssentialConditions::factorise(std::span<const double> mass) {
     const Eigen::SparseMatrix<double> system = c.shape * inverse.asDiagonal() * c.shape.transpose();
     c.factor = std::make_shared<Factor>(system);
     Eigen::Index worst = 0;
-    const Eigen::VectorXd diagonal = c.factor->permutationP() * system.diagonal();
-    const Eigen::VectorXd pivots = c.factor->vectorD().cwiseQuotient(diagonal);
-    if (!(c.factor->info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot)) {
-      const auto at = static_cast<std::size_t>(c.factor->permutationPinv().indices()[worst]);
+    const auto& [ldlt, pivot] = *c.factor;
+    const Eigen::VectorXd diagonal = ldlt.permutationP() * system.diagonal();
+    const Eigen::VectorXd pivots = pivot.cwiseQuotient(diagonal);
+    if (!(ldlt.info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot)) {
+      const auto at = static_cast<std::size_t>(ldlt.permutationPinv().indices()[worst]);
       throw std::invalid_argument("the prescribed displacements contradict or repeat each other at node " +
                                   std::to_string(names_[static_cast<std::size_t>(c.node[at])]) +
                                   ": too many constrained nodes lie too near it; constrain fewer or add free nodes");
@@ -99,14 +100,33 @@ void EssentialConditions::factorise(std::span<const double> mass) {
   }
 }
 
+void EssentialConditions::Factor::solve(Eigen::VectorXd& x, Eigen::VectorXd& scratch) const {
+  scratch.noalias() = ldlt.permutationP() * x;
+  ldlt.matrixL().solveInPlace(scratch);
+  scratch.array() /= pivot.array();
+  ldlt.matrixU().solveInPlace(scratch);
+  x.noalias() = ldlt.permutationPinv() * scratch;
+}
+
 void EssentialConditions::apply(double fraction, NodalVectors& parameters) {
+#pragma omp parallel for schedule(static, 1)
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
     if (c.node.empty()) {
       continue;
     }
-    const Eigen::VectorXd error = fraction * c.prescribed - c.shape * component_of(parameters, axis);
-    c.multiplier = c.factor ? c.factor->solve(error) : error.cwiseQuotient(c.lumped).eval();
+    for (Eigen::Index i = 0; i < c.shape.rows(); ++i) {
+      c.multiplier[i] = fraction * c.prescribed[i];
+      for (RowMatrix::InnerIterator entry(c.shape, i); entry; ++entry) {
+        c.multiplier[i] -=
+            entry.value() * parameters[4 * static_cast<std::size_t>(entry.col()) + static_cast<std::size_t>(axis)];
+      }
+    }
+    if (c.factor) {
+      c.factor->solve(c.multiplier, c.scratch);
+    } else {
+      c.multiplier.array() /= c.lumped.array();
+    }
     for (Eigen::Index i = 0; i < c.shape.rows(); ++i) {
       for (RowMatrix::InnerIterator entry(c.shape, i); entry; ++entry) {
         const auto node = static_cast<std::size_t>(entry.col());
@@ -174,12 +194,12 @@ std::size_t EssentialConditions::held_bytes() const {
     if (conditions == 0) {
       continue;
     }
-    sum += bytes(c.node) + sparse_bytes(c.shape) + (3 + (c.factor ? 0 : 1)) * conditions * sizeof(double);
+    sum += bytes(c.node) + sparse_bytes(c.shape) + (4 + (c.factor ? 0 : 1)) * conditions * sizeof(double);
     if (c.factor && c.factor.get() != counted) {
       counted = c.factor.get();
-      // L, the diagonal, the permutation and its inverse, the elimination tree and the lengths of L's columns
-      sum += sparse_bytes(c.factor->matrixL().nestedExpression()) +
-             conditions * (sizeof(double) + 4 * sizeof(std::int32_t));
+      // L, the diagonal twice, the permutation and its inverse, the elimination tree and the lengths of L's columns
+      sum += sparse_bytes(c.factor->ldlt.matrixL().nestedExpression()) +
+             conditions * (2 * sizeof(double) + 4 * sizeof(std::int32_t));
     }
   }
   return sum;

@@ -57,7 +57,14 @@ class EssentialConditions {
   std::size_t held_bytes() const;
 
  private:
-  using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+  /// Solves without allocating, as Eigen's solve() does not.
+  struct Factor {
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
+    Eigen::VectorXd pivot;
+
+    explicit Factor(const Eigen::SparseMatrix<double>& system) : ldlt(system), pivot(ldlt.vectorD()) {}
+    void solve(Eigen::VectorXd& x, Eigen::VectorXd& scratch) const;
+  };
   using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   struct Component {
     std::vector<std::int32_t> node;
@@ -66,6 +73,7 @@ class EssentialConditions {
     Eigen::VectorXd multiplier;  ///< μ
     Eigen::VectorXd loaded;      ///< 1 where the node is loaded, else 0
     Eigen::VectorXd lumped;      ///< of the simplified form
+    Eigen::VectorXd scratch;     ///< of apply()
     std::shared_ptr<Factor> factor;
   };
   bool nothing_prescribed() const;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace brainshift::solve {
@@ -22,21 +22,17 @@ inline Eigen::Map<Eigen::Vector4d> at(NodalVectors& v, std::size_t node) {
 /// Sums term(node) over the nodes with all threads, in an order that does not depend on their number.
 template <class Term>
 double sum_over_nodes(std::size_t nodes, const Term& term) {
-  constexpr std::int64_t chunk = 2048;
-  const std::int64_t chunks = (static_cast<std::int64_t>(nodes) + chunk - 1) / chunk;
-  std::vector<double> partial(static_cast<std::size_t>(chunks), 0.0);
+  constexpr std::size_t chunks = 64;
+  std::array<double, chunks> partial;
 #pragma omp parallel for schedule(static)
-  for (std::int64_t c = 0; c < chunks; ++c) {
-    const auto end = std::min(static_cast<std::size_t>((c + 1) * chunk), nodes);
-    for (auto a = static_cast<std::size_t>(c * chunk); a < end; ++a) {
-      partial[static_cast<std::size_t>(c)] += term(a);
+  for (std::size_t c = 0; c < chunks; ++c) {
+    double sum = 0;
+    for (std::size_t a = c * nodes / chunks; a < (c + 1) * nodes / chunks; ++a) {
+      sum += term(a);
     }
+    partial[c] = sum;
   }
-  double sum = 0;
-  for (const double p : partial) {
-    sum += p;
-  }
-  return sum;
+  return std::accumulate(partial.begin(), partial.end(), 0.0);
 }
 
 /// Largest |component| of a − b; NaN where one is.

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "solve/dynamics/motion.hpp"
+#include "solve/dynamics/stiffness_bound.hpp"
+#include "solve/prepare.hpp"
+#include "tests/unit/solve/load/shapes.hpp"
+#include "tests/unit/solve/models.hpp"
+
+// The linker turns every call of malloc in this program into one of __wrap_malloc (-Wl,--wrap=malloc); new calls it,
+// too.
+namespace {
+std::atomic<int> allocations = 0;
+}
+
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __wrap_malloc(std::size_t size) {
+  ++allocations;
+  return __real_malloc(size);
+}
+}
+
+void* operator new(std::size_t size) {
+  if (void* memory = malloc(size > 0 ? size : 1)) {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  free(memory);
+}
+
+namespace brainshift::solve {
+namespace {
+
+/// A cube that is stretched within a ball which it touches, with forces, so that all that a step has is there.
+Model everything() {
+  Model model = uniaxial(1.2);
+  const double half = model_side / 2;
+  model.skull = testing_shapes::sphere(Eigen::Vector3d::Constant(half), 1.75 * half, 4);
+  model.gravity = {0, 0, -9.81};
+  return model;
+}
+
+int allocated_in_steps(const Model& model, SolveOptions options) {
+  SolveMeasures measures;
+  Prepared p = prepare(model, completed(options, model), {}, measures, {});
+  const System system{p.points,     p.laws,     p.essential, p.contact ? &*p.contact : nullptr, p.external, model.curve,
+                      p.nodal_rows, p.original, nullptr};
+  Motion motion(system, p.laws, 0);
+  internal_force(p.points, p.laws, motion.now, motion.scratch, motion.force);
+  const std::vector<double> mass = stiffness_bound(p.points, p.laws, motion.scratch);
+  motion.weigh(mass);
+  const auto steps = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      motion.step(p.laws, mass, 1, 0.9, 1, 1);
+    }
+  };
+  steps(2);
+  const int before = allocations;
+  steps(10);
+  return allocations - before;
+}
+
+TEST(Step, AllocatesNothing) {
+  ASSERT_GT(allocations, 0) << "the count is of this program";
+  for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
+    for (const Imposition imposition : {Imposition::exact, Imposition::simplified}) {
+      SolveOptions options;
+      options.precision = precision;
+      options.imposition = imposition;
+      EXPECT_EQ(allocated_in_steps(everything(), options), 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace brainshift::solve
