@@ -61,14 +61,28 @@ void put_nodes_at_loaded_vertices(NodeCloud& cloud, const Surface& surface, cons
   }
 }
 
+/// The vertices that the load moves.
+Points moved(const Surface& surface, const Points& at_vertex) {
+  std::vector<Eigen::Index> vertices;
+  for (Eigen::Index v = 0; v < at_vertex.rows(); ++v) {
+    if (at_vertex.row(v).norm() > 0) {
+      vertices.push_back(v);
+    }
+  }
+  return surface.vertices(vertices, Eigen::all);
+}
+
 }  // namespace
 
-discretise::Discretisation loaded_brain(std::size_t nodes, CellKind kind) {
+discretise::Discretisation loaded_brain(std::size_t nodes, CellKind kind, bool refined) {
   const Surface surface = read_surface(BRAINSHIFT_REFERENCES "/brain_surface.vtp");
   const Points at_vertex = at_vertices(surface, read_rows("brain_load.csv"));
   discretise::DiscretiseOptions options;
   options.nodes = nodes;
   options.cells = kind;
+  if (refined) {
+    options.craniotomy = discretise::Refinement{moved(surface, at_vertex), 10, 0.5};
+  }
   discretise::Discretisation made = discretise::discretise(surface, nullptr, options);
   NodeCloud& cloud = made.cloud;
   put_nodes_at_loaded_vertices(cloud, surface, at_vertex);

@@ -67,12 +67,12 @@ def calculix(name, mesh, values, solver, threads, folder, reference):
     return {**row, "note": "" if ratio > 0 else f"folded elements (volume ratio {ratio:.2f})"}
 
 
-def brainshift(program, loader, nodes, setting, threads, folder, reference):
-    """setting: name and options of `brainshift solve`."""
+def brainshift(program, loader, nodes, spread, setting, threads, folder, reference):
+    """spread: uniform or refined. setting: name and options of `brainshift solve`."""
     name, options = setting
-    place = f"{folder}/{nodes}_{name.replace(' ', '_').replace(',', '')}_{threads}"
+    place = f"{folder}/{nodes}_{spread}_{name.replace(' ', '_').replace(',', '')}_{threads}"
     os.makedirs(place, exist_ok=True)
-    made = timed.run([loader, "cloud", place, nodes], threads, place + "/cloud.log")
+    made = timed.run([loader, spread, place, nodes], threads, place + "/cloud.log")
     took = timed.run([program, "--threads", str(threads), "solve", "--nodes", f"{place}/nodes.vtu", "--cells",
                       f"{place}/cells.vtu", "--material", "1:3000,0.49,1000", "--out", place, *options], threads,
                      place + "/solve.log", limit=LIMIT)
@@ -82,18 +82,23 @@ def brainshift(program, loader, nodes, setting, threads, folder, reference):
     samples = np.loadtxt(f"{place}/samples.csv", delimiter=",", skiprows=1)
     with open(f"{place}/stage.json") as file:
         sizes = json.load(file)["entry"]["sizes"]
-    return {"program": "brainshift", "setting": name, "threads": threads, "nodes": sizes["nodes"], "seconds": took.seconds,
+    return {"program": "brainshift", "setting": f"{spread}, {name}", "threads": threads, "nodes": sizes["nodes"], "seconds": took.seconds,
             "peak_mb": took.peak_mb, **errors(samples - reference[:, 3:]),
             "note": f"{sizes['steps']} steps; cloud and cells: {made.seconds:.1f} s"}
 
 
-LINEAR = ("linear, 8 points", ["--basis", "linear"])
-SINGLE = ("linear, 8 points, single, stop at 0.1 mm", ["--basis", "linear", "--precision", "single", "--tolerance", "0.1"])
-MODIFIED = ("MMLS, 8 points", [])
+LINEAR = ("linear", ["--basis", "linear"])
+LINEAR_TO_TENTH = ("linear, stop at 0.1 mm", ["--basis", "linear", "--tolerance", "0.1"])
+MODIFIED = ("MMLS", [])
+MODIFIED_TO_TENTH = ("MMLS, stop at 0.1 mm", ["--tolerance", "0.1"])
 # Debian's CalculiX has neither PARDISO nor PaStiX.
-SOLVERS = [("C3D10", "SPOOLES"), (UNREFINED, "SPOOLES"), ("C3D4", "SPOOLES"), ("C3D4", "ITERATIVE CHOLESKY")]
-SLOW = [("C3D10", "ITERATIVE CHOLESKY"), ("C3D10", "ITERATIVE SCALING"), ("C3D4", "ITERATIVE SCALING")]
-NODES = {"quick": ["2000"], "usual": ["5000", "10000", "20000"], "full": ["5000", "10000", "20000"]}
+SOLVERS = [("C3D10", "SPOOLES"), ("C3D10", "ITERATIVE SCALING"), (UNREFINED, "SPOOLES"), ("C3D4", "SPOOLES"), ("C3D4", "ITERATIVE CHOLESKY")]
+SLOW = [("C3D10", "ITERATIVE CHOLESKY"), ("C3D4", "ITERATIVE SCALING")]
+# Nodes, how they are spread, settings.
+USUAL = [("5000", "uniform", [LINEAR, LINEAR_TO_TENTH]), ("10000", "uniform", [LINEAR, LINEAR_TO_TENTH]),
+         ("20000", "uniform", [LINEAR, LINEAR_TO_TENTH, MODIFIED]), ("7000", "refined", [LINEAR_TO_TENTH, MODIFIED_TO_TENTH]),
+         ("8000", "refined", [LINEAR_TO_TENTH, MODIFIED_TO_TENTH]), ("10000", "refined", [LINEAR_TO_TENTH, MODIFIED_TO_TENTH])]
+CLOUDS = {"quick": [("2000", "refined", [LINEAR])], "usual": USUAL, "full": USUAL}
 
 
 def main(out, folder, program, loader, size="usual"):
@@ -110,9 +115,9 @@ def main(out, folder, program, loader, size="usual"):
     filled = meshes(folder)
     solvers = {"quick": [("C3D4", "ITERATIVE CHOLESKY")], "usual": SOLVERS, "full": SOLVERS + SLOW}[size]
     for threads in (1, 2):
-        for nodes in NODES[size]:
-            for setting in (LINEAR, SINGLE) + ((MODIFIED,) if nodes == "20000" else ()):
-                keep(brainshift(program, loader, nodes, setting, threads, folder, reference))
+        for nodes, spread, settings in CLOUDS[size]:
+            for setting in settings:
+                keep(brainshift(program, loader, nodes, spread, setting, threads, folder, reference))
         for name, solver in solvers:
             keep(calculix(name, *filled[name], solver, threads, folder, reference))
 

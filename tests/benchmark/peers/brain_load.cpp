@@ -3,7 +3,7 @@
 // The brain, the load and the samples of the finite-element reference for the program: makes cloud and cells with the
 // reference's displacements prescribed, and evaluates a solution at the reference's samples.
 //
-//   brain_load cloud OUT NODES
+//   brain_load uniform|refined OUT NODES
 //   brain_load at SOLUTION.vtu OUT.csv
 #include <cstdio>
 #include <exception>
@@ -19,7 +19,8 @@ namespace {
 using namespace brainshift;
 
 void make_cloud(const std::vector<std::string>& words) {
-  discretise::write_discretisation(words[1], verification::loaded_brain(std::stoul(words[2]), CellKind::hexahedron));
+  discretise::write_discretisation(
+      words[1], verification::loaded_brain(std::stoul(words[2]), CellKind::hexahedron, words[0] == "refined"));
 }
 
 void evaluate(const std::vector<std::string>& words) {
@@ -33,9 +34,9 @@ void evaluate(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  const bool cloud = words.size() == 3 && words[0] == "cloud";
+  const bool cloud = words.size() == 3 && (words[0] == "uniform" || words[0] == "refined");
   if (!cloud && !(words.size() == 3 && words[0] == "at")) {
-    std::fprintf(stderr, "usage: brain_load cloud OUT NODES | at SOLUTION.vtu OUT.csv\n");
+    std::fprintf(stderr, "usage: brain_load uniform|refined OUT NODES | at SOLUTION.vtu OUT.csv\n");
     return 2;
   }
   try {
