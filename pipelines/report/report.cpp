@@ -2,7 +2,10 @@
 #include "pipelines/report/report.hpp"
 
 #include <fstream>
+#include <future>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "pipelines/report/history_plot.hpp"
 #include "pipelines/report/page.hpp"
@@ -25,11 +28,23 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
   }
 }
 
-// Written as a file, and kept for the page.
-PageFigure keep(const Figure& figure, const fs::path& out) {
-  PageFigure kept{figure.name, figure.alt, figure.picture.width, encode_png(figure.picture)};
-  write_bytes(out / (figure.name + ".png"), kept.png);
-  return kept;
+using Keeping = std::vector<std::future<PageFigure>>;
+
+// Written as a file, and kept for the page, while the next one is drawn.
+void keep(Figure drawn, const fs::path& out, Keeping& figures) {
+  figures.push_back(std::async(std::launch::async, [figure = std::move(drawn), out] {
+    PageFigure kept{figure.name, figure.alt, figure.picture.width, encode_png(figure.picture)};
+    write_bytes(out / (figure.name + ".png"), kept.png);
+    return kept;
+  }));
+}
+
+std::vector<PageFigure> kept(Keeping figures) {
+  std::vector<PageFigure> result;
+  for (std::future<PageFigure>& figure : figures) {
+    result.push_back(figure.get());
+  }
+  return result;
 }
 
 // The plane in which most of the load's direction lies shows the shift best.
@@ -55,18 +70,22 @@ void draw_pictures(const RunData& run, const fs::path& out, PageContent& content
   const View view = make_view(run);
   content.arrow_factor = arrow_factor(view);
   content.largest_displacement = run.solution->displacement.rowwise().norm().maxCoeff();
+  Keeping comparisons, displacements, surfaces;
   for (std::size_t i = 0; i < view.planes.size(); ++i) {
     report(progress, 0.3 + 0.2 * static_cast<double>(i), "drawing the " + view.planes[i].name + " slice");
     if (run.t1 && run.warped) {
-      for (const Figure& figure : comparison_figures(run, view, view.planes[i])) {
-        content.comparisons.push_back(keep(figure, out));
+      for (Figure& figure : comparison_figures(run, view, view.planes[i])) {
+        keep(std::move(figure), out, comparisons);
       }
     }
-    content.displacements.push_back(keep(displacement_figure(run, view, view.planes[i]), out));
+    keep(displacement_figure(run, view, view.planes[i]), out, displacements);
   }
   content.blink = 3 * most_telling_plane(view);
   report(progress, 0.9, "drawing the surface");
-  content.surfaces.push_back(keep(surface_figure(run, view), out));
+  keep(surface_figure(run, view), out, surfaces);
+  content.comparisons = kept(std::move(comparisons));
+  content.displacements = kept(std::move(displacements));
+  content.surfaces = kept(std::move(surfaces));
 }
 
 }  // namespace
