@@ -11,19 +11,25 @@
 #include "tests/unit/solve/load/shapes.hpp"
 #include "tests/unit/solve/models.hpp"
 
-// The linker turns every call of malloc and of the operators new in this program into one of these (CMakeLists.txt).
+// The linker turns every call of malloc, calloc and the operators new in this program into one of these
+// (CMakeLists.txt).
 namespace {
 std::atomic<int> allocations = 0;
 }
 
 extern "C" {
 void* __real_malloc(std::size_t size);
+void* __real_calloc(std::size_t count, std::size_t size);
 void* __real__Znwm(std::size_t size);
 void* __real__ZnwmSt11align_val_t(std::size_t size, std::align_val_t alignment);
 
 void* __wrap_malloc(std::size_t size) {
   ++allocations;
   return __real_malloc(size);
+}
+void* __wrap_calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __real_calloc(count, size);
 }
 void* __wrap__Znwm(std::size_t size) {
   ++allocations;
