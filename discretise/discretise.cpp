@@ -89,7 +89,7 @@ Discretisation discretise(const Surface& brain, const LabelMap* labels, const Di
   const NodeDemand demand = node_demand(brain, body, labels, options);
 
   Discretisation result;
-  const MadeCloud made = make_cloud(brain, body, demand, tissue, options, progress);
+  const MadeCloud made = make_cloud(brain, body, demand, options, progress);
   result.cloud = made.cloud;
   check_labels_overlap(result.cloud, tissue);
   report(progress, 0.8, "background cells");

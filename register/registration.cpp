@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/registration.hpp"
 
-#include <chrono>
 #include <sstream>
 #include <stdexcept>
 
@@ -10,6 +9,8 @@
 #include "register/field/jacobian.hpp"
 #include "register/field/measures.hpp"
 #include "register/field/resampling_field.hpp"
+#include "register/warp/warp.hpp"
+#include "segmentation/progress/stopwatch.hpp"
 
 namespace brainshift::registration {
 
@@ -60,7 +61,7 @@ Progress part_of(const Progress& progress, double begin, double end) {
 
 Registration register_images(const RegisterInput& input, const RegisterOptions& options, const Progress& progress) {
   check(input, options);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const ImageGeometry& grid = input.t1.geometry;
   report(progress, 0.0, "distance to the brain's surface");
   const BrainZones zones = brain_zones(input.brain, grid, options.fade);
@@ -74,14 +75,14 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   if (input.labels) {
     result.warped_labels = warp(*input.labels, result.resampling);
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const double seconds = stopwatch.seconds();
   result.preop_landmarks = input.landmarks;
   result.landmarks = move_points(result.forward, input.landmarks);
   report(progress, 0.9, "measuring the fields");
   result.jacobian = jacobian(result.forward);
   result.measures = measure_fields(result.forward, result.resampling, result.jacobian, zones.zone, input.solution);
   result.measures.not_inverted = inverted.not_inverted;
-  result.measures.seconds = seconds.count();
+  result.measures.seconds = seconds;
   report(progress, 1.0, "done");
   return result;
 }

@@ -7,8 +7,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "segmentation/check_input.hpp"
 #include "segmentation/image/mask.hpp"
+#include "segmentation/interface/check_input.hpp"
+#include "segmentation/surface/checked_surface.hpp"
 #include "segmentation/surface/extract.hpp"
 #include "segmentation/tissue/classify.hpp"
 

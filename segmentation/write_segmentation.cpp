@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <stdexcept>
 
+#include "segmentation/files/surface_file.hpp"
 #include "segmentation/segment.hpp"
 
 namespace brainshift::segmentation {

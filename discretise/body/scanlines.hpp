@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/surface.hpp"
 
 namespace brainshift::discretise {
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "discretise/background_cells.hpp"
+#include "discretise/interface/background_cells.hpp"
 
 namespace brainshift::discretise {
 

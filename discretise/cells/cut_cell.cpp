@@ -10,10 +10,10 @@ namespace brainshift::discretise {
 namespace {
 
 /// Lines a side of a cell.
-constexpr int lines = 16;
+constexpr int lines_a_side = 16;
 /// Where in its strip a line lies, in sixteenths: another place in each row, so that a face along the grid is met at
 /// 256 heights, not at sixteen.
-constexpr std::array<int, lines> place = {0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15};
+constexpr std::array<int, lines_a_side> line_shift = {0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15};
 /// An octant with less of its volume inside joins the cell's largest.
 constexpr double negligible_octant = 0.01;
 
@@ -28,17 +28,19 @@ struct Stretch {
 void find_stretches(const Scanlines& body, const Eigen::Vector3d& low, double edge, std::vector<Stretch>& stretches) {
   thread_local std::vector<double> x;
   stretches.clear();
-  for (int k = 0; k < lines; ++k) {
-    for (int j = 0; j < lines; ++j) {
-      const double y = low.y() + (j + (place[static_cast<std::size_t>(k)] + 0.5) / lines) / lines * edge;
-      const double z = low.z() + (k + (place[static_cast<std::size_t>(j)] + 0.5) / lines) / lines * edge;
+  for (int k = 0; k < lines_a_side; ++k) {
+    for (int j = 0; j < lines_a_side; ++j) {
+      const double y =
+          low.y() + (j + (line_shift[static_cast<std::size_t>(k)] + 0.5) / lines_a_side) / lines_a_side * edge;
+      const double z =
+          low.z() + (k + (line_shift[static_cast<std::size_t>(j)] + 0.5) / lines_a_side) / lines_a_side * edge;
       body.crossings(y, z, x);
       for (std::size_t pair = 0; pair + 1 < x.size(); pair += 2) {
         for (int half = 0; half < 2; ++half) {
           const double from = std::max(x[pair], low.x() + 0.5 * edge * half);
           const double to = std::min(x[pair + 1], low.x() + 0.5 * edge * (half + 1));
           if (to > from) {
-            const int octant = half + 2 * (2 * j / lines) + 4 * (2 * k / lines);
+            const int octant = half + 2 * (2 * j / lines_a_side) + 4 * (2 * k / lines_a_side);
             stretches.push_back({octant, to - from, {0.5 * (from + to), y, z}});
           }
         }
@@ -78,7 +80,7 @@ InsidePart inside_part(const Scanlines& body, const Eigen::Vector3d& low, double
   find_stretches(body, low, edge, stretches);
   InsidePart part;
   Eigen::Matrix<double, 3, 8> moment = Eigen::Matrix<double, 3, 8>::Zero();
-  const double area = edge * edge / (lines * lines);
+  const double area = edge * edge / (lines_a_side * lines_a_side);
   for (const Stretch& stretch : stretches) {
     part.octants.volume[stretch.octant] += stretch.length * area;
     moment.col(stretch.octant) += stretch.length * area * stretch.middle;

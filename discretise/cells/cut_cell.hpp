@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "discretise/background_cells.hpp"
 #include "discretise/body/scanlines.hpp"
+#include "discretise/interface/background_cells.hpp"
 
 namespace brainshift::discretise {
 

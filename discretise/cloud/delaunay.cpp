@@ -3,12 +3,8 @@
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
-#include <CGAL/hilbert_sort.h>
-#include <CGAL/property_map.h>
 
-#include <numeric>
 #include <utility>
 
 namespace brainshift::discretise {
@@ -36,20 +32,6 @@ std::vector<std::array<std::int32_t, 4>> delaunay_tetrahedra(const Points& point
         {cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info()});
   }
   return tetrahedra;
-}
-
-std::vector<std::size_t> hilbert_order(const Points& points) {
-  std::vector<Kernel::Point_3> list;
-  list.reserve(static_cast<std::size_t>(points.rows()));
-  for (const auto& p : points.rowwise()) {
-    list.emplace_back(p[0], p[1], p[2]);
-  }
-  std::vector<std::size_t> order(list.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  using Map = CGAL::Pointer_property_map<Kernel::Point_3>::type;
-  using Traits = CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>;
-  CGAL::hilbert_sort(order.begin(), order.end(), Traits(CGAL::make_property_map(list)));
-  return order;
 }
 
 }  // namespace brainshift::discretise

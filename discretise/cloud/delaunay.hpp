@@ -5,15 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/points.hpp"
 
 namespace brainshift::discretise {
 
 /// Delaunay tetrahedra of points (CGAL, exact predicates), positively oriented; they fill the convex hull. The same
 /// points give the same list in the same order.
 std::vector<std::array<std::int32_t, 4>> delaunay_tetrahedra(const Points& points);
-
-/// The points' order along a Hilbert curve: neighbours in space are near in memory.
-std::vector<std::size_t> hilbert_order(const Points& points);
 
 }  // namespace brainshift::discretise

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "discretise/body/scanlines.hpp"
-#include "discretise/random.hpp"
+#include "discretise/cloud/random.hpp"
 #include "discretise/sizing/sizing_field.hpp"
 
 namespace brainshift::discretise {

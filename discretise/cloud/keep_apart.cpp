@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "discretise/neighbours/neighbour_distance.hpp"
+#include "segmentation/geometry/neighbour_distance.hpp"
 
 namespace brainshift::discretise {
 namespace {

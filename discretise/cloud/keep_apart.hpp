@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/points.hpp"
 
 namespace brainshift::discretise {
 

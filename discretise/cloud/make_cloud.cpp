@@ -8,6 +8,7 @@
 #include "discretise/cloud/interior_nodes.hpp"
 #include "discretise/cloud/keep_apart.hpp"
 #include "discretise/cloud/surface_nodes.hpp"
+#include "segmentation/geometry/hilbert_order.hpp"
 
 namespace brainshift::discretise {
 namespace {
@@ -33,18 +34,16 @@ void thin_out(Points& nodes, std::size_t& on_surface, double fraction) {
   }
 }
 
-NodeCloud describe(const Points& nodes, std::size_t on_surface, const TissueLookup& tissue) {
-  const std::vector<std::size_t> order = hilbert_order(nodes);
+NodeCloud describe(const Points& nodes, std::size_t on_surface) {
+  const std::vector<std::int32_t> order = hilbert_order(nodes);
   NodeCloud cloud;
   cloud.positions.resize(nodes.rows(), 3);
   cloud.on_surface.resize(order.size());
-  cloud.label.resize(order.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t node = 0; node < order.size(); ++node) {
     const auto row = static_cast<Eigen::Index>(node);
-    cloud.positions.row(row) = nodes.row(static_cast<Eigen::Index>(order[node]));
-    cloud.on_surface[node] = order[node] < on_surface ? 1 : 0;
-    cloud.label[node] = tissue.tissue_at(cloud.positions.row(row).transpose());
+    cloud.positions.row(row) = nodes.row(order[node]);
+    cloud.on_surface[node] = static_cast<std::size_t>(order[node]) < on_surface ? 1 : 0;
   }
   return cloud;
 }
@@ -52,7 +51,7 @@ NodeCloud describe(const Points& nodes, std::size_t on_surface, const TissueLook
 }  // namespace
 
 MadeCloud make_cloud(const Surface& surface, const Scanlines& body, const NodeDemand& demand,
-                     const TissueLookup& tissue, const DiscretiseOptions& options, const Progress& progress) {
+                     const DiscretiseOptions& options, const Progress& progress) {
   Random random(options.seed);
   report(progress, 0.15, "nodes on the surface");
   const Points on_surface =
@@ -67,7 +66,7 @@ MadeCloud make_cloud(const Surface& surface, const Scanlines& body, const NodeDe
   const Eigen::Index before = nodes.rows();
   thin_out(nodes, surface_nodes, options.minimum_distance);
   made.removed_nodes = static_cast<std::size_t>(before - nodes.rows());
-  made.cloud = describe(nodes, surface_nodes, tissue);
+  made.cloud = describe(nodes, surface_nodes);
   const CloudDistances distances = cloud_distances(made.cloud.positions);
   made.cloud.spacing = distances.spacing;
   made.smallest_distance_ratio = std::numeric_limits<double>::infinity();

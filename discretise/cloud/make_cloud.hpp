@@ -3,7 +3,8 @@
 
 #include "discretise/body/scanlines.hpp"
 #include "discretise/cloud/node_demand.hpp"
-#include "discretise/sizing/tissue_lookup.hpp"
+#include "discretise/interface/node_cloud.hpp"
+#include "segmentation/progress/progress.hpp"
 
 namespace brainshift::discretise {
 
@@ -15,8 +16,8 @@ struct MadeCloud {
 };
 
 /// Spreads the nodes over the surface and in the body, takes out those nearer than options.minimum_distance, orders
-/// them along a Hilbert curve, measures the spacing and looks up the tissue.
+/// them along a Hilbert curve and measures the spacing.
 MadeCloud make_cloud(const Surface& surface, const Scanlines& body, const NodeDemand& demand,
-                     const TissueLookup& tissue, const DiscretiseOptions& options, const Progress& progress);
+                     const DiscretiseOptions& options, const Progress& progress);
 
 }  // namespace brainshift::discretise

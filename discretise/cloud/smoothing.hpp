@@ -2,7 +2,7 @@
 #pragma once
 
 #include "discretise/body/scanlines.hpp"
-#include "discretise/random.hpp"
+#include "discretise/cloud/random.hpp"
 #include "discretise/sizing/sizing_field.hpp"
 
 namespace brainshift::discretise {

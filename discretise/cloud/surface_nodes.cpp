@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "discretise/cloud/surface_nodes.hpp"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Simple_cartesian.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "discretise/cloud/dart_grid.hpp"
-#include "discretise/neighbours/point_tree.hpp"
+#include "segmentation/geometry/point_tree.hpp"
+#include "segmentation/geometry/surface_tree.hpp"
 
 namespace brainshift::discretise {
 namespace {
-
-using Kernel = CGAL::Simple_cartesian<double>;
-using Triangle = Kernel::Triangle_3;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 constexpr int samples_per_node = 30;
 constexpr int lloyd_sweeps = 8;
@@ -35,26 +26,17 @@ struct Sample {
   double factor;
 };
 
-Eigen::Vector3d corner(const Surface& surface, Eigen::Index triangle, int k) {
-  return surface.vertices.row(surface.triangles(triangle, k));
-}
-
-Eigen::Vector3d area_vector(const Surface& surface, Eigen::Index t) {
-  const Eigen::Vector3d a = corner(surface, t, 0);
-  return 0.5 * (corner(surface, t, 1) - a).cross(corner(surface, t, 2) - a);
-}
-
 /// Nodes that each triangle takes, up to a constant: area / factor².
 std::vector<double> demands(const Surface& surface, const SizingField& sizing) {
   std::vector<double> demand(static_cast<std::size_t>(surface.triangles.rows()));
   for (std::size_t t = 0; t < demand.size(); ++t) {
-    const auto row = static_cast<Eigen::Index>(t);
-    const Eigen::Vector3d middle = (corner(surface, row, 0) + corner(surface, row, 1) + corner(surface, row, 2)) / 3.0;
+    const Triangle part = triangle(surface, static_cast<Eigen::Index>(t));
+    const Eigen::Vector3d middle = part.centroid();
     double mean = 1 / std::pow(sizing.factor(middle), 2);
-    for (int k = 0; k < 3; ++k) {
-      mean += 1 / std::pow(sizing.factor(0.5 * (corner(surface, row, k) + middle)), 2);
+    for (const Eigen::Vector3d& corner : {part.a, part.b, part.c}) {
+      mean += 1 / std::pow(sizing.factor(0.5 * (corner + middle)), 2);
     }
-    demand[t] = area_vector(surface, row).norm() * mean / 4;
+    demand[t] = part.area_vector().norm() * mean / 4;
   }
   return demand;
 }
@@ -65,18 +47,17 @@ std::vector<Sample> sample(const Surface& surface, const SizingField& sizing, st
   const double total = std::accumulate(demand.begin(), demand.end(), 0.0);
   std::vector<Sample> samples;
   samples.reserve(count);
-  std::size_t triangle = 0;
+  std::size_t t = 0;
   double passed = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double target = (static_cast<double>(i) + random.uniform()) / static_cast<double>(count) * total;
-    while (triangle + 1 < demand.size() && passed + demand[triangle] < target) {
-      passed += demand[triangle++];
+    while (t + 1 < demand.size() && passed + demand[t] < target) {
+      passed += demand[t++];
     }
     const double root = std::sqrt(random.uniform());
     const double along = random.uniform();
-    const auto t = static_cast<Eigen::Index>(triangle);
-    const Eigen::Vector3d x = (1 - root) * corner(surface, t, 0) + root * (1 - along) * corner(surface, t, 1) +
-                              root * along * corner(surface, t, 2);
+    const auto [a, b, c] = triangle(surface, static_cast<Eigen::Index>(t));
+    const Eigen::Vector3d x = (1 - root) * a + root * (1 - along) * b + root * along * c;
     samples.push_back({x, sizing.factor(x)});
   }
   return samples;
@@ -133,40 +114,6 @@ Points means_of_nearest(const Points& nodes, const std::vector<Sample>& samples)
   return sum;
 }
 
-/// The closest places of the surface.
-class Projection {
- public:
-  explicit Projection(const Surface& surface) {
-    const auto point = [&](Eigen::Index t, int k) {
-      const Eigen::Vector3d p = corner(surface, t, k);
-      return Kernel::Point_3(p.x(), p.y(), p.z());
-    };
-    for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
-      if (area_vector(surface, t).norm() > 0) {
-        triangles_.emplace_back(point(t, 0), point(t, 1), point(t, 2));
-      }
-    }
-    tree_.insert(triangles_.cbegin(), triangles_.cend());
-    tree_.build();
-    tree_.accelerate_distance_queries();
-  }
-
-  struct Foot {
-    Eigen::Vector3d x;
-    Eigen::Vector3d normal;
-  };
-
-  Foot operator()(const Eigen::Vector3d& x) const {
-    const auto [foot, primitive] = tree_.closest_point_and_primitive(Kernel::Point_3(x.x(), x.y(), x.z()));
-    const Kernel::Vector_3 n = CGAL::normal((*primitive)[0], (*primitive)[1], (*primitive)[2]);
-    return {{foot.x(), foot.y(), foot.z()}, Eigen::Vector3d(n.x(), n.y(), n.z()).normalized()};
-  }
-
- private:
-  std::vector<Triangle> triangles_;
-  Tree tree_;
-};
-
 /// Moves a place on the surface a hair inward: against the normal, or, on a sharp edge where that leads out through
 /// the next triangle, any way that leads in.
 bool move_inside(Eigen::Vector3d& x, const Eigen::Vector3d& normal, const Scanlines& body, double hair) {
@@ -196,18 +143,18 @@ Points spread_over_surface(const Surface& surface, const Scanlines& body, const 
                            std::size_t count, Random& random) {
   const std::vector<Sample> samples = sample(surface, sizing, samples_per_node * count, random);
   Points nodes = pick_apart(surface, samples, spacing, count, random);
-  const Projection project(surface);
+  const SurfaceTree tree(surface);
   for (int sweep = 0; sweep < lloyd_sweeps; ++sweep) {
     nodes = means_of_nearest(nodes, samples);
     for (auto node : nodes.rowwise()) {
-      node = project(node.transpose()).x;
+      node = tree.nearest(node.transpose()).position;
     }
   }
   Eigen::Index kept = 0;
   for (Eigen::Index node = 0; node < nodes.rows(); ++node) {
-    Projection::Foot foot = project(nodes.row(node).transpose());
-    if (move_inside(foot.x, foot.normal, body, inward * spacing)) {
-      nodes.row(kept++) = foot.x;
+    SurfacePlace foot = tree.nearest(nodes.row(node).transpose());
+    if (move_inside(foot.position, foot.normal, body, inward * spacing)) {
+      nodes.row(kept++) = foot.position;
     }
   }
   nodes.conservativeResize(kept, 3);

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/points.hpp"
 
 namespace brainshift::discretise {
 

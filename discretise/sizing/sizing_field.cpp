@@ -5,8 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "discretise/neighbours/point_tree.hpp"
 #include "discretise/sizing/tissue_lookup.hpp"
+#include "segmentation/geometry/grid_cell.hpp"
+#include "segmentation/geometry/point_tree.hpp"
 
 namespace brainshift::discretise {
 namespace {
@@ -59,26 +60,9 @@ SizingField::SizingField(const Eigen::Vector3d& low, const Eigen::Vector3d& high
   }
 }
 
-double SizingField::at(const Eigen::Array3i& i) const {
-  const Eigen::Index row = Eigen::Index{i.z()} * size_.y() + i.y();
-  return factor_[static_cast<std::size_t>(row * size_.x() + i.x())];
-}
-
 double SizingField::factor(const Eigen::Vector3d& x) const {
-  if (is_uniform()) {
-    return factor_[0];
-  }
-  const Eigen::Array3d last = (size_ - 1).cast<double>();
-  const Eigen::Array3d index = ((x - low_) / step_).array().max(0.0).min(last);
-  const Eigen::Array3i cell = index.floor().cast<int>().min(size_ - 2).max(0);
-  const Eigen::Array3d t = index - cell.cast<double>();
-  double sum = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Array3i offset(corner & 1, (corner >> 1) & 1, corner >> 2);
-    const Eigen::Array3d weight = (offset == 1).select(t, 1.0 - t);
-    sum += weight.prod() * at((cell + offset).min(size_ - 1));
-  }
-  return sum;
+  const GridCell cell(size_, (x - low_) / step_);
+  return cell.interpolate([this](std::size_t offset) { return factor_[offset]; });
 }
 
 double SizingField::smallest() const {

@@ -5,7 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "discretise/discretise.hpp"
+#include "discretise/interface/options.hpp"
+#include "segmentation/geometry/surface.hpp"
+#include "segmentation/image/image.hpp"
 
 namespace brainshift::discretise {
 
@@ -24,8 +26,6 @@ class SizingField {
   bool is_uniform() const { return factor_.size() == 1; }
 
  private:
-  double at(const Eigen::Array3i& i) const;
-
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
   double step_ = 1;
   Eigen::Array3i size_ = Eigen::Array3i::Ones();

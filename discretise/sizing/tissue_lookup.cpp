@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "discretise/neighbours/point_tree.hpp"
+#include "segmentation/geometry/point_tree.hpp"
 
 namespace brainshift::discretise {
 namespace {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <span>
 
+#include "segmentation/geometry/points.hpp"
 #include "segmentation/image/image.hpp"
-#include "segmentation/surface/surface.hpp"
 
 namespace brainshift::discretise {
 

@@ -8,7 +8,7 @@
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/scene/values.hpp"
-#include "solve/field_difference.hpp"
+#include "solve/output/field_difference.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;

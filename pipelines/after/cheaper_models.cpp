@@ -14,13 +14,13 @@ using solve::SolveOptions;
 /// Above it small strains are not worth a try: they are off by the strain's square.
 constexpr double small_stretch = 1.1;
 
-/// The tissue of most nodes.
+/// The tissue of most cells.
 std::int32_t largest_tissue(const Model& model) {
-  std::map<std::int32_t, std::size_t> nodes;
-  for (const std::int32_t label : model.cloud.label) {
-    nodes[label] += model.materials.contains(label) ? 1 : 0;
+  std::map<std::int32_t, std::size_t> cells;
+  for (const std::int32_t label : model.cells.label) {
+    cells[label] += model.materials.contains(label) ? 1 : 0;
   }
-  return std::max_element(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+  return std::max_element(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 

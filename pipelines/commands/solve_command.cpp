@@ -151,7 +151,6 @@ void solve(const SolveArguments& arguments, const Settings& settings) {
   read_cut_arguments(arguments.cuts, scene, job);
   check_solve_options(scene);
   job.options = scene.solve;
-  job.points_per_cell = scene.points_per_cell;
   job.loading = scene.loading;
   job.load = load_of(arguments);
   job.cuts = scene.cuts;

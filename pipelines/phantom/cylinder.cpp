@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "pipelines/runner/stage_folder.hpp"
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/files/surface_file.hpp"
+#include "segmentation/geometry/surface.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::pipelines {

@@ -13,21 +13,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Points vertex_normals(const Surface& surface) {
-  Points normals = Points::Zero(surface.vertices.rows(), 3);
-  for (const auto& triangle : surface.triangles.rowwise()) {
-    const Vector3d a = surface.vertices.row(triangle[0]);
-    const Vector3d b = surface.vertices.row(triangle[1]);
-    const Vector3d c = surface.vertices.row(triangle[2]);
-    const Eigen::RowVector3d normal = (b - a).cross(c - a).transpose();
-    for (int corner = 0; corner < 3; ++corner) {
-      normals.row(triangle[corner]) += normal;
-    }
-  }
-  normals.rowwise().normalize();
-  return normals;
-}
-
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -93,7 +78,7 @@ DepthCanvas draw_surface(const Camera& camera, const Surface& surface, const std
                          const ColourScale& scale) {
   DepthCanvas picture{Canvas(camera.width, camera.height, colour::white), {}};
   picture.depth.assign(picture.canvas.pixels.size(), std::numeric_limits<double>::infinity());
-  const Points normals = vertex_normals(surface);
+  const Points normals = vertex_normals(surface).rowwise().normalized();
   for (const auto& triangle : surface.triangles.rowwise()) {
     Vector3d corner[3];
     Eigen::Matrix3d normal;

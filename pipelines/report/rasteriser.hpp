@@ -6,7 +6,7 @@
 
 #include "pipelines/report/canvas.hpp"
 #include "pipelines/report/colour_scale.hpp"
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/surface.hpp"
 
 namespace brainshift::pipelines {
 

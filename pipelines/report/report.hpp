@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "segmentation/progress.hpp"
+#include "segmentation/progress/progress.hpp"
 
 namespace brainshift::pipelines {
 

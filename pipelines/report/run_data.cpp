@@ -10,6 +10,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "segmentation/files/surface_file.hpp"
+#include "solve/output/field_difference.hpp"
+#include "solve/output/solution_file.hpp"
+
 namespace brainshift::pipelines {
 
 namespace {
@@ -41,8 +45,8 @@ fs::path input_path(const json& record, const std::string& role) {
 
 template <class Read>
 auto read_if_there(const fs::path& file, const Read& read) {
-  using Value = decltype(read(file));
-  return !file.empty() && fs::exists(file) ? std::optional<Value>(read(file)) : std::nullopt;
+  using Content = decltype(read(file));
+  return !file.empty() && fs::exists(file) ? std::optional<Content>(read(file)) : std::nullopt;
 }
 
 std::vector<std::string> fields_of(const std::string& line) {

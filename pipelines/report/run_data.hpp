@@ -6,9 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
-#include "segmentation/surface/surface.hpp"
-#include "solve/solution.hpp"
+#include "solve/interface/solution.hpp"
+#include "solve/output/field_difference.hpp"
 #include "solve/solve.hpp"
 
 namespace brainshift::pipelines {

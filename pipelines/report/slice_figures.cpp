@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/output/field_difference.hpp"
+
 namespace brainshift::pipelines {
 
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
-#include "segmentation/surface/surface.hpp"
 
 namespace brainshift::pipelines {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipelines/report/slice_figures.hpp"
+#include "solve/output/field_difference.hpp"
 
 namespace brainshift::pipelines {
 

@@ -5,9 +5,8 @@
 
 #include "pipelines/runner/measures.hpp"
 #include "register/files/warp_any.hpp"
-#include "solve/cut/cut_surface.hpp"
-#include "solve/quadrature/integration_points.hpp"
-#include "solve/stress_strain.hpp"
+#include "segmentation/files/surface_file.hpp"
+#include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -103,6 +102,7 @@ SolveInput read_input(const SolveJob& job) {
   SolveInput input;
   solve::Model& model = input.model;
   model.cloud = read_node_cloud(job.nodes);
+  model.conditions = solve::read_conditions(job.nodes);
   model.cells = read_background_cells(job.cells);
   model.labels = labels_if(job.labels);
   model.materials = job.materials;
@@ -117,13 +117,9 @@ SolveInput read_input(const SolveJob& job) {
   }
   if (job.load) {
     input.load = read_load(*job.load, job.surface);
-    model.cloud.prescribed_displacement =
-        solve::prescribed_on_surface_nodes(model.cloud, *input.load, job.load->opening);
+    model.conditions.displacement = solve::prescribed_on_surface_nodes(model.cloud, *input.load, job.load->opening);
   }
   input.options = job.options;
-  const bool adaptive = input.options.integration_tolerance > 0;
-  input.options.points_per_cell =
-      job.points_per_cell.value_or(adaptive ? 1 : solve::most_points_per_cell(model.cells.kind));
   return input;
 }
 
@@ -134,18 +130,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
     solve::write_craniotomy_csv(out / "load.csv", *input.load);
   }
   const solve::SolveResult result = solve::solve(input.model, input.options, progress);
-  write_solution(out / "solution.vtu", result.solution);
-  solve::write_history(out / "history.csv", result.history);
-  if (input.model.rupture) {
-    solve::write_stress_strain(out / "stress_strain.csv",
-                               solve::stress_strain(input.model, input.options.dynamics, result.history));
-  }
-  if (!result.solution.cut.empty()) {
-    solve::write_cut_surface(out / "cut.vtp", solve::cut_surface(result.solution, *result.inside));
-  }
-  if (input.options.snapshot_every > 0) {
-    solve::write_steps(out, result);
-  }
+  solve::write_solve(out, result);
   return report_of(result, input.options.dynamics);
 }
 

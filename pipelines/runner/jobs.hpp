@@ -3,11 +3,11 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "pipelines/runner/stage_report.hpp"
 #include "pipelines/scene/scene.hpp"
 
 namespace brainshift::pipelines {
@@ -34,8 +34,7 @@ struct SolveJob {
   std::filesystem::path surface;  ///< the brain's, for a simulated load
   std::optional<Load> load;       ///< absent: what the nodes prescribe; the forces of the nodes act in any case
   std::map<std::int32_t, solve::Material> materials;
-  solve::SolveOptions options;         ///< but for points_per_cell
-  std::optional<int> points_per_cell;  ///< absent: the most that the cells take; adaptive 1
+  solve::SolveOptions options;
   Loading loading;
   solve::Plane plane = solve::Plane::none;
   std::optional<Cuts> cuts = {};
@@ -53,13 +52,6 @@ struct RegisterJob {
   std::vector<std::filesystem::path> warp;         ///< images, surfaces and points to move with the same map
   std::vector<std::filesystem::path> warp_labels;  ///< label maps
   registration::RegisterOptions options;
-};
-
-/// What a stage says of itself, for run.json (README.md lists the fields).
-struct StageReport {
-  nlohmann::ordered_json sizes = nlohmann::ordered_json::object();
-  nlohmann::ordered_json measures = nlohmann::ordered_json::object();
-  std::string failure;  ///< empty, or the sentence of a computation that did not converge; its artefacts are written
 };
 
 /// Each reads its files, runs the stage and writes its artefacts into an existing folder. Throw std::invalid_argument

@@ -62,17 +62,7 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                      {"largest_stretch", m.largest_stretch},
                      {"compressed_share", m.compressed_share},
                      {"seconds_setup", m.seconds_setup},
-                     {"seconds_stepping", m.seconds_stepping},
-                     {"bytes",
-                      {{"shape_functions", m.bytes.shape_functions},
-                       {"nodal_vectors", m.bytes.nodal_vectors},
-                       {"pressure_patches", m.bytes.pressure_patches},
-                       {"essential_conditions", m.bytes.essential_conditions},
-                       {"contact", m.bytes.contact},
-                       {"viscosity", m.bytes.viscosity},
-                       {"external_forces", m.bytes.external_forces},
-                       {"cuts", m.bytes.cuts},
-                       {"total", m.bytes.total()}}}};
+                     {"seconds_stepping", m.seconds_stepping}};
   if (m.region_nodes > 0) {
     report.measures["region"] = {{"nodes", m.region_nodes},
                                  {"share", static_cast<double>(m.region_nodes) / static_cast<double>(m.nodes)},

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "pipelines/runner/jobs.hpp"
+#include "discretise/interface/result.hpp"
+#include "pipelines/runner/stage_report.hpp"
+#include "register/interface/result.hpp"
+#include "segmentation/interface/result.hpp"
+#include "solve/interface/options.hpp"
+#include "solve/interface/result.hpp"
 
 namespace brainshift::pipelines {
 

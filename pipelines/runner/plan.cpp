@@ -10,6 +10,8 @@
 #include "pipelines/runner/sha256.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/scene_table.hpp"
+#include "segmentation/files/surface_file.hpp"
+#include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -244,7 +246,6 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
                scene.load,
                {},
                scene.solve,
-               scene.points_per_cell,
                scene.loading,
                solve::Plane::none};
   if (scene.contact) {

@@ -95,11 +95,11 @@ void check_options(const Scene& scene) {
   if (scene.refinement.factor < 1 && !scene.load) {
     fail(scene, "discretise.craniotomy_factor", "discretise.craniotomy_factor needs a <load> to refine towards");
   }
-  if (is_ours(scene, StageId::discretise) && scene.points_per_cell.value_or(1) != 1) {
+  if (is_ours(scene, StageId::discretise) && scene.solve.points_per_cell.value_or(1) != 1) {
     const bool hexahedra = scene.discretise.cells == CellKind::hexahedron;
-    if (*scene.points_per_cell != (hexahedra ? 8 : 4)) {
+    if (*scene.solve.points_per_cell != (hexahedra ? 8 : 4)) {
       fail(scene, "solve.points_per_cell",
-           "solve.points_per_cell is " + std::to_string(*scene.points_per_cell) + ", but " +
+           "solve.points_per_cell is " + std::to_string(*scene.solve.points_per_cell) + ", but " +
                (hexahedra ? "hexahedra take 1 or 8" : "tetrahedra take 1 or 4"));
     }
   }

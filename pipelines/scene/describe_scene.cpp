@@ -9,10 +9,6 @@
 namespace brainshift::pipelines {
 namespace {
 
-bool is_stage(const std::string& path) {
-  return std::any_of(all_stages.begin(), all_stages.end(), [&](StageId id) { return stage_name(id) == path; });
-}
-
 template <class T>
 std::string help_lines(const std::vector<Option<T>>& options, const std::string& indent) {
   std::string text;

@@ -9,6 +9,7 @@
 
 #include "pipelines/scene/scene_table.hpp"
 #include "pipelines/scene/solve_cost.hpp"
+#include "solve/shape/node_supports.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::pipelines {
@@ -53,7 +54,7 @@ Cost estimate(const Scene& scene) {
   const bool hexahedra = discretise.cells == CellKind::hexahedron;
   // Delaunay tetrahedra of a cloud: about six a node.
   const double cells = cost.nodes * (hexahedra ? discretise.cells_per_node : 6);
-  const int points_a_cell = scene.points_per_cell.value_or(hexahedra ? 8 : 4);
+  const int points_a_cell = scene.solve.points_per_cell.value_or(hexahedra ? 8 : 4);
   cost.points = cells * points_a_cell;
   cost.pairs = cost.points * 4 * std::numbers::pi / 3 * std::pow(solve::dilatation(scene.solve.shape), 3);
   return cost;

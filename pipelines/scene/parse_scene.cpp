@@ -92,10 +92,6 @@ std::string path_of(const tinyxml2::XMLElement& xml, const std::string& parent, 
   return stage;
 }
 
-bool is_stage(const std::string& path) {
-  return std::any_of(all_stages.begin(), all_stages.end(), [&](StageId id) { return stage_name(id) == path; });
-}
-
 /// The names that may stand under an element, for messages.
 std::string allowed_children(const std::string& parent) {
   std::string names = parent.empty() ? "tissues, stage" : "";

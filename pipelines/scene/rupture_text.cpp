@@ -11,8 +11,6 @@
 namespace brainshift::pipelines {
 namespace {
 
-constexpr Range above_zero{.low = 0, .low_allowed = false};
-
 std::vector<Option<solve::Rupture>> rupture_options() {
   const auto strength = [](auto& rupture) -> auto& {
     return rupture.strength;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "solve/cut/cut.hpp"
+#include "solve/interface/cut.hpp"
 
 namespace brainshift::pipelines {
 

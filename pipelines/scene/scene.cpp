@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/scene/scene.hpp"
 
+#include <algorithm>
+
 #include <stdexcept>
 
 #include "solve/cut/read_cut.hpp"
@@ -11,6 +13,10 @@ std::string_view stage_name(StageId stage) {
   constexpr std::array<std::string_view, all_stages.size()> names = {"segment", "discretise", "solve", "register",
                                                                      "report"};
   return names[index_of(stage)];
+}
+
+bool is_stage(std::string_view name) {
+  return std::any_of(all_stages.begin(), all_stages.end(), [&](StageId id) { return stage_name(id) == name; });
 }
 
 StageId stage_from_name(std::string_view name) {

@@ -30,6 +30,8 @@ inline constexpr std::array<StageId, 5> all_stages = {StageId::segment, StageId:
 std::string_view stage_name(StageId stage);
 /// Throws std::invalid_argument, listing the names, on another name.
 StageId stage_from_name(std::string_view name);
+/// Whether a stage has this name.
+bool is_stage(std::string_view name);
 
 struct ImageInputs {
   std::filesystem::path t1;
@@ -135,8 +137,7 @@ struct Scene {
   segmentation::SegmentOptions segment;  ///< brain_labels and skull_label are filled in from tissues and image
   discretise::DiscretiseOptions discretise;
   CraniotomyRefinement refinement;
-  solve::SolveOptions solve = quickest();  ///< but for points_per_cell
-  std::optional<int> points_per_cell;      ///< absent: the most that the cells take; adaptive 1
+  solve::SolveOptions solve = quickest();
   Loading loading;
   registration::RegisterOptions registration;
   std::array<std::string, all_stages.size()> commands;  ///< external commands that replace stages; empty: our own stage

@@ -6,7 +6,6 @@
 namespace brainshift::pipelines {
 namespace {
 
-constexpr Range above_zero{.low = 0, .low_allowed = false};
 constexpr Range not_negative{.low = 0};
 constexpr Range any_number{};
 
@@ -219,7 +218,7 @@ Element solve_element() {
                          {"exact", solve::Imposition::exact}, {"simplified", solve::Imposition::simplified}},
                      "of prescribed displacements: factorised, or lumped, which is cheaper and off by what the "
                      "next step takes back"),
-       choice<Scene>("points_per_cell", MEMBER(points_per_cell),
+       choice<Scene>("points_per_cell", MEMBER(solve.points_per_cell),
                      std::vector<std::pair<std::string, std::optional<int>>>{
                          {"auto", std::nullopt}, {"1", 1}, {"3", 3}, {"4", 4}, {"8", 8}},
                      "integration points a cell: hexahedra 1 or 8 (auto), tetrahedra 1 or 4 (auto); planar cells: "

@@ -23,6 +23,7 @@ struct Range {
 
   bool holds(double value) const;  ///< false for NaN
 };
+inline constexpr Range above_zero{.low = 0, .low_allowed = false};
 
 /// "a number > 0", "a whole number from 1 to 8".
 std::string describe(const Range& range, bool whole);
@@ -70,7 +71,8 @@ template <class Numbers>
 std::string write_numbers(const Numbers& values) {
   std::string text;
   for (const auto value : values) {
-    text += (text.empty() ? "" : " ") + write_number(value);
+    text += text.empty() ? "" : " ";
+    text += write_number(value);
   }
   return text;
 }

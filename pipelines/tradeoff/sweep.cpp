@@ -16,6 +16,8 @@
 #include "pipelines/scene/parse_scene.hpp"
 #include "pipelines/scene/values.hpp"
 #include "solve/load/craniotomy_load.hpp"
+#include "solve/output/field_difference.hpp"
+#include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;

@@ -10,7 +10,7 @@
 #include "pipelines/runner/interruption.hpp"
 #include "pipelines/scene/scene.hpp"
 #include "pipelines/tradeoff/choices.hpp"
-#include "solve/field_difference.hpp"
+#include "solve/output/field_difference.hpp"
 
 namespace brainshift::pipelines {
 

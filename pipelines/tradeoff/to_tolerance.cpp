@@ -11,6 +11,8 @@
 #include "pipelines/runner/peak_memory.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
+#include "solve/output/field_difference.hpp"
+#include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -41,7 +43,7 @@ Scene scene_of_level(const Scene& scene, std::size_t nodes, double tolerance) {
   Scene level = scene;
   level.discretise.spacing.reset();
   level.discretise.nodes = nodes;
-  level.points_per_cell.reset();
+  level.solve.points_per_cell.reset();
   level.solve.integration_tolerance = 0;
   level.solve.shape.basis = Basis::linear;
   level.solve.shape.derivatives = Derivatives::full;

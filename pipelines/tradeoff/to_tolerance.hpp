@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipelines/runner/run.hpp"
-#include "solve/field_difference.hpp"
+#include "solve/output/field_difference.hpp"
 
 namespace brainshift::pipelines {
 

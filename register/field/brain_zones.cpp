@@ -33,10 +33,9 @@ Zone zone_at(double distance, double shell, double fade) {
 BrainZones brain_zones(const Surface& brain, const ImageGeometry& geometry, double fade) {
   const double shell = 2 * geometry.spacing.norm();
   check_fade(fade, shell);
-  solve::SignedDistanceOptions options;
+  SignedDistanceOptions options;
   options.margin = fade + options.spacing;
-  BrainZones zones{std::vector<Zone>(geometry.voxel_count(), Zone::beyond), solve::SignedDistance(brain, options),
-                   shell};
+  BrainZones zones{std::vector<Zone>(geometry.voxel_count(), Zone::beyond), SignedDistance(brain, options), shell};
 #pragma omp parallel for schedule(dynamic, 1)
   for (int k = 0; k < geometry.size.z(); ++k) {
     for (int j = 0; j < geometry.size.y(); ++j) {

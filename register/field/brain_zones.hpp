@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "segmentation/geometry/signed_distance.hpp"
+#include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
-#include "segmentation/surface/surface.hpp"
-#include "solve/boundary/signed_distance.hpp"
 
 namespace brainshift::registration {
 
@@ -20,9 +20,9 @@ enum class Zone : std::uint8_t {
 
 /// The zones of an image's voxels, and the distance that the fading ones are told by.
 struct BrainZones {
-  std::vector<Zone> zone;         ///< one a voxel
-  solve::SignedDistance outside;  ///< mm from the brain's surface, negative inside
-  double shell;                   ///< thickness of the shell: two voxel diagonals, mm
+  std::vector<Zone> zone;  ///< one a voxel
+  SignedDistance outside;  ///< mm from the brain's surface, negative inside
+  double shell;            ///< thickness of the shell: two voxel diagonals, mm
 };
 
 /// Throws std::invalid_argument when the surface is not closed or encloses no voxel, or when the fade is not wider than

@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "segmentation/geometry/grid_cell.hpp"
 #include "segmentation/image/image.hpp"
 
 namespace brainshift::registration {
@@ -42,21 +42,21 @@ class FieldSampler {
 
   /// Displacement, mm. Beyond the image: that of its nearest place.
   Eigen::Vector3d value(const Eigen::Vector3d& index) const {
-    const Cell cell = cell_at(index);
+    const GridCell cell(field_.geometry.size, index);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int corner = 0; corner < 8; ++corner) {
-      sum += cell.weight(corner) * at(cell, corner);
+      sum += cell.weight(corner) * at(cell.offset(corner));
     }
     return sum;
   }
 
   /// The same, and its derivative by the index (column = axis), mm a voxel.
   Eigen::Vector3d value_and_gradient(const Eigen::Vector3d& index, Eigen::Matrix3d& gradient) const {
-    const Cell cell = cell_at(index);
+    const GridCell cell(field_.geometry.size, index);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     gradient.setZero();
     for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Vector3d u = at(cell, corner);
+      const Eigen::Vector3d u = at(cell.offset(corner));
       sum += cell.weight(corner) * u;
       for (int axis = 0; axis < 3; ++axis) {
         gradient.col(axis) += cell.slope(corner, axis) * u;
@@ -66,42 +66,7 @@ class FieldSampler {
   }
 
  private:
-  /// Eight voxels around a place; along an axis of one voxel, and beyond the image, nothing changes.
-  struct Cell {
-    std::size_t base;
-    std::size_t step[3];
-    double t[3];
-    double varies[3];  // 1, or 0 where the value is held constant along the axis
-
-    double along(int corner, int axis) const { return (corner >> axis) & 1 ? t[axis] : 1 - t[axis]; }
-    double weight(int corner) const { return along(corner, 0) * along(corner, 1) * along(corner, 2); }
-    double slope(int corner, int axis) const {
-      const double sign = (corner >> axis) & 1 ? varies[axis] : -varies[axis];
-      return sign * along(corner, (axis + 1) % 3) * along(corner, (axis + 2) % 3);
-    }
-  };
-
-  Cell cell_at(const Eigen::Vector3d& index) const {
-    const ImageGeometry& g = field_.geometry;
-    const std::size_t stride[3] = {1, g.offset(0, 1, 0), g.offset(0, 0, 1)};
-    Cell cell{0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-    for (int axis = 0; axis < 3; ++axis) {
-      const double last = g.size[axis] - 1.0;
-      const double x = std::min(std::max(0.0, index[axis]), last);  // this order turns NaN into 0
-      const int low = std::max(0, std::min(static_cast<int>(x), g.size[axis] - 2));
-      cell.base += static_cast<std::size_t>(low) * stride[axis];
-      cell.step[axis] = g.size[axis] > 1 ? stride[axis] : 0;
-      cell.t[axis] = x - low;
-      cell.varies[axis] = g.size[axis] > 1 && index[axis] >= 0 && index[axis] <= last ? 1 : 0;
-    }
-    return cell;
-  }
-
-  Eigen::Vector3d at(const Cell& cell, int corner) const {
-    std::size_t offset = cell.base;
-    for (int axis = 0; axis < 3; ++axis) {
-      offset += (corner >> axis) & 1 ? cell.step[axis] : 0;
-    }
+  Eigen::Vector3d at(std::size_t offset) const {
     const auto& u = field_.voxels[offset];
     return {u[0], u[1], u[2]};
   }

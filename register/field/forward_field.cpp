@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "register/field/field_sampler.hpp"
+#include "solve/output/solution_file.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::registration {
@@ -89,7 +90,7 @@ void evaluate(const Solution& solution, const BrainZones& zones, const std::vect
 
 /// The place near x that is `reach` away from the brain, by walking down the distance. One step suffices but where the
 /// surface is hollow and its distance has a kink.
-Eigen::Vector3d place_at_reach(const solve::SignedDistance& outside, Eigen::Vector3d x, double reach) {
+Eigen::Vector3d place_at_reach(const SignedDistance& outside, Eigen::Vector3d x, double reach) {
   constexpr int most_steps = 10;
   constexpr double close_enough = 0.05;  // mm
   for (int step = 0; step < most_steps; ++step) {

@@ -3,8 +3,8 @@
 
 #include "register/field/brain_zones.hpp"
 #include "segmentation/image/image.hpp"
-#include "segmentation/progress.hpp"
-#include "solve/solution.hpp"
+#include "segmentation/progress/progress.hpp"
+#include "solve/interface/solution.hpp"
 
 namespace brainshift::registration {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "register/field/brain_zones.hpp"
-#include "register/registration.hpp"
+#include "register/interface/result.hpp"
 #include "segmentation/image/image.hpp"
-#include "solve/solution.hpp"
+#include "solve/interface/solution.hpp"
 
 namespace brainshift::registration {
 

@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "register/files/points_file.hpp"
+#include "register/warp/warp.hpp"
+#include "segmentation/files/points_file.hpp"
+#include "segmentation/files/surface_file.hpp"
 
 namespace brainshift::registration {
 
@@ -20,28 +22,13 @@ bool is_surface(const fs::path& file) {
   return ends_with(file, ".vtp") || ends_with(file, ".stl") || ends_with(file, ".ply") || ends_with(file, ".obj");
 }
 
-/// The ending of a file of points; empty when it is none.
-std::string points_ending(const fs::path& file) {
-  for (const char* ending : {".mrk.json", ".fcsv", ".csv"}) {
-    if (ends_with(file, ending)) {
-      return ending;
-    }
-  }
-  return {};
-}
-
 void warp_points(const fs::path& in, const fs::path& out, const VectorImage& forward) {
-  const std::string ending = points_ending(in);
-  if (points_ending(out) != ending) {
+  const PointsFile points(in);
+  if (!is_points_file(out) || out.extension() != in.extension()) {
     throw std::invalid_argument(out.string() + ": the moved points of " + in.string() +
-                                " keep its format; write to a " + ending + " file");
+                                " keep its format; write to a " + in.extension().string() + " file");
   }
-  const MovePoints move = [&](const Points& points) { return move_points(forward, points); };
-  if (ending == ".mrk.json") {
-    copy_markups(in, out, move);
-  } else {
-    copy_point_table(in, out, move);
-  }
+  points.write_moved(out, move_points(forward, points.positions()));
 }
 
 void warp_image(const fs::path& in, const fs::path& out, const VectorImage& resampling, const WarpAnyOptions& options) {
@@ -55,7 +42,7 @@ void warp_image(const fs::path& in, const fs::path& out, const VectorImage& resa
 }  // namespace
 
 void warp_any(const fs::path& in, const fs::path& register_folder, const fs::path& out, const WarpAnyOptions& options) {
-  if (!points_ending(in).empty()) {
+  if (is_points_file(in)) {
     warp_points(in, out, read_vector_image(register_folder / "preop_to_intraop.nii.gz"));
   } else if (is_surface(in)) {
     Surface surface = read_surface(in);

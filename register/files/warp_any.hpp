@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "register/registration.hpp"
+#include "register/interface/options.hpp"
 
 namespace brainshift::registration {
 

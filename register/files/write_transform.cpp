@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "register/registration.hpp"
+#include "register/files/write_transform.hpp"
 
 namespace brainshift::registration {
 

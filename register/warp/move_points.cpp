@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/field/field_sampler.hpp"
-#include "register/registration.hpp"
+#include "register/warp/warp.hpp"
 
 namespace brainshift::registration {
 

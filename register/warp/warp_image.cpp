@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "register/field/field_sampler.hpp"
-#include "register/registration.hpp"
+#include "register/warp/warp.hpp"
 #include "segmentation/image/itk_bridge.hpp"
 
 namespace brainshift::registration {

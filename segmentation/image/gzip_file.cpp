@@ -30,10 +30,10 @@ GzipFile open_gzip(const std::filesystem::path& file) {
   return stream;
 }
 
-using Bytes = std::vector<std::uint8_t>;
+using GzipBytes = std::vector<std::uint8_t>;
 
-Bytes read_block(const std::filesystem::path& file, std::size_t begin, std::size_t size) {
-  Bytes block(size);
+GzipBytes read_block(const std::filesystem::path& file, std::size_t begin, std::size_t size) {
+  GzipBytes block(size);
   std::ifstream in(file, std::ios::binary);
   in.seekg(static_cast<std::streamoff>(begin));
   in.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(size));
@@ -42,14 +42,14 @@ Bytes read_block(const std::filesystem::path& file, std::size_t begin, std::size
 }
 
 // One block as raw deflate that ends on a byte boundary, so that blocks can be joined; empty when zlib fails.
-Bytes deflate_block(const Bytes& block, bool last) {
+GzipBytes deflate_block(const GzipBytes& block, bool last) {
   z_stream stream{};
   constexpr int raw_deflate = -15;
   if (deflateInit2(&stream, level, Z_DEFLATED, raw_deflate, 9, Z_DEFAULT_STRATEGY) != Z_OK) {
     return {};
   }
   constexpr uLong flush_marker = 16;
-  Bytes result(deflateBound(&stream, static_cast<uLong>(block.size())) + flush_marker);
+  GzipBytes result(deflateBound(&stream, static_cast<uLong>(block.size())) + flush_marker);
   stream.next_in = const_cast<Bytef*>(block.data());
   stream.avail_in = static_cast<uInt>(block.size());
   stream.next_out = result.data();
@@ -61,8 +61,8 @@ Bytes deflate_block(const Bytes& block, bool last) {
   return result;
 }
 
-struct Block {
-  Bytes deflated;
+struct DeflatedBlock {
+  GzipBytes deflated;
   uLong checksum = 0;  // of the plain bytes
 };
 
@@ -81,12 +81,12 @@ void put_bytes(std::ostream& out, std::span<const std::uint8_t> bytes) {
 void write_gzip(const std::filesystem::path& file, const std::filesystem::path& plain) {
   const std::size_t size = std::filesystem::file_size(plain);
   const std::size_t count = std::max<std::size_t>(1, (size + block_size - 1) / block_size);
-  std::vector<Block> blocks(count);
+  std::vector<DeflatedBlock> blocks(count);
   const auto size_of = [&](std::size_t i) { return std::min(block_size, size - i * block_size); };
   bool whole = true;
 #pragma omp parallel for schedule(dynamic) reduction(&& : whole)
   for (std::size_t i = 0; i < count; ++i) {
-    const Bytes block = read_block(plain, i * block_size, size_of(i));
+    const GzipBytes block = read_block(plain, i * block_size, size_of(i));
     blocks[i] = {deflate_block(block, i + 1 == count), crc32_z(0, block.data(), block.size())};
     whole = whole && block.size() == size_of(i) && !blocks[i].deflated.empty();
   }

@@ -19,7 +19,7 @@ namespace brainshift {
 namespace {
 
 namespace fs = std::filesystem;
-using Bytes = std::span<const std::uint8_t>;
+using ByteView = std::span<const std::uint8_t>;
 
 void refuse_short(const fs::path& file, std::uintmax_t expected, std::uintmax_t found) {
   throw std::invalid_argument(file.string() + ": truncated: the header promises " + std::to_string(expected) +
@@ -28,7 +28,7 @@ void refuse_short(const fs::path& file, std::uintmax_t expected, std::uintmax_t 
 
 // A number at a place in the bytes, which may be in the other byte order.
 template <class T>
-T number_at(Bytes bytes, std::size_t place, bool swapped) {
+T number_at(ByteView bytes, std::size_t place, bool swapped) {
   std::array<std::uint8_t, sizeof(T)> raw{};
   std::memcpy(raw.data(), bytes.data() + place, sizeof(T));
   if (swapped) {
@@ -38,7 +38,7 @@ T number_at(Bytes bytes, std::size_t place, bool swapped) {
 }
 
 template <class T>
-void check_finite(const fs::path& file, Bytes values, bool swapped, const itk::ImageIOBase& io) {
+void check_finite(const fs::path& file, ByteView values, bool swapped, const itk::ImageIOBase& io) {
   std::ptrdiff_t bad = 0;
   std::size_t first = 0;
   for (std::size_t i = 0; i < values.size() / sizeof(T); ++i) {
@@ -74,10 +74,10 @@ void check_nifti(const fs::path& file, const itk::ImageIOBase& io) {
   constexpr std::int16_t float32 = 16;
   constexpr std::int16_t float64 = 64;
   if (datatype == float32) {
-    check_finite<float>(file, Bytes(bytes).subspan(offset, expected), swapped, io);
+    check_finite<float>(file, ByteView(bytes).subspan(offset, expected), swapped, io);
   }
   if (datatype == float64) {
-    check_finite<double>(file, Bytes(bytes).subspan(offset, expected), swapped, io);
+    check_finite<double>(file, ByteView(bytes).subspan(offset, expected), swapped, io);
   }
 }
 

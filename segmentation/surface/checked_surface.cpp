@@ -2,15 +2,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "segmentation/segment.hpp"
+#include "segmentation/surface/checked_surface.hpp"
 #include "segmentation/surface/remesh.hpp"
 
 namespace brainshift::segmentation {
 namespace {
-
-bool sound(const SurfaceMeasures& measures) {
-  return measures.closed && !measures.self_intersecting && measures.outward;
-}
 
 Surface turned(Surface surface) {
   surface.triangles.col(1).swap(surface.triangles.col(2));
@@ -32,7 +28,7 @@ CheckedSurface wrapped_body(const Surface& surface, double edge_length) {
     }
     result.surface = remeshed(wrap, edge_length);
     result.measures = measure(result.surface);
-    if (sound(result.measures)) {
+    if (result.measures.is_sound()) {
       break;
     }
   }
@@ -50,15 +46,15 @@ CheckedSurface checked_surface(const Surface& surface, double edge_length) {
   const bool inside_out = given.closed && !given.self_intersecting && given.volume < 0;
   const Surface outward = inside_out ? turned(surface) : surface;
   CheckedSurface result;
-  if (inside_out || sound(given)) {
+  if (inside_out || given.is_sound()) {
     result.surface = remeshed(outward, edge_length);
     result.measures = measure(result.surface);
   }
-  if (!sound(result.measures)) {
+  if (!result.measures.is_sound()) {
     result = wrapped_body(outward, edge_length);
   }
   result.measures.edge_length_target = edge_length;
-  if (!sound(result.measures)) {
+  if (!result.measures.is_sound()) {
     throw std::invalid_argument(
         "the surface is open or cuts itself, and could not be wrapped into a closed one; close its holes first");
   }

@@ -17,10 +17,6 @@ SurfaceMeasures measured(const Surface& surface, const Mask& mask, double edge_l
   return measures;
 }
 
-bool sound(const SurfaceMeasures& measures) {
-  return measures.closed && measures.outward && !measures.self_intersecting;
-}
-
 // volume_before: before it was fitted. A surface that has to swell much to hold its volume has lost its thin parts.
 bool faithful(const SurfaceMeasures& measures, double volume_before) {
   return std::abs(volume_before - measures.label_volume) <= 0.05 * measures.label_volume &&
@@ -46,7 +42,7 @@ MeasuredSurface extract_surface(const Mask& mask, double edge_length, const std:
     Surface surface = remeshed(iso_surface(mask, sigma), edge);
     const double volume_before = volume(surface);
     MeasuredSurface candidate = fitted(std::move(surface), mask, edge);
-    if (sound(candidate.measures)) {
+    if (candidate.measures.is_sound()) {
       best = std::move(candidate);
       if (faithful(best.measures, volume_before)) {
         return best;
@@ -55,11 +51,11 @@ MeasuredSurface extract_surface(const Mask& mask, double edge_length, const std:
     edge *= 0.7;
     sigma *= i + 2 < attempts ? 0.7 : 0.0;
   }
-  if (!sound(best.measures)) {
+  if (!best.measures.is_sound()) {
     best = fitted(remeshed(wrapped(iso_surface(mask, 0), edge), edge), mask, edge);
     best.measures.repaired = true;
   }
-  if (!sound(best.measures)) {
+  if (!best.measures.is_sound()) {
     throw std::invalid_argument("no closed surface free of self-intersection could be made of " + what +
                                 "; smooth the labels or use a finer edge length");
   }

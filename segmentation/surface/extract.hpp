@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/mask.hpp"
-#include "segmentation/surface/surface.hpp"
 #include "segmentation/surface/surface_measures.hpp"
 
 namespace brainshift::segmentation {

@@ -10,8 +10,8 @@
 
 #include <cmath>
 
+#include "segmentation/files/vtk_bridge.hpp"
 #include "segmentation/surface/extract.hpp"
-#include "segmentation/surface/vtk_bridge.hpp"
 
 namespace brainshift::segmentation {
 namespace {

@@ -5,7 +5,7 @@
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/repair.h>
 
-#include "segmentation/surface/cgal_bridge.hpp"
+#include "segmentation/geometry/cgal_bridge.hpp"
 
 namespace brainshift::segmentation {
 

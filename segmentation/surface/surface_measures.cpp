@@ -4,7 +4,7 @@
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
-#include "segmentation/surface/cgal_bridge.hpp"
+#include "segmentation/geometry/cgal_bridge.hpp"
 
 namespace brainshift::segmentation {
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/surface.hpp"
 
 namespace brainshift::segmentation {
 
@@ -20,6 +20,9 @@ struct SurfaceMeasures {
   bool outward = false;             ///< the triangles face outward
   bool self_intersecting = true;
   bool repaired = false;  ///< made with the rescue (alpha wrap)
+
+  /// Fit for the other stages.
+  bool is_sound() const { return closed && outward && !self_intersecting; }
 };
 
 /// What can be said of a surface alone: all but label_volume, boundary_distance_95, edge_length_target and repaired.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CGAL/alpha_wrap_3.h>
 
-#include "segmentation/surface/cgal_bridge.hpp"
+#include "segmentation/geometry/cgal_bridge.hpp"
 #include "segmentation/surface/remesh.hpp"
 
 namespace brainshift::segmentation {

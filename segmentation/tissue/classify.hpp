@@ -5,7 +5,7 @@
 
 #include "segmentation/image/image.hpp"
 #include "segmentation/image/mask.hpp"
-#include "segmentation/segment.hpp"
+#include "segmentation/interface/options.hpp"
 
 namespace brainshift::segmentation {
 

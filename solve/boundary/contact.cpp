@@ -86,9 +86,4 @@ Contact::Measures Contact::measure(const NodalVectors& parameters) const {
   return measures;
 }
 
-std::size_t Contact::held_bytes() const {
-  return skull_.bytes() + static_cast<std::size_t>(positions_.size()) * sizeof(double) + bytes(begin_) + bytes(node_) +
-         bytes(shape_) + bytes(allowed_) + bytes(inverse_mass_) + bytes(inverse_row_sum_) + bytes(correction_);
-}
-
 }  // namespace brainshift::solve

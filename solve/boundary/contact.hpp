@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
-#include "solve/boundary/signed_distance.hpp"
-#include "solve/dynamics/internal_force.hpp"
-#include "solve/shape/shape_functions.hpp"
+#include "segmentation/geometry/points.hpp"
+#include "segmentation/geometry/signed_distance.hpp"
+#include "solve/arrays/nodal_vectors.hpp"
+#include "solve/shape/shape_rows.hpp"
 
 namespace brainshift::solve {
 
@@ -35,7 +35,6 @@ class Contact {
   Measures measure(const NodalVectors& parameters) const;
 
   const SignedDistance& skull() const { return skull_; }
-  std::size_t held_bytes() const;
 
  private:
   Eigen::Vector3d place(std::size_t i, const NodalVectors& parameters) const;

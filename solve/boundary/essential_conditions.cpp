@@ -7,6 +7,7 @@
 #include <string>
 
 #include "solve/shape/shape_matrix.hpp"
+#include "solve/shape/too_few_nodes.hpp"
 
 namespace brainshift::solve {
 
@@ -18,12 +19,6 @@ Eigen::VectorXd component_of(const NodalVectors& vectors, int axis) {
   using Stride = Eigen::InnerStride<4>;
   return Eigen::Map<const Eigen::VectorXd, 0, Stride>(vectors.data() + axis,
                                                       static_cast<Eigen::Index>(vectors.size() / 4));
-}
-
-template <class Matrix>
-std::size_t sparse_bytes(const Matrix& m) {
-  return static_cast<std::size_t>(m.data().allocatedSize()) * (sizeof(double) + sizeof(std::int32_t)) +
-         static_cast<std::size_t>(m.outerSize() + 1) * sizeof(std::int32_t);
 }
 
 }  // namespace
@@ -93,9 +88,9 @@ void EssentialConditions::factorise(std::span<const double> mass) {
     const Eigen::VectorXd pivots = pivot.cwiseQuotient(diagonal);
     if (!(ldlt.info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot)) {
       const auto at = static_cast<std::size_t>(ldlt.permutationPinv().indices()[worst]);
-      throw std::invalid_argument("the prescribed displacements contradict or repeat each other at node " +
-                                  std::to_string(names_[static_cast<std::size_t>(c.node[at])]) +
-                                  ": too many constrained nodes lie too near it; constrain fewer or add free nodes");
+      throw TooFewNodes("the prescribed displacements contradict or repeat each other at node " +
+                        std::to_string(names_[static_cast<std::size_t>(c.node[at])]) +
+                        ": too many constrained nodes lie too near it; constrain fewer or add free nodes");
     }
   }
 }
@@ -184,25 +179,6 @@ void EssentialConditions::count_as_held(std::span<const std::int32_t> nodes) {
       }
     }
   }
-}
-
-std::size_t EssentialConditions::held_bytes() const {
-  std::size_t sum = bytes(inverse_mass_) + bytes(names_);
-  const Factor* counted = nullptr;  // components with the same nodes share theirs
-  for (const Component& c : component_) {
-    const auto conditions = c.node.size();
-    if (conditions == 0) {
-      continue;
-    }
-    sum += bytes(c.node) + sparse_bytes(c.shape) + (4 + (c.factor ? 0 : 1)) * conditions * sizeof(double);
-    if (c.factor && c.factor.get() != counted) {
-      counted = c.factor.get();
-      // L, the diagonal twice, the permutation and its inverse, the elimination tree and the lengths of L's columns
-      sum += sparse_bytes(c.factor->ldlt.matrixL().nestedExpression()) +
-             conditions * (2 * sizeof(double) + 4 * sizeof(std::int32_t));
-    }
-  }
-  return sum;
 }
 
 }  // namespace brainshift::solve

@@ -10,15 +10,12 @@
 #include <span>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
-#include "solve/dynamics/internal_force.hpp"
-#include "solve/shape/shape_functions.hpp"
+#include "segmentation/geometry/points.hpp"
+#include "solve/arrays/nodal_vectors.hpp"
+#include "solve/interface/options.hpp"
+#include "solve/shape/shape_rows.hpp"
 
 namespace brainshift::solve {
-
-/// How the conditions are imposed. The simplified form lumps V M⁻¹ Vᵀ into the row sums of |V| M⁻¹ |V|ᵀ: nothing to
-/// factorise, but at rest V û differs from ū by what the next step takes back.
-enum class Imposition : std::uint8_t { exact, simplified };
 
 /// Essential conditions on Σφû, EBCIEM (Joldes et al. 2017): after a step the parameters are projected onto V û = ū,
 ///   û ← û + M⁻¹Vᵀ μ,  (V M⁻¹ Vᵀ) μ = ū − V û,
@@ -26,13 +23,15 @@ enum class Imposition : std::uint8_t { exact, simplified };
 /// Each component (x, y, z) has its own constrained nodes.
 class EssentialConditions {
  public:
+  /// Nothing is prescribed.
+  EssentialConditions() = default;
   /// prescribed (n × 3) mm, NaN: free. nodal_rows: shape functions at all nodes' positions. names: what the user calls
   /// the nodes. Throws std::invalid_argument, naming the node, where a prescribed value is infinite.
   EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names,
                       Imposition imposition = Imposition::exact);
 
-  /// Factorises (or lumps) V M⁻¹ Vᵀ for nodal masses (one a node). Throws std::invalid_argument, naming a node, when it
-  /// is singular: two constrained nodes say the same.
+  /// Factorises (or lumps) V M⁻¹ Vᵀ for nodal masses (one a node). Throws TooFewNodes, naming a node, when it is
+  /// singular: two constrained nodes say the same.
   void factorise(std::span<const double> mass);
 
   /// Projects the parameters onto V û = fraction · ū. The multipliers are kept.
@@ -53,8 +52,6 @@ class EssentialConditions {
 
   /// These nodes are held, not loaded, whatever is prescribed there: reaction_of_loaded() leaves them out.
   void count_as_held(std::span<const std::int32_t> nodes);
-
-  std::size_t held_bytes() const;
 
  private:
   /// Solves without allocating, as Eigen's solve() does not.
@@ -81,7 +78,7 @@ class EssentialConditions {
   std::array<Component, 3> component_;
   std::vector<double> inverse_mass_;
   std::vector<std::int32_t> names_;
-  Imposition imposition_;
+  Imposition imposition_ = Imposition::exact;
 };
 
 }  // namespace brainshift::solve

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
-#include <functional>
-#include <span>
-
-#include "segmentation/surface/surface.hpp"
-#include "solve/dynamics/nodal_vectors.hpp"
+#include "segmentation/geometry/points.hpp"
+#include "solve/arrays/nodal_vectors.hpp"
+#include "solve/interface/model.hpp"
 #include "solve/quadrature/integration_points.hpp"
-#include "solve/shape/shape_functions.hpp"
+#include "solve/shape/shape_rows.hpp"
 
 namespace brainshift::solve {
-
-/// Force per undeformed volume at an undeformed place (mm) and label, N/mm³.
-using BodyForce = std::function<Eigen::Vector3d(const Eigen::Vector3d& position, std::int32_t label)>;
 
 /// Adds the force of a point load at a node, N, spread as virtual work has it: Vᵀ f, V the shape functions at the
 /// nodes. force (n × 3); total in µN, 4 a node.

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
 
 namespace brainshift::solve {
@@ -58,7 +59,12 @@ CutBody cut_body(const Model& model) {
   }
   const bool planar = model.plane != Plane::none;
   const IntegrationPoints points = integration_points(model.cells, most_points_per_cell(model.cells.kind), nullptr, {});
-  CutBody body{InsideBody(points.positions, points.volume, planar), model.cloud, {}, 0, nullptr};
+  CutBody body{.inside = InsideBody(points.positions, points.volume, planar),
+               .cloud = model.cloud,
+               .conditions = model.conditions,
+               .pairs = {},
+               .split = 0,
+               .visibility = nullptr};
   for (const Cut& cut : model.cuts) {
     check(cut, planar, body.inside);
   }
@@ -70,7 +76,7 @@ void cut_further(CutFacets facets, CutBody& body) {
   if (facets.empty()) {
     return;
   }
-  body.split += add_face_nodes(facets, body.inside, body.cloud, body.pairs);
+  body.split += add_face_nodes(facets, body.inside, body.cloud, body.conditions, body.pairs);
   body.visibility = std::make_shared<const Visibility>(std::move(facets));
 }
 

@@ -5,20 +5,20 @@
 
 #include "solve/cut/cut_facets.hpp"
 #include "solve/cut/face_nodes.hpp"
-#include "solve/ordered_cloud.hpp"
-#include "solve/solve.hpp"
+#include "solve/interface/model.hpp"
 
 namespace brainshift::solve {
 
 /// A body with its cuts as far as they have come.
 struct CutBody {
   InsideBody inside;
-  NodeCloud cloud;  ///< the model's nodes, those on the cut split, then the added ones
+  NodeCloud cloud;        ///< the model's nodes, those on the cut split, then the added ones
+  Conditions conditions;  ///< at them
   std::vector<FacePair> pairs;
   std::size_t split = 0;                         ///< nodes of the model that were split
   std::shared_ptr<const Visibility> visibility;  ///< null: nothing is cut yet
 
-  std::size_t held_bytes() const { return cloud_bytes(cloud) + bytes(pairs) + inside.held_bytes(); }
+  CutFacets facets() const { return visibility ? visibility->facets() : CutFacets(); }
 };
 
 /// The model's body, cut as at the start. Throws std::invalid_argument where a cut does not go with the model: a path

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "solve/cut/cut.hpp"
 #include "solve/cut/inside_body.hpp"
-#include "solve/cut/visibility.hpp"
+#include "solve/interface/cut.hpp"
+#include "solve/shape/visibility.hpp"
 
 namespace brainshift::solve {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "solve/cut/visibility.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
+#include "solve/shape/visibility.hpp"
 
 namespace brainshift::solve {
 

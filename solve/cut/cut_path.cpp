@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "segmentation/files/text_lines.hpp"
 #include "solve/cut/self_crossing.hpp"
-#include "solve/load/text_lines.hpp"
 
 namespace brainshift::solve {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "solve/cut/cut.hpp"
 #include "solve/cut/cut_timing.hpp"
+#include "solve/interface/cut.hpp"
 
 namespace brainshift::solve {
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "segmentation/files/surface_file.hpp"
 #include "solve/cut/self_crossing.hpp"
 #include "solve/cut/sheet_topology.hpp"
 

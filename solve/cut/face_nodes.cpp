@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "discretise/neighbours/point_tree.hpp"
+#include "segmentation/geometry/point_tree.hpp"
 
 namespace brainshift::solve {
 
@@ -238,33 +238,31 @@ class Faces {
 };
 
 /// A node like another, at a place; returns its row.
-std::int32_t append_node(NodeCloud& cloud, std::int32_t like, const Eigen::Vector3d& x, bool held_alike) {
+std::int32_t append_node(NodeCloud& cloud, Conditions& conditions, std::int32_t like, const Eigen::Vector3d& x,
+                         bool held_alike) {
   const Eigen::Index row = cloud.positions.rows();
   const auto from = static_cast<std::size_t>(like);
   cloud.positions.conservativeResize(row + 1, 3);
   cloud.positions.row(row) = x;
   cloud.spacing.push_back(cloud.spacing[from]);
   cloud.on_surface.push_back(1);
-  if (!cloud.label.empty()) {
-    cloud.label.push_back(cloud.label[from]);
-  }
-  if (cloud.prescribed_displacement.rows() == row) {
-    cloud.prescribed_displacement.conservativeResize(row + 1, 3);
-    cloud.prescribed_displacement.row(row).setConstant(std::nan(""));
+  if (conditions.displacement.rows() == row) {
+    conditions.displacement.conservativeResize(row + 1, 3);
+    conditions.displacement.row(row).setConstant(std::nan(""));
     if (held_alike) {
-      cloud.prescribed_displacement.row(row) = cloud.prescribed_displacement.row(like);
+      conditions.displacement.row(row) = conditions.displacement.row(like);
     }
   }
-  if (cloud.force.rows() == row) {
-    cloud.force.conservativeResize(row + 1, 3);
-    cloud.force.row(row).setZero();
+  if (conditions.force.rows() == row) {
+    conditions.force.conservativeResize(row + 1, 3);
+    conditions.force.row(row).setZero();
   }
   return static_cast<std::int32_t>(row);
 }
 
 }  // namespace
 
-std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeCloud& cloud,
+std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeCloud& cloud, Conditions& conditions,
                            std::vector<FacePair>& pairs) {
   std::size_t split = 0;
   for (const Place& p : Faces(cut, inside, cloud, pairs).places()) {
@@ -276,12 +274,12 @@ std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeC
       cloud.positions.row(p.node) = p.x + off;
       cloud.on_surface[static_cast<std::size_t>(p.node)] = 1;
     } else {
-      pair.above = append_node(cloud, p.like, p.x + off, false);
+      pair.above = append_node(cloud, conditions, p.like, p.x + off, false);
     }
-    pair.below = append_node(cloud, pair.above, p.x - off, was_there);
-    if (cloud.force.rows() > 0) {
-      cloud.force.row(pair.above) /= 2;
-      cloud.force.row(pair.below) = cloud.force.row(pair.above);
+    pair.below = append_node(cloud, conditions, pair.above, p.x - off, was_there);
+    if (conditions.force.rows() > 0) {
+      conditions.force.row(pair.above) /= 2;
+      conditions.force.row(pair.below) = conditions.force.row(pair.above);
     }
     pairs.push_back(pair);
   }

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "discretise/neighbours/point_tree.hpp"
+#include "segmentation/geometry/point_tree.hpp"
 
 namespace brainshift::solve {
 
@@ -24,10 +24,6 @@ struct InsideBody::Tree {
 
 InsideBody::InsideBody(Points points, std::span<const double> volume, bool planar)
     : tree_(std::make_shared<const Tree>(std::move(points), volume, planar)) {}
-
-std::size_t InsideBody::held_bytes() const {
-  return static_cast<std::size_t>(tree_->points.size()) * sizeof(double) + tree_->reach.size() * sizeof(double);
-}
 
 bool InsideBody::operator()(const Eigen::Vector3d& x) const {
   const auto [nearest, squared] = tree_->tree.nearest(x.data());

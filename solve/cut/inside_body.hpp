@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/points.hpp"
 
 namespace brainshift::solve {
 
@@ -14,7 +14,6 @@ class InsideBody {
   /// Integration points (n × 3) mm and their volumes, mm³; planar ones count as 1 mm thick.
   InsideBody(Points points, std::span<const double> volume, bool planar);
   bool operator()(const Eigen::Vector3d& x) const;
-  std::size_t held_bytes() const;
 
  private:
   struct Tree;

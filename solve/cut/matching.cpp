@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/cut/matching.hpp"
 
-#include <stdexcept>
+#include "solve/shape/too_few_nodes.hpp"
 
 namespace brainshift::solve {
 
 namespace {
 
-constexpr Eigen::Index none = -1;
+constexpr Eigen::Index kept_node = -1;
 constexpr double hold = 1e-3;  // of the mean pull of the rows on a parameter, towards the displacement at its node
 
 /// One row of the system for each row of shape functions and component of what is to agree.
@@ -35,7 +35,7 @@ Points points_of(const NodalVectors& vectors, Eigen::Index nodes) {
 }  // namespace
 
 Matching::Matching(std::vector<std::int32_t> nodes, std::size_t count)
-    : nodes_(std::move(nodes)), unknown_(count, none) {
+    : nodes_(std::move(nodes)), unknown_(count, kept_node) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     unknown_[static_cast<std::size_t>(nodes_[i])] = static_cast<Eigen::Index>(i);
   }
@@ -60,7 +60,7 @@ void Matching::factorise() {
   Entries chosen, kept;
   for (const auto& entry : after_entries_) {
     const Eigen::Index column = unknown_[static_cast<std::size_t>(entry.col())];
-    if (column == none) {
+    if (column == kept_node) {
       kept.push_back(entry);
     } else {
       chosen.emplace_back(entry.row(), column, entry.value());
@@ -77,7 +77,7 @@ void Matching::factorise() {
   }
   factor_.compute(system);
   if (factor_.info() != Eigen::Success) {
-    throw std::runtime_error("the displacement could not be carried over to the body after a cut");
+    throw TooFewNodes("the displacement could not be carried over to the body after a cut");
   }
 }
 
@@ -92,22 +92,6 @@ NodalVectors Matching::operator()(const NodalVectors& before) const {
     at(result, static_cast<std::size_t>(nodes_[i])).head<3>() = solved.row(static_cast<Eigen::Index>(i));
   }
   return result;
-}
-
-ShapeRows rows_at(const ShapeRows& rows, std::span<const std::int32_t> which) {
-  ShapeRows some;
-  some.begin.push_back(0);
-  for (const std::int32_t row : which) {
-    const auto first = rows.begin[static_cast<std::size_t>(row)], last = rows.begin[static_cast<std::size_t>(row) + 1];
-    some.node.insert(some.node.end(), rows.node.begin() + first, rows.node.begin() + last);
-    some.value.insert(some.value.end(), rows.value.begin() + first, rows.value.begin() + last);
-    if (!rows.derivative.empty()) {
-      some.derivative.insert(some.derivative.end(), rows.derivative.begin() + 3 * first,
-                             rows.derivative.begin() + 3 * last);
-    }
-    some.begin.push_back(static_cast<std::int64_t>(some.node.size()));
-  }
-  return some;
 }
 
 }  // namespace brainshift::solve

@@ -7,8 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "solve/dynamics/nodal_vectors.hpp"
-#include "solve/shape/shape_functions.hpp"
+#include "segmentation/geometry/points.hpp"
+#include "solve/arrays/nodal_vectors.hpp"
+#include "solve/shape/shape_rows.hpp"
 
 namespace brainshift::solve {
 
@@ -26,7 +27,7 @@ class Matching {
   /// The same for derivatives, times a length, mm.
   void agree_in_gradient(const ShapeRows& before, const ShapeRows& after, double length);
 
-  /// To be called when all rows are there.
+  /// To be called when all rows are there. Throws TooFewNodes where they do not determine the parameters.
   void factorise();
 
   NodalVectors operator()(const NodalVectors& before) const;
@@ -43,8 +44,5 @@ class Matching {
   Matrix before_, after_, chosen_;  ///< chosen: the columns of `after` that belong to nodes_
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
-
-/// The given rows of some.
-ShapeRows rows_at(const ShapeRows& rows, std::span<const std::int32_t> which);
 
 }  // namespace brainshift::solve

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "solve/cut/cut.hpp"
 #include "solve/cut/cut_timing.hpp"
+#include "solve/interface/cut.hpp"
 
 namespace brainshift::solve {
 

@@ -6,10 +6,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "discretise/neighbours/point_tree.hpp"
+#include "segmentation/geometry/point_tree.hpp"
+#include "solve/body/ordered_cloud.hpp"
 #include "solve/cut/cavity_pressure.hpp"
-#include "solve/cut/matching.hpp"
-#include "solve/ordered_cloud.hpp"
+#include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/taken_cells.hpp"
 
 namespace brainshift::solve {
@@ -18,7 +18,7 @@ namespace {
 
 /// How far from what is left, over its spacing, a node stays: nodes further out would be seen so little that their
 /// parameters run wild, and with none outside the wall is too stiff.
-constexpr double reach = 0.75;
+constexpr double stays_within = 0.75;
 
 /// One a point: 1 where its tissue is taken out.
 std::vector<std::uint8_t> removed_points(const IntegrationPoints& points, const Resection& resection) {
@@ -67,19 +67,18 @@ Nodes choose_nodes(const NodeCloud& cloud, const Points& left, const Points& rem
     const double* x = cloud.positions.row(static_cast<Eigen::Index>(a)).data();
     const double to_left = std::sqrt(tree_left.nearest(x).second);
     const double to_removed = std::sqrt(tree_removed.nearest(x).second);
-    nodes.stays.push_back(to_left <= std::max(reach * cloud.spacing[a], to_removed) ? 1 : 0);
+    nodes.stays.push_back(to_left <= std::max(stays_within * cloud.spacing[a], to_removed) ? 1 : 0);
     nodes.at_wall.push_back(to_removed <= std::max(cloud.spacing[a], to_left) ? 1 : 0);
   }
   return nodes;
 }
 
-void check_free(const NodeCloud& cloud, const std::vector<std::int32_t>& gone) {
+void check_free(const Model& model, const std::vector<std::int32_t>& gone) {
   for (const std::int32_t a : gone) {
-    const bool prescribed =
-        cloud.prescribed_displacement.rows() > 0 && !cloud.prescribed_displacement.row(a).array().isNaN().all();
-    if (prescribed || (cloud.force.rows() > 0 && !cloud.force.row(a).isZero())) {
+    const bool prescribed = model.conditions.is_prescribed(a);
+    if (prescribed || model.conditions.is_pushed(a)) {
       std::ostringstream text;
-      text << "node " << a << " at (" << cloud.positions.row(a).format({4, Eigen::DontAlignCols, ", ", ", "})
+      text << "node " << a << " at (" << model.cloud.positions.row(a).format({4, Eigen::DontAlignCols, ", ", ", "})
            << ") mm has a " << (prescribed ? "prescribed displacement" : "force")
            << ", but lies in the tissue that is taken out; leave it free";
       throw std::invalid_argument(text.str());
@@ -103,15 +102,16 @@ BackgroundCells cells_left(const BackgroundCells& cells, const IntegrationPoints
 /// Adds the force that a pressure in the cavity has at the nodes that stay; what little falls to the others acts at
 /// the nearest of them.
 void add_pressure(const Points& force, const std::vector<std::int32_t>& stay, const std::vector<std::int32_t>& gone,
-                  const Points& all, NodeCloud& cloud) {
-  if (cloud.force.rows() == 0) {
-    cloud.force = Points::Zero(cloud.positions.rows(), 3);
+                  const Points& all, Points& total) {
+  const Points places = all(stay, Eigen::all);
+  if (total.rows() == 0) {
+    total = Points::Zero(places.rows(), 3);
   }
-  cloud.force += force(stay, Eigen::all);
-  const PointTree tree(cloud.positions);
+  total += force(stay, Eigen::all);
+  const PointTree tree(places);
   for (const std::int32_t a : gone) {
     const auto nearest = static_cast<Eigen::Index>(tree.nearest(all.row(a).data()).first);
-    cloud.force.row(nearest) += force.row(a);
+    total.row(nearest) += force.row(a);
   }
 }
 
@@ -120,22 +120,23 @@ void add_pressure(const Points& force, const std::vector<std::int32_t>& stay, co
 Resected resect(const Model& model, const SolveOptions& options) {
   const Resection& resection = *model.resection;
   const bool adaptive = options.integration_tolerance > 0;
-  const IntegrationPoints points =
-      integration_points(model.cells, adaptive ? most_points_per_cell(model.cells.kind) : options.points_per_cell,
-                         model.labels ? &*model.labels : nullptr, tissues_of(model));
+  const IntegrationPoints points = integration_points(
+      model.cells, points_per_cell(adaptive ? std::nullopt : options.points_per_cell, model.cells.kind, false),
+      model.labels ? &*model.labels : nullptr, tissues_of(model));
   const std::vector<std::uint8_t> removed = removed_points(points, resection);
   check_labels(points, resection, removed);
   const std::vector<std::int32_t> points_gone = indices_of(removed, 1);
   const Nodes nodes = choose_nodes(model.cloud, points.positions(indices_of(removed, 0), Eigen::all),
                                    points.positions(points_gone, Eigen::all));
   const std::vector<std::int32_t> stay = indices_of(nodes.stays, 1), gone = indices_of(nodes.stays, 0);
-  check_free(model.cloud, gone);
+  check_free(model, gone);
   Resected result{model, {gone.size(), 0}};
   for (const std::int32_t point : points_gone) {
     result.measures.removed_volume += points.volume[static_cast<std::size_t>(point)];
   }
   NodeCloud& cloud = result.rest.cloud;
   cloud = subset(model.cloud, stay);
+  result.rest.conditions = subset(model.conditions, stay);
   for (std::size_t i = 0; i < stay.size(); ++i) {
     cloud.on_surface[i] |= nodes.at_wall[static_cast<std::size_t>(stay[i])];
   }
@@ -144,14 +145,18 @@ Resected resect(const Model& model, const SolveOptions& options) {
     const ShapeFunctions shape(model.cloud.positions, model.cloud.spacing, options.shape);
     const Points force = cavity_force(points, removed, shape.evaluate(points.positions, true),
                                       model.cloud.positions.rows(), resection.pressure);
-    add_pressure(force, stay, gone, model.cloud.positions, cloud);
+    add_pressure(force, stay, gone, model.cloud.positions, result.rest.conditions.force);
   }
   return result;
 }
 
 void leave_out(const Resection& resection, AdaptivePoints& placed) {
   const std::vector<std::int32_t> left = indices_of(removed_points(placed.points, resection), 0);
-  IntegrationPoints points{placed.points.positions(left, Eigen::all), {}, {}, {}, placed.points.labelled_by_cell};
+  IntegrationPoints points{.positions = placed.points.positions(left, Eigen::all),
+                           .volume = {},
+                           .cell = {},
+                           .label = {},
+                           .labelled_by_cell = placed.points.labelled_by_cell};
   for (const std::int32_t point : left) {
     const auto i = static_cast<std::size_t>(point);
     points.volume.push_back(placed.points.volume[i]);

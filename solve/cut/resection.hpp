@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "solve/interface/model.hpp"
+#include "solve/interface/options.hpp"
+#include "solve/interface/result.hpp"
 #include "solve/quadrature/adaptive_points.hpp"
-#include "solve/solve.hpp"
 
 namespace brainshift::solve {
 

@@ -8,7 +8,7 @@
 
 #include <stdexcept>
 
-#include "segmentation/surface/cgal_bridge.hpp"
+#include "segmentation/geometry/cgal_bridge.hpp"
 
 namespace brainshift::solve {
 namespace {

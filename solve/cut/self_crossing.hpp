@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/surface.hpp"
 
 namespace brainshift::solve {
 

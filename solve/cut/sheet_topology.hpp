@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/surface.hpp"
 
 namespace brainshift::solve {
 

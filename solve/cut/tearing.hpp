@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "solve/cut/cut.hpp"
-#include "solve/cut/visibility.hpp"
-#include "solve/dynamics/point_strain.hpp"
+#include "solve/force/point_strain.hpp"
+#include "solve/interface/cut.hpp"
 #include "solve/quadrature/integration_points.hpp"
+#include "solve/shape/visibility.hpp"
 
 namespace brainshift::solve {
 

@@ -5,32 +5,6 @@
 
 namespace brainshift::solve {
 
-namespace {
-
-/// One row after another, of two sets of rows.
-class Joined {
- public:
-  void append(const ShapeRows& from, std::size_t row) {
-    const auto first = from.begin[row], last = from.begin[row + 1];
-    rows_.node.insert(rows_.node.end(), from.node.begin() + first, from.node.begin() + last);
-    rows_.value.insert(rows_.value.end(), from.value.begin() + first, from.value.begin() + last);
-    if (!from.derivative.empty()) {
-      rows_.derivative.insert(rows_.derivative.end(), from.derivative.begin() + 3 * first,
-                              from.derivative.begin() + 3 * last);
-    }
-    rows_.begin.push_back(static_cast<std::int64_t>(rows_.node.size()));
-  }
-  ShapeRows take(std::size_t grown) {
-    rows_.grown = grown;
-    return std::move(rows_);
-  }
-
- private:
-  ShapeRows rows_{.begin = {0}, .node = {}, .value = {}, .derivative = {}, .grown = 0};
-};
-
-}  // namespace
-
 std::vector<std::int32_t> touched_rows(const ShapeRows& rows, const Points& points, const Advance& advance) {
   std::vector<std::uint8_t> changed(static_cast<std::size_t>(advance.positions.rows()), 0);
   for (const std::int32_t a : advance.nodes) {
@@ -43,9 +17,8 @@ std::vector<std::int32_t> touched_rows(const ShapeRows& rows, const Points& poin
     const Eigen::Vector3d x = points.row(i);
     double reach = 0, radius = 0;
     bool found = false;
-    for (std::int64_t k = rows.begin[static_cast<std::size_t>(i)]; k < rows.begin[static_cast<std::size_t>(i) + 1];
-         ++k) {
-      const auto a = static_cast<std::size_t>(rows.node[static_cast<std::size_t>(k)]);
+    for (const std::int32_t node : rows[static_cast<std::size_t>(i)].node) {
+      const auto a = static_cast<std::size_t>(node);
       found = found || changed[a] != 0;
       reach = std::max(reach, (advance.positions.row(static_cast<Eigen::Index>(a)).transpose() - x).norm());
       radius = std::max(radius, advance.radius[a]);
@@ -66,19 +39,18 @@ std::vector<std::int32_t> touched_rows(const ShapeRows& rows, const Points& poin
 }
 
 ShapeRows with_rows(const ShapeRows& rows, std::span<const std::int32_t> which, const ShapeRows& others) {
-  Joined joined;
+  ShapeRows joined;
   std::size_t next = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (next < which.size() && which[next] == static_cast<std::int32_t>(i)) {
-      joined.append(others, next++);
-    } else {
-      joined.append(rows, i);
-    }
+    const bool replaced = next < which.size() && which[next] == static_cast<std::int32_t>(i);
+    joined.append(replaced ? others[next] : rows[i]);
+    next += replaced ? 1 : 0;
   }
-  while (next < which.size()) {
-    joined.append(others, next++);
+  for (; next < which.size(); ++next) {
+    joined.append(others[next]);
   }
-  return joined.take(rows.grown + others.grown);
+  joined.grown = rows.grown + others.grown;
+  return joined;
 }
 
 }  // namespace brainshift::solve

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "solve/cut/visibility.hpp"
-#include "solve/shape/shape_functions.hpp"
+#include "solve/shape/shape_rows.hpp"
+#include "solve/shape/visibility.hpp"
 
 namespace brainshift::solve {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "solve/dynamics/internal_force.hpp"
-#include "solve/dynamics/patch_dilatation.hpp"
+#include "solve/force/internal_force.hpp"
+#include "solve/force/patch_dilatation.hpp"
 
 namespace brainshift::solve {
 
@@ -74,15 +74,15 @@ Neighbours neighbours(const PointBlocks& points, const PointLaws& laws, std::int
   return found;
 }
 
-std::string cause(const Fault& fault, std::int32_t node, const Surroundings& around) {
+std::string cause(const Fault& fault, std::int32_t node, const Body& body) {
   if (fault.swings) {
     return "the step is too long for the stiffness there, the node swings there and back from step to step; take a "
            "smaller time step";
   }
-  const Neighbours n = neighbours(around.points, around.laws, node);
+  const Neighbours n = neighbours(body.points, body.laws, node);
   if (n.stiffest >= much_softer * n.softest) {
     std::ostringstream text;
-    const auto tissue = [&](std::int32_t point) { return around.placed.tissue[static_cast<std::size_t>(point)]; };
+    const auto tissue = [&](std::int32_t point) { return body.placed.tissue[static_cast<std::size_t>(point)]; };
     text << "tissue " << tissue(n.soft_point) << " is " << n.stiffest / n.softest << " times softer than tissue "
          << tissue(n.stiff_point) << " beside it; check the materials, or put more nodes there";
     return text.str();
@@ -135,26 +135,26 @@ Fault restless_node(const LastSteps& steps) {
   return fault;
 }
 
-std::string describe(const Fault& fault, const Surroundings& around) {
+std::string describe(const Fault& fault, const Body& body) {
   std::int32_t node = fault.node;
   std::ostringstream text;
   const Eigen::IOFormat coordinates(6, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ") mm");
   text << "at ";
   if (fault.point >= 0) {
-    const Eigen::RowVector3d place = around.placed.position.row(fault.point);
+    const Eigen::RowVector3d place = body.placed.position.row(fault.point);
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t a = 0; a < around.original.size(); ++a) {
-      const double distance = (around.nodes.row(around.original[a]) - place).squaredNorm();
+    for (std::size_t a = 0; a < body.original.size(); ++a) {
+      const double distance = (body.positions.row(body.original[a]) - place).squaredNorm();
       node = distance < nearest ? static_cast<std::int32_t>(a) : node;
       nearest = std::min(nearest, distance);
     }
     text << "the integration point " << place.format(coordinates) << ", tissue "
-         << around.placed.tissue[static_cast<std::size_t>(fault.point)] << ", next to ";
+         << body.placed.tissue[static_cast<std::size_t>(fault.point)] << ", next to ";
   }
-  const std::int32_t original = around.original[static_cast<std::size_t>(node)];
-  text << "node " << original << ", " << around.nodes.row(original).format(coordinates);
+  const std::int32_t original = body.original[static_cast<std::size_t>(node)];
+  text << "node " << original << ", " << body.positions.row(original).format(coordinates);
   if (!fault.explained) {
-    text << "; likely cause: " << cause(fault, node, around);
+    text << "; likely cause: " << cause(fault, node, body);
   }
   return text.str();
 }

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "solve/dynamics/internal_force.hpp"
-#include "solve/quadrature/integration_points.hpp"
+#include "solve/body/body.hpp"
+#include "solve/force/force_scratch.hpp"
 
 namespace brainshift::solve {
 
@@ -28,24 +28,7 @@ Fault broken_point(const PointBlocks& points, const ForceScratch& scratch, const
 /// A node whose û is not finite, else the one that is accelerated most.
 Fault restless_node(const LastSteps& steps);
 
-/// Where the integration points lie, in the order of the blocks.
-struct PlacedPoints {
-  Points position;                   ///< mm
-  std::vector<std::int32_t> tissue;  ///< label
-
-  std::size_t held_bytes() const { return static_cast<std::size_t>(position.size()) * sizeof(double) + bytes(tissue); }
-};
-
-/// What a sentence about a fault needs to know of the model.
-struct Surroundings {
-  const PointBlocks& points;
-  const PointLaws& laws;
-  const Points& nodes;                        ///< mm, in the cloud's own order
-  const std::vector<std::int32_t>& original;  ///< the cloud's own number of each node
-  const PlacedPoints& placed;
-};
-
 /// "at node 17, (1.2, 3.4, 5.6) mm; likely cause: ...": the node by the cloud's own number.
-std::string describe(const Fault& fault, const Surroundings& around);
+std::string describe(const Fault& fault, const Body& body);
 
 }  // namespace brainshift::solve

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "solve/cut/dissection.hpp"
-#include "solve/nodal_displacement.hpp"
+#include "solve/shape/nodal_displacement.hpp"
+#include "solve/shape/too_few_nodes.hpp"
 
 namespace brainshift::solve {
 
@@ -41,13 +41,13 @@ std::string unbalanced(const HistoryRow& row) {
 }
 
 /// Energy of a strain so small that rounding is a good part of it: one of 1e-6, mJ.
-double rounding_energy(const System& system) {
+double rounding_energy(const Body& body) {
   double stiffness = 0;
-  for (const Patch& patch : system.points.patches) {
+  for (const Patch& patch : body.points.patches) {
     const double modulus = std::visit([](const auto& law) { return law.shear_modulus; },
-                                      system.laws.elastic[static_cast<std::size_t>(patch.material)]);
+                                      body.laws.elastic[static_cast<std::size_t>(patch.material)]);
     for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-      stiffness += modulus * system.points.volume[static_cast<std::size_t>(p)];
+      stiffness += modulus * body.points.volume[static_cast<std::size_t>(p)];
     }
   }
   return 1e-12 * stiffness * energy_unit;
@@ -55,49 +55,48 @@ double rounding_energy(const System& system) {
 
 }  // namespace
 
-Motion::Motion(const System& system, const PointLaws& laws, int snapshot_every)
-    : now(4 * system.points.nodes(), 0.0),
+Motion::Motion(Body whole, int snapshot_every)
+    : body(std::move(whole)),
+      now(4 * body.nodes(), 0.0),
       before(now),
       next(now),
       force(now),
-      scratch(system.points, laws),
-      system_(system),
-      nodes_(system.points.nodes()),
+      scratch(body.points, body.laws),
       good_(now),
-      good_reactions_(Points::Zero(static_cast<Eigen::Index>(nodes_), 3)),
-      rounding_energy_(rounding_energy(system)),
+      good_reactions_(Points::Zero(static_cast<Eigen::Index>(body.nodes()), 3)),
+      rounding_energy_(rounding_energy(body)),
       snapshot_every_(snapshot_every),
       next_snapshot_(snapshot_every) {}
 
 void Motion::weigh(std::span<const double> mass) {
-  system_.essential.factorise(mass);
-  if (system_.contact) {
-    system_.contact->weigh(mass);
+  body.essential.factorise(mass);
+  if (body.contact) {
+    body.contact->weigh(mass);
   }
-  if (system_.face_contact != nullptr) {
-    system_.face_contact->weigh(mass);
+  if (body.face_contact) {
+    body.face_contact->weigh(mass);
   }
 }
 
 void Motion::step(const PointLaws& laws, std::span<const double> mass, double alpha, double beta, double end,
                   double fraction) {
-  internal_force(system_.points, laws, now, scratch, force);
-  for (std::size_t i = 0; i < system_.external.size(); ++i) {
-    force[i] -= fraction_ * system_.external[i];
+  internal_force(body.points, laws, now, scratch, force);
+  for (std::size_t i = 0; i < body.external.size(); ++i) {
+    force[i] -= fraction_ * body.external[i];
   }
-  const auto nodes = static_cast<std::int64_t>(nodes_);
+  const auto nodes = static_cast<std::int64_t>(body.nodes());
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < nodes; ++i) {
     const auto a = static_cast<std::size_t>(i);
     at(next, a) = at(now, a) + beta * (at(now, a) - at(before, a)) - alpha / mass[a] * at(force, a);
   }
-  if (system_.contact) {
-    system_.contact->apply(next);
+  if (body.contact) {
+    body.contact->apply(next);
   }
-  if (system_.face_contact != nullptr) {
-    system_.face_contact->apply(next);
+  if (body.face_contact) {
+    body.face_contact->apply(next);
   }
-  system_.essential.apply(fraction, next);
+  body.essential.apply(fraction, next);
   add_energies(mass, alpha, beta, fraction);
   std::swap(before, now);
   std::swap(now, next);
@@ -110,17 +109,17 @@ void Motion::step(const PointLaws& laws, std::span<const double> mass, double al
 /// Work of the reactions and the forces by the trapezoidal rule, and what the damping takes, c m |Δû|²/h: up to û, as
 /// the strain energy. The multipliers are the reactions at û, not at the end of the step.
 void Motion::add_energies(std::span<const double> mass, double alpha, double beta, double fraction) {
-  const double rate = system_.essential.multiplier_work() / alpha;
+  const double rate = body.essential.multiplier_work() / alpha;
   external_work_ += (fraction_ - fraction_before_) * (rate + work_rate_) / 2 + force_work_;
   work_rate_ = rate;
-  if (!system_.external.empty()) {
-    force_work_ = (fraction + fraction_) / 2 * sum_over_nodes(nodes_, [this](std::size_t a) {
-                    return at(system_.external, a).dot(at(next, a) - at(now, a));
+  if (!body.external.empty()) {
+    force_work_ = (fraction + fraction_) / 2 * sum_over_nodes(body.nodes(), [this](std::size_t a) {
+                    return at(body.external, a).dot(at(next, a) - at(now, a));
                   });
   }
   if (beta < 1) {
     dissipated_ += damping_work_;
-    damping_work_ = (1 - beta) / alpha * sum_over_nodes(nodes_, [this, mass](std::size_t a) {
+    damping_work_ = (1 - beta) / alpha * sum_over_nodes(body.nodes(), [this, mass](std::size_t a) {
                       return mass[a] * (at(next, a) - at(now, a)).squaredNorm();
                     });
   }
@@ -132,10 +131,10 @@ void Motion::start_from(const NodalVectors& parameters, const PointLaws& laws) {
   now = parameters;
   fraction_ = fraction_before_ = 1;
   time = 1;
-  system_.essential.apply(fraction_, now);
+  body.essential.apply(fraction_, now);
   before = next = now;
-  internal_force(system_.points, laws, now, scratch, force);
-  external_work_ = point_state(system_.points, laws, scratch).strain_energy;
+  internal_force(body.points, laws, now, scratch, force);
+  external_work_ = point_state(body.points, laws, scratch).strain_energy;
 }
 
 bool Motion::squeezed() {
@@ -151,12 +150,12 @@ bool Motion::squeezed() {
 
 void Motion::note_broken_point(double smallest_jacobian) {
   if (!(smallest_jacobian > 0) && !broken_) {
-    broken_ = broken_point(system_.points, scratch, last_steps());
+    broken_ = broken_point(body.points, scratch, last_steps());
   }
 }
 
 bool Motion::look(const PointLaws& laws, std::span<const double> mass, double most_imbalance) {
-  const PointState state = point_state(system_.points, laws, scratch);
+  const PointState state = point_state(body.points, laws, scratch);
   const HistoryRow latest = row(mass, state);
   largest_work_ = std::max(largest_work_, std::abs(latest.external_work));
   if (const std::string fault = unsound(state, largest_difference(now, before)); !fault.empty()) {
@@ -174,18 +173,23 @@ bool Motion::look(const PointLaws& laws, std::span<const double> mass, double mo
   result.fraction = fraction_;
   squeezed_to_ = state.smallest_jacobian;
   good_ = now;
-  good_reactions_ = system_.essential.reactions(alpha_, nodes_);
+  good_reactions_ = body.essential.reactions(alpha_, body.nodes());
   result.history.push_back(latest);
   if (snapshot_every_ > 0 && result.steps >= next_snapshot_) {
-    result.snapshots.push_back(
-        {result.steps, time, nodal_displacement(system_.nodal_rows, now, system_.original), Points(0, 3), CutFacets()});
-    if (system_.dissection != nullptr) {
-      result.snapshots.back().positions = system_.dissection->positions();
-      result.snapshots.back().cut = system_.dissection->facets();
-    }
-    next_snapshot_ += snapshot_every_;
+    keep_snapshot();
   }
   return true;
+}
+
+void Motion::keep_snapshot() {
+  Snapshot snapshot;
+  snapshot.step = result.steps;
+  snapshot.time = time;
+  snapshot.displacement = nodal_displacement(body.nodal_rows, now, body.original);
+  snapshot.positions = body.positions;
+  snapshot.cut = body.cut;
+  result.snapshots.push_back(std::move(snapshot));
+  next_snapshot_ += snapshot_every_;
 }
 
 void Motion::fail(const std::string& why, const HistoryRow& latest, const Fault& fault) {
@@ -202,7 +206,7 @@ void Motion::fail(const std::string& why, const HistoryRow& latest, const Fault&
 /// The velocity at the last force is that over the steps on its two sides.
 HistoryRow Motion::row(std::span<const double> mass, const PointState& state) const {
   const double inertia = sum_over_nodes(
-      nodes_, [this, mass](std::size_t a) { return mass[a] * (at(now, a) - at(next, a)).squaredNorm(); });
+      body.nodes(), [this, mass](std::size_t a) { return mass[a] * (at(now, a) - at(next, a)).squaredNorm(); });
   HistoryRow row;
   row.step = result.steps;
   row.time = time;
@@ -210,7 +214,7 @@ HistoryRow Motion::row(std::span<const double> mass, const PointState& state) co
   row.strain_energy = state.strain_energy * energy_unit;
   row.kinetic_energy = inertia * (1 + beta_) / (16 * alpha_) * energy_unit;
   row.dissipated_energy = dissipated_ * energy_unit;
-  row.reaction = newton * system_.essential.reaction_of_loaded(alpha_);
+  row.reaction = newton * body.essential.reaction_of_loaded(alpha_);
   return row;
 }
 
@@ -221,48 +225,52 @@ double Motion::imbalance(const HistoryRow& row) {
   return largest_energy_ > rounding_energy_ ? std::abs(row.external_work - became) / largest_energy_ : 0;
 }
 
-void Motion::carry_over(const PointLaws& laws, const std::function<NodalVectors(const NodalVectors&)>& map,
-                        std::span<const std::int32_t> point_from) {
-  for (NodalVectors* v : {&now, &before, &next, &good_}) {
-    *v = map(*v);
+bool Motion::change(const BodyChange& change, const PointLaws& laws, double curve_time, bool may_begin) {
+  Moment moment{.time = curve_time,
+                .first = true,
+                .moves = result.steps > 0,
+                .may_begin = may_begin,
+                .body = body,
+                .laws = laws,
+                .scratch = scratch};
+  try {
+    while (std::optional<ChangedBody> changed = change.next(moment)) {
+      go_on_with(std::move(*changed), laws);
+      moment.first = false;
+    }
+  } catch (const TooFewNodes& error) {
+    std::ostringstream text;
+    text << "the cut cannot go on at step " << result.steps << ", time " << curve_time << ": " << error.what();
+    result.failure = text.str();
   }
-  nodes_ = system_.points.nodes();
-  force.assign(4 * nodes_, 0.0);
-  const Eigen::Index more = static_cast<Eigen::Index>(nodes_) - good_reactions_.rows();
-  good_reactions_.conservativeResize(static_cast<Eigen::Index>(nodes_), 3);
+  return !moment.first;
+}
+
+void Motion::go_on_with(ChangedBody changed, const PointLaws& laws) {
+  body = std::move(changed.body);
+  for (NodalVectors* v : {&now, &before, &next, &good_}) {
+    *v = changed.parameters(*v);
+  }
+  force.assign(4 * body.nodes(), 0.0);
+  const auto nodes = static_cast<Eigen::Index>(body.nodes());
+  const Eigen::Index more = nodes - good_reactions_.rows();
+  good_reactions_.conservativeResize(nodes, 3);
   good_reactions_.bottomRows(more).setZero();
-  ForceScratch fresh(system_.points, laws);
-  fresh.parameters = map(scratch.parameters);
-  fresh.remember(scratch, point_from);
+  ForceScratch fresh(body.points, laws);
+  fresh.parameters = changed.parameters(scratch.parameters);
+  fresh.remember(scratch, changed.point_from);
   scratch = std::move(fresh);
 }
 
-bool Motion::go_on_cutting(Dissection& dissection, const PointLaws& laws, double cut_time, bool may_begin) {
-  bool changed = false;
-  if (dissection.is_due(cut_time)) {
-    try {
-      dissection.cut(cut_time, laws, *this);
-      changed = true;
-    } catch (const std::invalid_argument& error) {
-      std::ostringstream text;
-      text << "the cut cannot go on at step " << result.steps << ", time " << cut_time << ": " << error.what();
-      result.failure = text.str();
-      return false;
-    }
-  }
-  const bool moves = result.steps > 0;
-  return (moves && dissection.may_tear() && dissection.tear(laws, *this, may_begin)) || changed;
-}
-
 double Motion::energy(const PointLaws& laws, std::span<const double> mass) {
-  internal_force(system_.points, laws, now, scratch, force);
+  internal_force(body.points, laws, now, scratch, force);
   const double motion = sum_over_nodes(
-      nodes_, [this, mass](std::size_t a) { return mass[a] * (at(now, a) - at(before, a)).squaredNorm(); });
-  return point_state(system_.points, laws, scratch).strain_energy + motion * (1 + beta_) / (4 * alpha_);
+      body.nodes(), [this, mass](std::size_t a) { return mass[a] * (at(now, a) - at(before, a)).squaredNorm(); });
+  return point_state(body.points, laws, scratch).strain_energy + motion * (1 + beta_) / (4 * alpha_);
 }
 
 SteppingResult Motion::finish() {
-  result.held = held();
+  result.body = std::move(body);
   result.parameters = std::move(good_);
   result.reactions = std::move(good_reactions_);
   return std::move(result);

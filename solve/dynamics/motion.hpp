@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <span>
 
-#include "solve/dynamics/system.hpp"
+#include "solve/dynamics/stepping.hpp"
 
 namespace brainshift::solve {
 
@@ -15,8 +15,8 @@ namespace brainshift::solve {
 /// h² = 2α/(1 + β) and c/h = (1 − β)/α. All energies are those at the last force, one step ago.
 class Motion {
  public:
-  /// At rest, without load.
-  Motion(const System& system, const PointLaws& laws, int snapshot_every);
+  /// The body at rest, without load.
+  Motion(Body whole, int snapshot_every);
 
   /// One step to `time`, where `fraction` of the load holds. mass: one a node, as last given to weigh().
   void step(const PointLaws& laws, std::span<const double> mass, double alpha, double beta, double time,
@@ -25,8 +25,8 @@ class Motion {
   /// Essential conditions and contact push in proportion to 1/mass.
   void weigh(std::span<const double> mass);
 
-  /// True when the smallest J has fallen by a fifth since last asked and answered so: the body may have stiffened.
-  /// Notes where a point turned inside out first.
+  /// True if the smallest J has dropped by a fifth since the last call that returned true: the body may have stiffened.
+  /// Notes the first point that turned inside out.
   bool squeezed();
 
   /// Goes on from û under the full load, at rest, with as much work done as the body holds. After weigh().
@@ -37,15 +37,9 @@ class Motion {
   /// Unsound, too, is a motion with more energy than was put in. Returns whether it is sound.
   bool look(const PointLaws& laws, std::span<const double> mass, double most_imbalance);
 
-  /// Goes on with another body, as one that was cut further: map gives its parameters from those before; point_from
-  /// its integration points' numbers before.
-  void carry_over(const PointLaws& laws, const std::function<NodalVectors(const NodalVectors&)>& map,
-                  std::span<const std::int32_t> point_from);
-
-  /// Cuts the body as far as the cuts have come by a time of the load's curve, and lets it tear; whether it changed.
-  /// may_begin: whether a new tear may begin.
-  /// Where it cannot be cut so, the result says why.
-  bool go_on_cutting(Dissection& dissection, const PointLaws& laws, double cut_time, bool may_begin);
+  /// Asks for a change of the body and goes on with what comes; whether the body changed. Where the change cannot be
+  /// made, result.failure says why. time: of the load's curve.
+  bool change(const BodyChange& change, const PointLaws& laws, double time, bool may_begin);
 
   /// Strain and kinetic energy now, 1e-9 J. Of laws that do not relax: else it would be a step of theirs.
   double energy(const PointLaws& laws, std::span<const double> mass);
@@ -56,13 +50,7 @@ class Motion {
   /// The result, with the last state that was kept.
   SteppingResult finish();
 
-  HeldBytes held() const {
-    const std::size_t reactions = static_cast<std::size_t>(good_reactions_.size()) * sizeof(double);
-    return {.nodal_vectors = bytes(now) + bytes(before) + bytes(next) + bytes(force) + bytes(good_) + reactions +
-                             scratch.scratch_bytes(),
-            .viscosity = scratch.viscous_bytes()};
-  }
-
+  Body body;
   /// û now and one step ago; after a step `next` is û two steps ago.
   NodalVectors now, before, next;
   NodalVectors force;    ///< f_int − f_ext at `before`, µN
@@ -71,15 +59,15 @@ class Motion {
   double time = 0;
 
  private:
+  void go_on_with(ChangedBody changed, const PointLaws& laws);
   LastSteps last_steps() const { return {now, before, next}; }
   void note_broken_point(double smallest_jacobian);
+  void keep_snapshot();
   void fail(const std::string& why, const HistoryRow& row, const Fault& fault);
   void add_energies(std::span<const double> mass, double alpha, double beta, double fraction);
   HistoryRow row(std::span<const double> mass, const PointState& state) const;
   double imbalance(const HistoryRow& row);
 
-  const System& system_;
-  std::size_t nodes_;
   NodalVectors good_;
   Points good_reactions_;
   double alpha_ = 1, beta_ = 1;  // of the last step

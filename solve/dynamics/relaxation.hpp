@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "segmentation/progress.hpp"
-#include "solve/dynamics/system.hpp"
+#include "segmentation/progress/progress.hpp"
+#include "solve/dynamics/stepping.hpp"
+#include "solve/interface/options.hpp"
 
 namespace brainshift::solve {
 
@@ -24,6 +25,6 @@ inline int calm_rows(int before, double residual) {
 /// follow the tangents of the state reached. The load's curve is run through in options.load_steps, of a body that may
 /// tear more slowly where it would else not be at rest, and hardly on while a tear runs. Stops when the bound of the
 /// remaining error, ρ/(1 − ρ) |û⁺ − û|∞ with ρ the slower of the measured rate and √β, is below the tolerance.
-SteppingResult relax(const System& system, const SolveOptions& options, const Progress& progress);
+SteppingResult relax(Body body, const Course& course, const SolveOptions& options, const Progress& progress);
 
 }  // namespace brainshift::solve

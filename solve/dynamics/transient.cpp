@@ -7,9 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "solve/cut/dissection.hpp"
 #include "solve/dynamics/motion.hpp"
-#include "solve/dynamics/stiffness_bound.hpp"
+#include "solve/force/stiffness_bound.hpp"
 
 namespace brainshift::solve {
 
@@ -20,24 +19,20 @@ constexpr double least_ratio = 0.8;  // of J to that one step before: stiffness 
 
 /// Where all that takes energy is counted: not contact, relaxing materials (the laws' energy is the instantaneous one)
 /// or lumped conditions. Else the work is what became of it to a thousandth.
-bool balances(const System& system, const std::vector<std::vector<PronyTerm>>& prony, const SolveOptions& options) {
-  return system.contact == nullptr && system.face_contact == nullptr && prony.empty() &&
-         options.imposition == Imposition::exact;
+bool balances(const Body& body, const SolveOptions& options) {
+  return !body.contact && !body.face_contact && body.prony.empty() && options.imposition == Imposition::exact;
 }
 
 class Transient {
  public:
-  Transient(const System& system, const std::vector<std::vector<PronyTerm>>& prony, const std::vector<double>& mass,
-            const SolveOptions& options, double safety)
-      : system_(system),
-        laws_(system.laws),
-        prony_(prony),
-        mass_(mass),
+  Transient(Body body, const Course& course, const SolveOptions& options, double safety)
+      : course_(course),
         options_(options),
-        motion_(system, PointLaws{{}, {}, system.laws.plane_stress}, options.snapshot_every),
+        motion_(std::move(body), options.snapshot_every),
+        laws_(motion_.body.laws),
         safety_(safety),
-        most_imbalance_(balances(system, prony, options) ? 0.05 : std::numeric_limits<double>::infinity()) {
-    internal_force(system_.points, system_.laws, motion_.now, motion_.scratch, motion_.force);
+        most_imbalance_(balances(motion_.body, options) ? 0.05 : std::numeric_limits<double>::infinity()) {
+    internal_force(motion_.body.points, motion_.body.laws, motion_.now, motion_.scratch, motion_.force);
     const double critical = critical_now();
     motion_.result.critical_step = critical;
     if (options.time_step > critical) {
@@ -47,20 +42,20 @@ class Transient {
       throw std::invalid_argument(text.str());
     }
     set_step(options.time_step > 0 ? options.time_step : safety_ * critical);
-    motion_.scratch = ForceScratch(system.points, laws_);
-    motion_.weigh(mass_);
+    motion_.scratch = ForceScratch(motion_.body.points, laws_);
+    motion_.weigh(mass());
   }
 
   SteppingResult run(const Progress& progress) {
     SteppingResult& result = motion_.result;
-    const double end = system_.curve.duration();
+    const double end = course_.curve.duration();
     while (result.failure.empty() && motion_.time < end - step_ / 2) {
       if (result.steps == options_.max_steps) {
         result.failure = "stopped after " + std::to_string(result.steps) + " steps, at " +
                          std::to_string(motion_.time) + " s of " + std::to_string(end) + " s; allow more steps";
         break;
       }
-      cut_if_due();
+      change_if_due();
       step();
       if (result.steps % look_every == 0 || motion_.time >= end - step_ / 2 || motion_.squeezed()) {
         look();
@@ -71,29 +66,31 @@ class Transient {
   }
 
  private:
-  void cut_if_due() {
-    Dissection* dissection = system_.dissection;
-    const bool looks = dissection != nullptr && dissection->may_tear() && motion_.result.steps % look_every == 0;
-    if (dissection == nullptr || !(looks || dissection->is_due(motion_.time))) {
+  const std::vector<double>& mass() const { return motion_.body.mass; }
+
+  void change_if_due() {
+    const BodyChange& change = course_.change;
+    const bool looks = change.by_state && motion_.result.steps % look_every == 0;
+    if (!change || !(looks || change.is_due(motion_.time))) {
       return;
     }
-    const double before = motion_.energy(system_.laws, mass_);  // without a step of what the points remember
-    if (!motion_.go_on_cutting(*dissection, laws_, motion_.time, true)) {
+    const double before = motion_.energy(motion_.body.laws, mass());  // without a step of what the points remember
+    if (!motion_.change(change, laws_, motion_.time, true)) {
       return;
     }
-    motion_.weigh(mass_);
-    motion_.lose(before - motion_.energy(system_.laws, mass_));
+    motion_.weigh(mass());
+    motion_.lose(before - motion_.energy(motion_.body.laws, mass()));
     follow_stiffness();
   }
 
   /// Rigorous: strains may be large, and an eigenvalue measured at rest says nothing of them.
   double critical_now() const {
-    return critical_step(stiffness_bound(system_.points, system_.laws, motion_.scratch), mass_);
+    return critical_step(stiffness_bound(motion_.body.points, motion_.body.laws, motion_.scratch), mass());
   }
 
   /// Takes a step of at most h that divides the time left; the last increment is scaled so that the velocity stays.
   void set_step(double most) {
-    const double left = system_.curve.duration() - motion_.time;
+    const double left = course_.curve.duration() - motion_.time;
     const double h = left / std::ceil(left / most);
     const double ratio = step_ > 0 ? h / step_ : 1;
     for (std::size_t i = 0; i < motion_.now.size(); ++i) {
@@ -101,7 +98,7 @@ class Transient {
     }
     step_ = h;
     laws_.prony.clear();
-    for (const std::vector<PronyTerm>& terms : prony_) {
+    for (const std::vector<PronyTerm>& terms : motion_.body.prony) {
       laws_.prony.emplace_back(terms, h);
     }
   }
@@ -111,7 +108,7 @@ class Transient {
     const double h = step_before_ > 0 ? (step_before_ + step_) / 2 : step_;
     const double ch = options_.damping * h;
     const double time = motion_.time + step_;
-    motion_.step(laws_, mass_, 2 * h * step_ / (2 + ch), (2 - ch) / (2 + ch), time, system_.curve.at(time));
+    motion_.step(laws_, mass(), 2 * h * step_ / (2 + ch), (2 - ch) / (2 + ch), time, course_.curve.at(time));
     step_before_ = step_;
     if (options_.time_step == 0 && jacobian_range(motion_.scratch).least_ratio < least_ratio) {
       set_step(step_ / 2);
@@ -119,7 +116,7 @@ class Transient {
   }
 
   void look() {
-    if (motion_.look(laws_, mass_, most_imbalance_)) {
+    if (motion_.look(laws_, mass(), most_imbalance_)) {
       follow_stiffness();
     }
   }
@@ -128,16 +125,16 @@ class Transient {
     std::int32_t stiffest = 0;
     for (std::size_t a = 0; a < bound.size(); ++a) {
       const auto s = static_cast<std::size_t>(stiffest);
-      stiffest = bound[a] * mass_[s] > bound[s] * mass_[a] ? static_cast<std::int32_t>(a) : stiffest;
+      stiffest = bound[a] * mass()[s] > bound[s] * mass()[a] ? static_cast<std::int32_t>(a) : stiffest;
     }
     return stiffest;
   }
 
   void follow_stiffness() {
-    const std::vector<double> bound = stiffness_bound(system_.points, system_.laws, motion_.scratch);
-    const double critical = critical_step(bound, mass_);
+    const std::vector<double> bound = stiffness_bound(motion_.body.points, motion_.body.laws, motion_.scratch);
+    const double critical = critical_step(bound, mass());
     const bool given = options_.time_step > 0, softer = 2 * step_ < safety_ * critical;
-    if (motion_.time >= system_.curve.duration() - step_ / 2 || (step_ <= critical && (given || !softer))) {
+    if (motion_.time >= course_.curve.duration() - step_ / 2 || (step_ <= critical && (given || !softer))) {
       return;
     }
     if (given) {
@@ -152,13 +149,11 @@ class Transient {
     set_step(std::min(safety_ * critical, 2 * step_));
   }
 
-  const System& system_;
-  PointLaws laws_;  ///< with the Prony factors of the step
-  const std::vector<std::vector<PronyTerm>>& prony_;
-  const std::vector<double>& mass_;
+  const Course& course_;
   const SolveOptions& options_;
-  Motion motion_;  // its time is in seconds
-  double safety_;  // of the critical step
+  Motion motion_;   // its time is in seconds
+  PointLaws laws_;  // with the Prony factors of the step
+  double safety_;   // of the critical step
   double most_imbalance_;
   double step_ = 0;  // s
   double step_before_ = 0;
@@ -166,12 +161,11 @@ class Transient {
 
 }  // namespace
 
-SteppingResult march(const System& system, const std::vector<std::vector<PronyTerm>>& prony,
-                     const std::vector<double>& mass, const SolveOptions& options, const Progress& progress) {
+SteppingResult march(Body body, const Course& course, const SolveOptions& options, const Progress& progress) {
   constexpr double safety = 0.9;
-  SteppingResult result = Transient(system, prony, mass, options, safety).run(progress);
-  if (result.unstable && options.time_step == 0 && system.dissection == nullptr) {
-    result = Transient(system, prony, mass, options, safety / 2).run(progress);
+  SteppingResult result = Transient(std::move(body), course, options, safety).run(progress);
+  if (result.unstable && options.time_step == 0 && !course.change) {
+    result = Transient(std::move(result.body), course, options, safety / 2).run(progress);
     if (result.unstable) {
       result.failure = "tried twice, the second time with half the step: " + result.failure;
     }

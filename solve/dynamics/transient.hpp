@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "segmentation/progress.hpp"
-#include "solve/dynamics/system.hpp"
+#include "segmentation/progress/progress.hpp"
+#include "solve/dynamics/stepping.hpp"
+#include "solve/interface/options.hpp"
 
 namespace brainshift::solve {
 
@@ -11,11 +12,10 @@ namespace brainshift::solve {
 ///   û⁺ = û + β(û − û⁻) + α M⁻¹(f_ext − f_int),  α = 2h²/(2 + ch), β = (2 − ch)/(2 + ch),
 /// then contact, then the essential conditions; c = options.damping. The step h is options.time_step or, when that is
 /// 0, nine tenths of the critical step (critical_step()), which follows the stiffness reached and the fastest loss of
-/// volume at a point. prony: one list a row of the material table, none where nothing relaxes. Throws
-/// std::invalid_argument when options.time_step is above the critical step; fails, keeping what it has, when the body
-/// stiffens past it later. A run that turns unstable (points inside out, displacements that are not finite, energies
-/// that do not balance) ends with its last good state; when the step is the solver's it is tried once more with half.
-SteppingResult march(const System& system, const std::vector<std::vector<PronyTerm>>& prony,
-                     const std::vector<double>& mass, const SolveOptions& options, const Progress& progress);
+/// volume at a point. Throws std::invalid_argument when options.time_step is above the critical step; fails, keeping
+/// what it has, when the body stiffens past it later. A run that turns unstable (points inside out, displacements that
+/// are not finite, energies that do not balance) ends with its last good state; when the step is the solver's it is
+/// tried once more with half.
+SteppingResult march(Body body, const Course& course, const SolveOptions& options, const Progress& progress);
 
 }  // namespace brainshift::solve

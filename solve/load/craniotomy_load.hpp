@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <filesystem>
 
-#include "discretise/node_cloud.hpp"
-#include "segmentation/surface/surface.hpp"
+#include "discretise/interface/node_cloud.hpp"
+#include "segmentation/geometry/surface.hpp"
 
 namespace brainshift::solve {
 

@@ -2,12 +2,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "solve/boundary/triangle_distance.hpp"
+#include "segmentation/geometry/surface_tree.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::solve {
@@ -23,45 +22,6 @@ void check(const Surface& brain, const SimulatedCraniotomy& opening) {
   if (brain.triangles.rows() == 0) {
     throw std::invalid_argument("craniotomy: the brain's surface has no triangle");
   }
-}
-
-struct Place {
-  Eigen::Vector3d position;
-  Eigen::Index triangle;
-};
-
-Place nearest_place(const Surface& brain, const Eigen::Vector3d& wanted) {
-  Place nearest{Eigen::Vector3d::Zero(), -1};
-  double least = std::numeric_limits<double>::infinity();
-  for (Eigen::Index t = 0; t < brain.triangles.rows(); ++t) {
-    const auto corner = brain.triangles.row(t);
-    const Eigen::Vector3d a = brain.vertices.row(corner[0]);
-    const TriangleFrame frame{a, brain.vertices.row(corner[1]).transpose() - a,
-                              brain.vertices.row(corner[2]).transpose() - a};
-    const Eigen::Vector3d position = nearest_on_triangle(frame, wanted).point;
-    const double squared = (position - wanted).squaredNorm();
-    if (squared < least) {
-      least = squared;
-      nearest = {position, t};
-    }
-  }
-  if (nearest.triangle < 0) {
-    throw std::invalid_argument("craniotomy: the brain's surface has a vertex that is not finite");
-  }
-  return nearest;
-}
-
-/// Normals at the vertices, weighted by area (not of unit length).
-Points vertex_normals(const Surface& brain) {
-  Points normals = Points::Zero(brain.vertices.rows(), 3);
-  for (const auto& corner : brain.triangles.rowwise()) {
-    const Eigen::RowVector3d a = brain.vertices.row(corner[0]);
-    const Eigen::RowVector3d area = (brain.vertices.row(corner[1]) - a).cross(brain.vertices.row(corner[2]) - a);
-    for (const std::int32_t v : corner) {
-      normals.row(v) += area;
-    }
-  }
-  return normals;
 }
 
 /// The vertices that belong, in rising order, of the piece of surface about the start that hangs together.
@@ -104,7 +64,7 @@ double sunk(double depth, double radius_share) {
 
 CraniotomyLoad simulated_craniotomy(const Surface& brain, const SimulatedCraniotomy& opening) {
   check(brain, opening);
-  const Place centre = nearest_place(brain, opening.centre);
+  const SurfacePlace centre = SurfaceTree(brain).nearest(opening.centre);
   const Points normals = vertex_normals(brain);
   const auto offset = [&](Eigen::Index v) -> Eigen::Vector3d {
     return brain.vertices.row(v).transpose() - centre.position;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "segmentation/geometry/surface_tree.hpp"
 #include "solve/load/craniotomy_load.hpp"
-#include "solve/load/surface_tree.hpp"
 
 namespace brainshift::solve {
 namespace {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "solve/material/ogden.hpp"
+#include "solve/material/own_law.hpp"
 
 namespace brainshift::solve {
 
@@ -50,10 +51,19 @@ void check_prony(const std::string& name, const Material& material) {
           "; the sum must be below 1, or nothing would hold the tissue in the end");
 }
 
+void check_own(const std::string& name, const Material& material) {
+  require(material.own && material.own->energy && material.own->stress, name,
+          " follows a law of its own but does not bring its energy and stress");
+  require(is_positive(material.own->shear_modulus), name,
+          " has a law of its own with mu = ", material.own->shear_modulus, " Pa; it must be positive");
+}
+
 }  // namespace
 
 void check_material(const std::string& name, const Material& material) {
-  if (material.law == Law::ogden) {
+  if (material.law == Law::own) {
+    check_own(name, material);
+  } else if (material.law == Law::ogden) {
     check_ogden(name, material);
   } else {
     require(is_positive(material.youngs_modulus), name, " has E = ", material.youngs_modulus,

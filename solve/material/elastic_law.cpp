@@ -15,6 +15,8 @@ ElasticLaw elastic_law(const Material& material) {
       return SaintVenantKirchhoff(material);
     case Law::linear_elastic:
       return LinearElastic(material);
+    case Law::own:
+      return OwnLaw(material);
   }
   throw std::invalid_argument("the material has a law that does not exist");
 }

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/material/material.hpp"
 
+#include "solve/material/own_law.hpp"
+
 namespace brainshift::solve {
 
 double shear_modulus(const Material& material) {
+  if (material.law == Law::own) {
+    return material.own->shear_modulus;
+  }
   if (material.law != Law::ogden) {
     return material.youngs_modulus / (2 * (1 + material.poisson_ratio));
   }
@@ -19,6 +24,16 @@ double bulk_modulus(const Material& material) {
   return 2 * shear_modulus(material) * (1 + nu) / (3 * (1 - 2 * nu));
 }
 
+namespace {
+
+OwnElasticity softened(const OwnElasticity& own, double share) {
+  return {.shear_modulus = share * own.shear_modulus,
+          .energy = [share, of = own.energy](const Deformation& d) { return share * of(d); },
+          .stress = [share, of = own.stress](const Deformation& d) { return Eigen::Matrix3d(share * of(d)); }};
+}
+
+}  // namespace
+
 Material long_term(Material material) {
   double left = 1;
   for (const PronyTerm& term : material.prony) {
@@ -30,6 +45,9 @@ Material long_term(Material material) {
   material.poisson_ratio = (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear);
   for (OgdenTerm& term : material.ogden) {
     term.shear_modulus *= left;
+  }
+  if (material.own) {
+    material.own = std::make_shared<const OwnElasticity>(softened(*material.own, left));
   }
   material.prony.clear();
   return material;

@@ -2,11 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace brainshift::solve {
 
-enum class Law : std::uint8_t { neo_hookean, ogden, saint_venant_kirchhoff, linear_elastic };
+enum class Law : std::uint8_t {
+  neo_hookean,
+  ogden,
+  saint_venant_kirchhoff,
+  linear_elastic,
+  own,  ///< Material::own
+};
 
 struct OgdenTerm {
   double shear_modulus;  ///< µ_k, Pa, of either sign
@@ -18,15 +25,18 @@ struct PronyTerm {
   double time;   ///< τ_i > 0, s
 };
 
+struct OwnElasticity;
+
 /// A tissue as the user describes it. check_material says what is allowed, named_materials has some from the
 /// literature.
 struct Material {
-  double youngs_modulus = 3000;  ///< E at rest, Pa; the law ogden takes its terms instead
+  double youngs_modulus = 3000;  ///< E at rest, Pa; the laws ogden and own say their shear modulus instead
   double poisson_ratio = 0.49;   ///< ν at rest
   double density = 1000;         ///< kg/m³
   Law law = Law::neo_hookean;
-  std::vector<OgdenTerm> ogden = {};  ///< of the law ogden only
-  std::vector<PronyTerm> prony = {};  ///< how the isochoric part relaxes; none: it does not
+  std::vector<OgdenTerm> ogden = {};              ///< of the law ogden only
+  std::vector<PronyTerm> prony = {};              ///< how the isochoric part relaxes; none: it does not
+  std::shared_ptr<const OwnElasticity> own = {};  ///< of the law own only
 };
 
 /// µ at rest, Pa, before anything relaxes: E / 2(1 + ν), of Ogden's law Σ µ_k.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/gauss_points.hpp"
 #include "solve/quadrature/merge_slivers.hpp"
 #include "solve/quadrature/split_cell.hpp"
@@ -21,7 +22,7 @@ WeightedPoint one_point(CellKind kind, const Corners& corners) {
 }
 
 /// A cell or a part of one, with its points.
-struct Region {
+struct CellPart {
   std::int32_t cell;
   Corners corners;              ///< none: the inside part of an octant, which is not split
   double fraction;              ///< of its volume that is inside
@@ -31,12 +32,12 @@ struct Region {
 
 /// Regions that were split equally often.
 struct Level {
-  std::vector<Region> regions;
+  std::vector<CellPart> regions;
   std::vector<WeightedPoint> points;
   std::vector<double> full;  ///< volume that each point would have if its cell were not cut
   ShapeRows rows;            ///< one a point
 
-  void add(Region region, const WeightedPoint& point, double volume) {
+  void add(CellPart region, const WeightedPoint& point, double volume) {
     region.first = points.size();
     points.push_back(point);
     full.push_back(volume);
@@ -44,7 +45,7 @@ struct Level {
     regions.push_back(region);
   }
 
-  void add(Region region, CellKind kind, int count) {
+  void add(CellPart region, CellKind kind, int count) {
     region.first = points.size();
     gauss_points(kind, region.corners, count, points);
     region.last = points.size();
@@ -67,7 +68,7 @@ struct Level {
 Level whole_cells(const BackgroundCells& cells, std::size_t from, std::size_t to, int count) {
   Level level;
   for (std::size_t cell = from; cell < to; ++cell) {
-    Region region{static_cast<std::int32_t>(cell), corners_of(cells, cell), cells.inside_fraction[cell]};
+    CellPart region{static_cast<std::int32_t>(cell), corners_of(cells, cell), cells.inside_fraction[cell]};
     region.cut = cells.cut_index.empty() ? -1 : cells.cut_index[cell];
     if (region.cut >= 0) {
       level.add(region, inside_point(cells.cut_parts[static_cast<std::size_t>(region.cut)]), 0);
@@ -78,7 +79,7 @@ Level whole_cells(const BackgroundCells& cells, std::size_t from, std::size_t to
   return level;
 }
 
-void append_parts(const BackgroundCells& cells, const Region& region, int count, Level& out) {
+void append_parts(const BackgroundCells& cells, const CellPart& region, int count, Level& out) {
   constexpr double nearly_whole = 1 - 1e-6;
   int octant = 0;
   for (const Corners& corners : split_cell(cells.kind, region.corners)) {
@@ -102,7 +103,7 @@ class Integral {
  public:
   explicit Integral(std::size_t nodes) : sum_(Points::Zero(static_cast<Eigen::Index>(nodes), 3)) {}
 
-  void add(const Level& level, const Region& region, double sign) {
+  void add(const Level& level, const CellPart& region, double sign) {
     const ShapeRows& rows = level.rows;
     for (std::size_t i = region.first; i < region.last; ++i) {
       for (auto k = static_cast<std::size_t>(rows.begin[i]); k < static_cast<std::size_t>(rows.begin[i + 1]); ++k) {
@@ -210,10 +211,10 @@ struct Refined {
 /// Keeps the parts that are good enough, or that are not split again; the others are the next level's regions.
 void keep_parts(const std::vector<std::uint8_t>& good, std::span<const std::size_t> begin, bool deepest, Level& parts,
                 Refined& out) {
-  std::vector<Region> unfinished;
+  std::vector<CellPart> unfinished;
   for (std::size_t i = 0; i < good.size(); ++i) {
     for (std::size_t part = begin[i]; part < begin[i + 1]; ++part) {
-      const Region& region = parts.regions[part];
+      const CellPart& region = parts.regions[part];
       if (good[i] == 0 && !deepest && region.corners.rows() > 0) {
         unfinished.push_back(region);
         continue;
@@ -237,7 +238,7 @@ Refined refine(const BackgroundCells& cells, std::size_t from, std::size_t to, c
     const Level& whole = refined.levels.back();
     Level parts;
     std::vector<std::size_t> begin = {0};
-    for (const Region& region : whole.regions) {
+    for (const CellPart& region : whole.regions) {
       append_parts(cells, region, rule.points_per_part, parts);
       begin.push_back(parts.regions.size());
     }

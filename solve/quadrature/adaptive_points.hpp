@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/shape/shape_functions.hpp"
 

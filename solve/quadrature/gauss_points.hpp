@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "discretise/background_cells.hpp"
+#include "discretise/interface/background_cells.hpp"
 
 namespace brainshift::solve {
 

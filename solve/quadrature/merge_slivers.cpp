@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "discretise/neighbours/point_tree.hpp"
+#include "segmentation/geometry/point_tree.hpp"
 
 namespace brainshift::solve {
 

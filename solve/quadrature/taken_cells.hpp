@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "discretise/background_cells.hpp"
+#include "discretise/interface/background_cells.hpp"
 
 namespace brainshift::solve {
 

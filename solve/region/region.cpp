@@ -2,22 +2,24 @@
 #include "solve/region/region.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <sstream>
 #include <stdexcept>
 
-#include "solve/prepare.hpp"
+#include "segmentation/progress/stopwatch.hpp"
+#include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/gauss_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/quadrature/taken_cells.hpp"
-#include "solve/region/coarse.hpp"
+#include "solve/run/coarse.hpp"
+#include "solve/run/step.hpp"
+#include "solve/run/whole_body.hpp"
+#include "solve/shape/node_supports.hpp"
+#include "solve/shape/shape_functions.hpp"
 #include "solve/shape/support_search.hpp"
 
 namespace brainshift::solve {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// A cell is in the region when a node nearer to its centre than this share of the node's support radius moves enough.
 constexpr double margin = 1;
@@ -29,15 +31,11 @@ constexpr double next_to_rim = 2;
 /// may be a little more wrong than where that can be seen.
 constexpr double trusted = 0.75;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 void check(const Model& model, const SolveOptions& options) {
   const std::pair<bool, const char*> refused[] = {
       {options.dynamics == Dynamics::transient, "transient dynamics: waves run through the whole body"},
       {!model.gravity.isZero(), "gravity: it moves the whole body"},
-      {model.cloud.force.rows() > 0 || model.body_force, "forces: take prescribed displacements alone"},
+      {model.conditions.force.rows() > 0 || model.body_force, "forces: take prescribed displacements alone"},
       {options.integration_tolerance > 0, "adaptive integration"},
       {!model.cuts.empty() || model.rupture, "cuts or rupture"},
       {model.resection.has_value(), "a resection: the rest of the body relaxes"},
@@ -78,7 +76,8 @@ std::vector<std::uint8_t> seen_by(const BackgroundCells& cells, const SolveOptio
                                   const ShapeFunctions& shape) {
   std::vector<std::uint8_t> seen(shape.nodes(), 0);
   if (cells.size() > 0) {
-    const IntegrationPoints points = integration_points(cells, options.points_per_cell, nullptr, {});
+    const IntegrationPoints points =
+        integration_points(cells, points_per_cell(options.points_per_cell, cells.kind, false), nullptr, {});
     for (const std::int32_t a : shape.evaluate(points.positions, false).node) {
       seen[static_cast<std::size_t>(a)] = 1;
     }
@@ -88,11 +87,7 @@ std::vector<std::uint8_t> seen_by(const BackgroundCells& cells, const SolveOptio
 
 Region choose(const Model& model, const SolveOptions& options, const Eigen::VectorXd& moved) {
   const NodeCloud& cloud = model.cloud;
-  std::vector<double> radius = cloud.spacing;
-  for (double& r : radius) {
-    r *= dilatation(options.shape);
-  }
-  const SupportSearch search(cloud.positions, radius);
+  const SupportSearch search(cloud.positions, support_radii(cloud.spacing, options.shape));
   const std::vector<std::uint8_t> moving = moving_cells(model.cells, search, moved, options.region);
   const ShapeFunctions shape(cloud.positions, cloud.spacing, options.shape);
   Region region;
@@ -112,10 +107,11 @@ Region choose(const Model& model, const SolveOptions& options, const Eigen::Vect
 Model part_of(const Model& model, const Region& region, const Points& coarse) {
   Model part = model;
   part.cloud = subset(model.cloud, region.nodes);
+  part.conditions = subset(model.conditions, region.nodes);
   part.cells = region.cells;
   for (std::size_t i = 0; i < region.nodes.size(); ++i) {
     if (region.rim[i] != 0) {
-      part.cloud.prescribed_displacement.row(static_cast<Eigen::Index>(i)) = coarse.row(region.nodes[i]);
+      part.conditions.displacement.row(static_cast<Eigen::Index>(i)) = coarse.row(region.nodes[i]);
       part.cloud.on_surface[i] = 1;  // forces act there
     }
   }
@@ -147,8 +143,7 @@ SolveResult on_whole_cloud(const Model& model, const Region& region, const Point
   }
   whole.measures.nodes = model.cloud.size();
   whole.measures.region_nodes = region.nodes.size();
-  whole.measures.loaded_nodes =
-      static_cast<std::size_t>((model.cloud.prescribed_displacement.array().isNaN().rowwise().count() < 3).count());
+  whole.measures.loaded_nodes = count_loaded(model.conditions);
   whole.measures.largest_displacement = solution.displacement.rowwise().norm().maxCoeff();
   return whole;
 }
@@ -167,7 +162,7 @@ double error_next_to_rim(const Region& region, const Points& displacement, const
 
 SolveResult solve_whole(const Model& model, SolveOptions options, double seconds_coarse, const Progress& progress) {
   options.region = 0;
-  SolveResult result = solve(model, options, progress);
+  SolveResult result = solve_whole_body(model, options, progress);
   result.measures.region_nodes = model.cloud.size();
   result.measures.seconds_coarse += seconds_coarse;
   return result;
@@ -178,14 +173,14 @@ SolveResult solve_whole(const Model& model, SolveOptions options, double seconds
 SolveResult solve_region(const Model& model, const SolveOptions& given, const Progress& progress) {
   check(model, given);
   const SolveOptions options = completed(given, model);
-  const auto start = Clock::now();
+  const Stopwatch start;
   report(progress, 0, "solving a coarse cloud");
   const std::optional<Points> coarse = coarse_displacement(model, options, {});
-  const double seconds_coarse = seconds_since(start);
+  const double seconds_coarse = start.seconds();
   if (!coarse) {
     return solve_whole(model, given, seconds_coarse, progress);
   }
-  const auto setup = Clock::now();
+  const Stopwatch setup;
   const Eigen::VectorXd moved = coarse->rowwise().norm();
   const Region region = choose(model, options, moved);
   if (moved.maxCoeff() <= options.region || region.is_all_rim()) {
@@ -202,11 +197,11 @@ SolveResult solve_region(const Model& model, const SolveOptions& given, const Pr
   SolveMeasures measures;
   measures.seconds_coarse = seconds_coarse;
   Prepared prepared = prepare(part, options, region.rim, measures, progress);
-  measures.seconds_setup = seconds_since(setup);
-  SolveResult solved = step(part, options, std::move(prepared), measures, progress);
+  measures.seconds_setup = setup.seconds();
+  SolveResult solved = step_to_end(part, options, std::move(prepared), measures, {}, progress);
   solved.measures.coarse_error = error_next_to_rim(region, solved.solution.displacement, *coarse, options.region);
   if (solved.measures.coarse_error > trusted * options.region) {
-    return solve_whole(model, given, seconds_since(start), progress);
+    return solve_whole(model, given, start.seconds(), progress);
   }
   return on_whole_cloud(model, region, *coarse, std::move(solved));
 }

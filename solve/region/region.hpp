@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "solve/solve.hpp"
+#include "segmentation/progress/progress.hpp"
+#include "solve/interface/model.hpp"
+#include "solve/interface/options.hpp"
+#include "solve/interface/result.hpp"
 
 namespace brainshift::solve {
 
@@ -15,7 +18,8 @@ namespace brainshift::solve {
 /// The result covers the whole cloud; reaction forces are those of the region's loaded nodes, 0 elsewhere. Energies in
 /// the history are the region's, with the work done at its rim. Where everything is kept, where the body is too small
 /// for a coarse cloud, or where the coarse solution proves wrong by more than three quarters of options.region next to
-/// the rim, it is solve() of the whole body. Throws std::invalid_argument as solve() does, when nothing moves by more
+/// the rim, it is
+/// solve_whole_body(). Throws std::invalid_argument as solve() does, when nothing moves by more
 /// than the region, and with what it does not go with: transient dynamics, gravity, forces, adaptive integration and
 /// planes.
 SolveResult solve_region(const Model& model, const SolveOptions& options, const Progress& progress);

@@ -160,7 +160,7 @@ class FitResidual {
   std::span<const std::int32_t> points_;
   std::vector<Eigen::RowVector3d> centre_;  ///< of each point's support, from the same mean
   std::vector<Eigen::Matrix3d> inverse_;
-  std::vector<Coefficients> fitted_;  ///< at each point: value at the mean, and slopes
+  std::vector<Coefficients> fitted_;  ///< at each point: value at the mean, and gradients
   std::vector<Coefficients> moment_;  ///< of each node: λ and X ⊗ λ
   std::vector<double> weight_;        ///< of each node: the volume that sees it
   std::vector<std::int64_t> node_begin_;

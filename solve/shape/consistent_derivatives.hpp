@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/points.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::solve {

@@ -12,7 +12,7 @@ namespace {
 /// rotation of the frame turns the quadratic ones among themselves, so neither the penalty nor what counts as
 /// admissible depends on the frame.
 template <int dimensions, int order>
-BRAINSHIFT_INLINE void monomials(const Sight& s, const Lane& inverse_length,
+BRAINSHIFT_INLINE void monomials(const Neighbour& s, const Lane& inverse_length,
                                  Lane (&p)[monomial_count(dimensions, order)]) {
   p[0] = Lane{} + 1;
   BRAINSHIFT_UNROLL
@@ -35,29 +35,29 @@ BRAINSHIFT_INLINE void monomials(const Sight& s, const Lane& inverse_length,
   }
 }
 
-struct Weighed {
+struct WeightSums {
   Lane total{}, radii{};  ///< Σ w, Σ w r
   Mask count{};
 };
 
 /// 0 where the mask is: spares the compiler a choice, which it makes lane by lane.
-BRAINSHIFT_INLINE void keep(const Mask& mask, Lane& lane) {
+BRAINSHIFT_INLINE void zero_outside(const Mask& mask, Lane& lane) {
   lane = (Lane)((Mask)lane & mask);
 }
 
 /// Quartic spline weights 1 − 6d² + 8d³ − 3d⁴ on d = distance / radius, and the largest radius.
-BRAINSHIFT_INLINE Weighed weigh(std::span<Sight> sights, Lane& length) {
-  Weighed sum;
+BRAINSHIFT_INLINE WeightSums weigh_neighbours(std::span<Neighbour> neighbours, Lane& length) {
+  WeightSums sum;
   length = Lane{};
-  for (Sight& s : sights) {
+  for (Neighbour& s : neighbours) {
     const Mask seen = s.distance < s.radius;
     const Lane d = s.distance * (1 / s.radius);
     s.weight = 1 + d * d * (-6 + d * (8 - 3 * d));
-    s.steepness = (-12 + d * (24 - 12 * d)) * (1 / (s.radius * s.radius));
-    keep(seen, s.weight);
-    keep(seen, s.steepness);
+    s.weight_slope = (-12 + d * (24 - 12 * d)) * (1 / (s.radius * s.radius));
+    zero_outside(seen, s.weight);
+    zero_outside(seen, s.weight_slope);
     Lane longer = s.radius - length;
-    keep(seen & (longer > 0), longer);
+    zero_outside(seen & (longer > 0), longer);
     length += longer;
     sum.total += s.weight;
     sum.radii += s.weight * s.radius;
@@ -160,9 +160,9 @@ BRAINSHIFT_INLINE void factorise(const FitOptions& options, const Lane& total, c
 
 /// Rows from..to of the moment matrix: few enough at a time that the sums stay in registers.
 template <int dimensions, int order, int from, int to>
-BRAINSHIFT_INLINE void add_up_moments(std::span<const Sight> sights, const Lane& inverse_length, Fit& fit) {
+BRAINSHIFT_INLINE void add_up_moments(std::span<const Neighbour> neighbours, const Lane& inverse_length, Fit& fit) {
   Lane sum[to - from][to] = {}, p[monomial_count(dimensions, order)];
-  for (const Sight& s : sights) {
+  for (const Neighbour& s : neighbours) {
     monomials<dimensions, order>(s, inverse_length, p);
     BRAINSHIFT_UNROLL
     for (int i = from; i < to; ++i) {
@@ -183,16 +183,16 @@ BRAINSHIFT_INLINE void add_up_moments(std::span<const Sight> sights, const Lane&
 }
 
 template <int dimensions, int order>
-BRAINSHIFT_INLINE void fit_as(std::span<Sight> sights, const FitOptions& options, Fit& fit) {
+BRAINSHIFT_INLINE void fit_as(std::span<Neighbour> neighbours, const FitOptions& options, Fit& fit) {
   constexpr int m = monomial_count(dimensions, order);
-  const Weighed sum = weigh(sights, fit.length);
+  const WeightSums sum = weigh_neighbours(neighbours, fit.length);
   const Lane inverse_length = 1 / fit.length;
   if constexpr (m == 10) {
-    add_up_moments<dimensions, order, 0, 6>(sights, inverse_length, fit);
-    add_up_moments<dimensions, order, 6, 8>(sights, inverse_length, fit);
-    add_up_moments<dimensions, order, 8, 10>(sights, inverse_length, fit);
+    add_up_moments<dimensions, order, 0, 6>(neighbours, inverse_length, fit);
+    add_up_moments<dimensions, order, 6, 8>(neighbours, inverse_length, fit);
+    add_up_moments<dimensions, order, 8, 10>(neighbours, inverse_length, fit);
   } else {
-    add_up_moments<dimensions, order, 0, m>(sights, inverse_length, fit);
+    add_up_moments<dimensions, order, 0, m>(neighbours, inverse_length, fit);
   }
   Lane p[m];
   fit.count = sum.count;
@@ -205,7 +205,7 @@ BRAINSHIFT_INLINE void fit_as(std::span<Sight> sights, const FitOptions& options
   for (int i = 0; i < m; ++i) {
     fit.coefficient[i] = c[i];
   }
-  for (Sight& s : sights) {
+  for (Neighbour& s : neighbours) {
     monomials<dimensions, order>(s, inverse_length, p);
     Lane dot{};
     BRAINSHIFT_UNROLL
@@ -217,8 +217,9 @@ BRAINSHIFT_INLINE void fit_as(std::span<Sight> sights, const FitOptions& options
 }
 
 template <int dimensions, int order>
-BRAINSHIFT_INLINE void differentiate_as(std::span<const Sight> sights, std::span<const Pull> pulls, Derivatives kind,
-                                        const Fit& fit, Slope* out) {
+BRAINSHIFT_INLINE void differentiate_as(std::span<const Neighbour> neighbours,
+                                        std::span<const DistanceGradient> distance_gradients, Derivatives kind,
+                                        const Fit& fit, ShapeGradient* out) {
   constexpr int m = monomial_count(dimensions, order);
   const Lane inverse_length = 1 / fit.length;
   Lane right[dimensions][m] = {}, p[m];
@@ -226,24 +227,24 @@ BRAINSHIFT_INLINE void differentiate_as(std::span<const Sight> sights, std::span
   for (int axis = 0; axis < dimensions; ++axis) {
     right[axis][1 + axis] = inverse_length;
   }
-  for (std::size_t a = 0; a < sights.size(); ++a) {
+  for (std::size_t a = 0; a < neighbours.size(); ++a) {
     for (Lane& axis : out[a].axis) {
       axis = Lane{};
     }
     if (kind == Derivatives::diffuse) {
       continue;
     }
-    const Sight& s = sights[a];
+    const Neighbour& s = neighbours[a];
     monomials<dimensions, order>(s, inverse_length, p);
     Lane dot{};
     BRAINSHIFT_UNROLL
     for (int i = 0; i < m; ++i) {
       dot += fit.coefficient[i] * p[i];
     }
-    const Lane* pull = pulls.empty() ? s.away : pulls[a].axis;
+    const Lane* pull = distance_gradients.empty() ? s.away : distance_gradients[a].axis;
     BRAINSHIFT_UNROLL
     for (int axis = 0; axis < dimensions; ++axis) {
-      const Lane slope = -s.steepness * pull[axis] * dot;  // of the weight alone
+      const Lane slope = -s.weight_slope * pull[axis] * dot;  // of the weight alone
       out[a].axis[axis] = slope;
       BRAINSHIFT_UNROLL
       for (int i = 0; i < m; ++i) {
@@ -255,8 +256,8 @@ BRAINSHIFT_INLINE void differentiate_as(std::span<const Sight> sights, std::span
   for (int axis = 0; axis < dimensions; ++axis) {
     solve<m>(fit.factor, right[axis]);
   }
-  for (std::size_t a = 0; a < sights.size(); ++a) {
-    monomials<dimensions, order>(sights[a], inverse_length, p);
+  for (std::size_t a = 0; a < neighbours.size(); ++a) {
+    monomials<dimensions, order>(neighbours[a], inverse_length, p);
     BRAINSHIFT_UNROLL
     for (int axis = 0; axis < dimensions; ++axis) {
       Lane dot{};
@@ -264,7 +265,7 @@ BRAINSHIFT_INLINE void differentiate_as(std::span<const Sight> sights, std::span
       for (int i = 0; i < m; ++i) {
         dot += right[axis][i] * p[i];
       }
-      out[a].axis[axis] += sights[a].weight * dot;
+      out[a].axis[axis] += neighbours[a].weight * dot;
     }
   }
 }
@@ -272,7 +273,7 @@ BRAINSHIFT_INLINE void differentiate_as(std::span<const Sight> sights, std::span
 }  // namespace
 
 BRAINSHIFT_LANES
-std::size_t look(const Candidates& candidates, double scale, const Places& places, Sight* out) {
+std::size_t find_neighbours(const Candidates& candidates, double scale, const PointLanes& places, Neighbour* out) {
   const auto& [centre, extent] = places.ball;
   std::size_t count = 0;
   for (std::size_t c = 0; c < candidates.node.size(); ++c) {
@@ -281,7 +282,7 @@ std::size_t look(const Candidates& candidates, double scale, const Places& place
     if (x * x + y * y + z * z >= reach * reach) {
       continue;
     }
-    Sight& s = out[count];  // overwritten by the next where no place sees it
+    Neighbour& s = out[count];  // overwritten by the next where no place sees it
     s.node = candidates.node[c];
     s.radius = radius;
     s.away[0] = candidates.x[c] - places.at[0];
@@ -298,32 +299,32 @@ std::size_t look(const Candidates& candidates, double scale, const Places& place
 }
 
 BRAINSHIFT_LANES
-void fit_shape(std::span<Sight> sights, const FitOptions& options, Fit& fit) {
+void fit_shape(std::span<Neighbour> neighbours, const FitOptions& options, Fit& fit) {
   if (options.dimensions == 2) {
-    options.order == 1 ? fit_as<2, 1>(sights, options, fit) : fit_as<2, 2>(sights, options, fit);
+    options.order == 1 ? fit_as<2, 1>(neighbours, options, fit) : fit_as<2, 2>(neighbours, options, fit);
   } else {
-    options.order == 1 ? fit_as<3, 1>(sights, options, fit) : fit_as<3, 2>(sights, options, fit);
+    options.order == 1 ? fit_as<3, 1>(neighbours, options, fit) : fit_as<3, 2>(neighbours, options, fit);
   }
 }
 
 BRAINSHIFT_LANES
-void differentiate(std::span<const Sight> sights, std::span<const Pull> pulls, const FitOptions& options,
-                   Derivatives kind, const Fit& fit, Slope* out) {
+void differentiate(std::span<const Neighbour> neighbours, std::span<const DistanceGradient> distance_gradients,
+                   const FitOptions& options, Derivatives kind, const Fit& fit, ShapeGradient* out) {
   if (options.dimensions == 2) {
-    options.order == 1 ? differentiate_as<2, 1>(sights, pulls, kind, fit, out)
-                       : differentiate_as<2, 2>(sights, pulls, kind, fit, out);
+    options.order == 1 ? differentiate_as<2, 1>(neighbours, distance_gradients, kind, fit, out)
+                       : differentiate_as<2, 2>(neighbours, distance_gradients, kind, fit, out);
   } else {
-    options.order == 1 ? differentiate_as<3, 1>(sights, pulls, kind, fit, out)
-                       : differentiate_as<3, 2>(sights, pulls, kind, fit, out);
+    options.order == 1 ? differentiate_as<3, 1>(neighbours, distance_gradients, kind, fit, out)
+                       : differentiate_as<3, 2>(neighbours, distance_gradients, kind, fit, out);
   }
 }
 
 BRAINSHIFT_LANES
-void blend(std::span<const Sight> sights, const Points& values, Lane (&sum)[3]) {
+void blend(std::span<const Neighbour> neighbours, const Points& values, Lane (&sum)[3]) {
   for (Lane& s : sum) {
     s = Lane{};
   }
-  for (const Sight& s : sights) {
+  for (const Neighbour& s : neighbours) {
     const double* value = values.data() + 3 * s.node;
     BRAINSHIFT_UNROLL
     for (int axis = 0; axis < 3; ++axis) {

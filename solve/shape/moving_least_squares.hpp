@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
-#include "solve/lanes.hpp"
-#include "solve/shape/shape_options.hpp"
+#include "segmentation/geometry/points.hpp"
+#include "solve/arrays/lanes.hpp"
+#include "solve/interface/shape_options.hpp"
 
 namespace brainshift::solve {
 
@@ -23,25 +23,25 @@ struct Candidates {
 };
 
 /// A node as eight points see it, one a lane.
-struct Sight {
+struct Neighbour {
   std::int32_t node;
-  double radius;   ///< of its support, mm, as grown
-  Lane away[3];    ///< X_a − x
-  Lane distance;   ///< mm
-  Lane weight;     ///< 0 where the node is not in the point's support
-  Lane steepness;  ///< of the weight: its slope by the distance, over the distance
-  Lane value;      ///< φ_a
+  double radius;      ///< of its support, mm, as grown
+  Lane away[3];       ///< X_a − x
+  Lane distance;      ///< mm
+  Lane weight;        ///< 0 where the node is not in the point's support
+  Lane weight_slope;  ///< of the weight: its slope by the distance, over the distance
+  Lane value;         ///< φ_a
 
-  bool seen_from(int lane) const { return distance[lane] < radius; }
+  bool supports(int lane) const { return distance[lane] < radius; }
 };
 
-/// −½ ∂distance²/∂x of a Sight where a cut makes it other than `away`.
-struct Pull {
+/// −½ ∂distance²/∂x of a Neighbour where a cut makes it other than `away`.
+struct DistanceGradient {
   Lane axis[3];
 };
 
-/// ∂φ_a/∂x of a Sight, 1/mm.
-struct Slope {
+/// ∂φ_a/∂x of a Neighbour, 1/mm.
+struct ShapeGradient {
   Lane axis[3];
 };
 
@@ -52,7 +52,7 @@ struct Ball {
 };
 
 /// Eight places and a ball about them. Those that are to see nothing have an infinity.
-struct Places {
+struct PointLanes {
   Lane at[3];
   Lane unwanted;
   Ball ball;
@@ -77,19 +77,19 @@ struct Fit {
 
 /// Sights of the candidates that the places may see, in the candidates' order; out has room for all. Returns how many
 /// there are. scale: of the radii.
-std::size_t look(const Candidates& candidates, double scale, const Places& places, Sight* out);
+std::size_t find_neighbours(const Candidates& candidates, double scale, const PointLanes& places, Neighbour* out);
 
 /// (Modified) moving least squares at eight points, eqs 1-15, in local scaled coordinates ξ = (X_a − x)/r: there p(x)
 /// is the first unit vector, and the moment matrix is well conditioned in any unit and at any offset. Fills weights and
-/// values of the sights.
-void fit_shape(std::span<Sight> sights, const FitOptions& options, Fit& fit);
+/// values of the neighbours.
+void fit_shape(std::span<Neighbour> neighbours, const FitOptions& options, Fit& fit);
 
-/// Derivatives of what fit_shape() gave; in the plane those by z are 0. pulls: one a sight, or none where no cut is
-/// near.
-void differentiate(std::span<const Sight> sights, std::span<const Pull> pulls, const FitOptions& options,
-                   Derivatives kind, const Fit& fit, Slope* out);
+/// Derivatives of what fit_shape() gave; in the plane those by z are 0. distance_gradients: one a sight, or none where
+/// no cut is near.
+void differentiate(std::span<const Neighbour> neighbours, std::span<const DistanceGradient> distance_gradients,
+                   const FitOptions& options, Derivatives kind, const Fit& fit, ShapeGradient* out);
 
 /// Σ φ_a values_a of each point; values (n × 3).
-void blend(std::span<const Sight> sights, const Points& values, Lane (&sum)[3]);
+void blend(std::span<const Neighbour> neighbours, const Points& values, Lane (&sum)[3]);
 
 }  // namespace brainshift::solve

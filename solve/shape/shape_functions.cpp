@@ -8,20 +8,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "discretise/plane.hpp"
+#include "segmentation/geometry/plane.hpp"
 #include "solve/shape/evaluator.hpp"
+#include "solve/shape/too_few_nodes.hpp"
 
 namespace brainshift::solve {
-
-double dilatation(const ShapeOptions& options) {
-  if (options.dilatation > 0) {
-    return options.dilatation;
-  }
-  if (options.planar) {
-    return options.basis == Basis::linear ? 1.8 : 2.4;
-  }
-  return options.basis == Basis::linear ? 1.6 : 2.2;
-}
 
 namespace {
 
@@ -33,18 +24,18 @@ constexpr Eigen::Index none = -1;
   text << "no admissible support at the point (" << x[0] << ", " << x[1] << ", " << x[2]
        << ") mm: too few nodes near it, or all of them " << (planar ? "on one line" : "in one plane")
        << (cut ? "; a cut hides the others: move it, or give more nodes there" : "; add nodes or check their spacing");
-  throw std::invalid_argument(text.str());
+  throw TooFewNodes(text.str());
 }
 
 /// Puts points that lie together beside each other, by halves of whole groups and of as many as there are lanes.
-void gather(std::span<Place> points) {
+void gather(std::span<EvaluationPoint> points) {
   constexpr std::ptrdiff_t worth_a_task = 8192;
   const auto n = std::ssize(points);
   if (n <= lanes) {
     return;
   }
   Eigen::Vector3d low = points[0].at, high = low;
-  for (const Place& p : points) {
+  for (const EvaluationPoint& p : points) {
     low = low.cwiseMin(p.at);
     high = high.cwiseMax(p.at);
   }
@@ -52,14 +43,14 @@ void gather(std::span<Place> points) {
   (high - low).maxCoeff(&axis);
   const std::ptrdiff_t unit = n > group ? group : lanes, half = (n + unit) / (2 * unit) * unit;
   std::nth_element(points.begin(), points.begin() + half, points.end(),
-                   [axis](const Place& a, const Place& b) { return a.at[axis] < b.at[axis]; });
+                   [axis](const EvaluationPoint& a, const EvaluationPoint& b) { return a.at[axis] < b.at[axis]; });
 #pragma omp task if (n > worth_a_task)
   gather(points.first(static_cast<std::size_t>(half)));
   gather(points.subspan(static_cast<std::size_t>(half)));
 }
 
-std::vector<Place> gathered(const Points& points) {
-  std::vector<Place> places(static_cast<std::size_t>(points.rows()));
+std::vector<EvaluationPoint> gathered(const Points& points) {
+  std::vector<EvaluationPoint> places(static_cast<std::size_t>(points.rows()));
   for (std::size_t i = 0; i < places.size(); ++i) {
     places[i] = {points.row(static_cast<Eigen::Index>(i)), static_cast<std::int32_t>(i)};
   }
@@ -75,7 +66,7 @@ struct Found {
   Eigen::Index point;
 };
 
-std::vector<Found> found_points(const Mask& mask, std::span<const Place> points) {
+std::vector<Found> found_points(const Mask& mask, std::span<const EvaluationPoint> points) {
   std::vector<Found> found;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (mask[i] != 0) {
@@ -87,9 +78,9 @@ std::vector<Found> found_points(const Mask& mask, std::span<const Place> points)
 
 /// Takes a group of points. Returns one without a support, or none.
 template <class Use>
-Eigen::Index take(std::span<const Place> points, const ShapeFunctions::Impl& impl, Evaluator& evaluator,
+Eigen::Index take(std::span<const EvaluationPoint> points, const NodeSupports& supports, Evaluator& evaluator,
                   const Use& use) {
-  const Candidates near = candidates_near(impl, ball_about(points), 1);
+  const Candidates near = candidates_near(supports, ball_about(points), 1);
   for (std::size_t i = 0; i < points.size(); i += lanes) {
     const std::span eight = points.subspan(i, std::min<std::size_t>(lanes, points.size() - i));
     const int bad =
@@ -103,16 +94,16 @@ Eigen::Index take(std::span<const Place> points, const ShapeFunctions::Impl& imp
 
 /// Calls use(evaluator, found points) for all gathered points; groups of them go to whichever thread is free.
 template <class Use>
-void for_each_point(const ShapeFunctions::Impl& impl, std::span<const Place> points, const Use& use) {
+void for_each_point(const NodeSupports& supports, std::span<const EvaluationPoint> points, const Use& use) {
   std::atomic<Eigen::Index> bad = none;
 #pragma omp parallel
   {
-    Evaluator evaluator(impl);
+    Evaluator evaluator(supports);
 #pragma omp for schedule(dynamic)
     for (std::size_t i = 0; i < points.size(); i += group) {
       if (bad == none) {
         const Eigen::Index fault =
-            take(points.subspan(i, std::min<std::size_t>(group, points.size() - i)), impl, evaluator, use);
+            take(points.subspan(i, std::min<std::size_t>(group, points.size() - i)), supports, evaluator, use);
         if (fault != none) {
           bad = fault;
         }
@@ -120,19 +111,19 @@ void for_each_point(const ShapeFunctions::Impl& impl, std::span<const Place> poi
     }
   }
   if (bad != none) {
-    const auto of_it = [&](const Place& p) { return p.point == bad; };
-    throw_inadmissible(std::find_if(points.begin(), points.end(), of_it)->at, impl.options.planar,
-                       impl.visibility != nullptr);
+    const auto of_it = [&](const EvaluationPoint& p) { return p.point == bad; };
+    throw_inadmissible(std::find_if(points.begin(), points.end(), of_it)->at, supports.options.planar,
+                       supports.visibility != nullptr);
   }
 }
 
 /// Rows with room for the support of each point, and nothing in it. Counting first costs less than rows that grow, in
 /// time and in memory.
-ShapeRows empty_rows(const ShapeFunctions::Impl& impl, std::span<const Place> points, bool with_derivatives) {
+ShapeRows empty_rows(const NodeSupports& supports, std::span<const EvaluationPoint> points, bool with_derivatives) {
   ShapeRows rows;
   rows.begin.assign(points.size() + 1, 0);
   std::atomic<std::size_t> grown = 0;
-  for_each_point(impl, points, [&](const Evaluator& at, std::span<const Found> found) {
+  for_each_point(supports, points, [&](const Evaluator& at, std::span<const Found> found) {
     for (const auto& [lane, point] : found) {
       rows.begin[static_cast<std::size_t>(point) + 1] = at.support_size(lane);
     }
@@ -147,23 +138,23 @@ ShapeRows empty_rows(const ShapeFunctions::Impl& impl, std::span<const Place> po
   return rows;
 }
 
-/// slopes: one a sight, or none.
-void fill_rows(std::span<const Sight> sights, std::span<const Slope> slopes, std::span<const Found> found,
-               ShapeRows& rows) {
+/// gradients: one a sight, or none.
+void fill_rows(std::span<const Neighbour> neighbours, std::span<const ShapeGradient> gradients,
+               std::span<const Found> found, ShapeRows& rows) {
   std::array<std::size_t, lanes> next;
   for (const auto& [lane, point] : found) {
     next[static_cast<std::size_t>(lane)] = static_cast<std::size_t>(rows.begin[static_cast<std::size_t>(point)]);
   }
-  for (std::size_t a = 0; a < sights.size(); ++a) {
+  for (std::size_t a = 0; a < neighbours.size(); ++a) {
     for (const auto& [lane, point] : found) {
-      if (!sights[a].seen_from(lane)) {
+      if (!neighbours[a].supports(lane)) {
         continue;
       }
       const std::size_t k = next[static_cast<std::size_t>(lane)]++;
-      rows.node[k] = sights[a].node;
-      rows.value[k] = sights[a].value[lane];
-      for (std::size_t axis = 0; axis < 3 && !slopes.empty(); ++axis) {
-        rows.derivative[3 * k + axis] = slopes[a].axis[axis][lane];
+      rows.node[k] = neighbours[a].node;
+      rows.value[k] = neighbours[a].value[lane];
+      for (std::size_t axis = 0; axis < 3 && !gradients.empty(); ++axis) {
+        rows.derivative[3 * k + axis] = gradients[a].axis[axis][lane];
       }
     }
   }
@@ -188,29 +179,29 @@ ShapeFunctions::ShapeFunctions(const Points& positions, std::span<const double> 
                                 std::to_string(least) + " in a support; add nodes");
   }
   check_plane(positions, options, "node");
-  impl_ = std::make_shared<const Impl>(positions, spacing, options, std::move(visibility));
+  supports_ = std::make_shared<const NodeSupports>(positions, spacing, options, std::move(visibility));
 }
 
 std::size_t ShapeFunctions::nodes() const {
-  return static_cast<std::size_t>(impl_->positions.rows());
+  return static_cast<std::size_t>(supports_->positions.rows());
 }
 
 ShapeRows ShapeFunctions::evaluate(const Points& points, bool with_derivatives) const {
-  check_plane(points, impl_->options, "point");
-  const std::vector<Place> places = gathered(points);
-  ShapeRows rows = empty_rows(*impl_, places, with_derivatives);
-  for_each_point(*impl_, places, [&](Evaluator& at, std::span<const Found> found) {
-    fill_rows(at.sights(), with_derivatives ? at.slopes() : std::span<const Slope>(), found, rows);
+  check_plane(points, supports_->options, "point");
+  const std::vector<EvaluationPoint> places = gathered(points);
+  ShapeRows rows = empty_rows(*supports_, places, with_derivatives);
+  for_each_point(*supports_, places, [&](Evaluator& at, std::span<const Found> found) {
+    fill_rows(at.neighbours(), with_derivatives ? at.gradients() : std::span<const ShapeGradient>(), found, rows);
   });
   return rows;
 }
 
 Points ShapeFunctions::interpolate(const Points& points, const Points& values) const {
-  check_plane(points, impl_->options, "point");
+  check_plane(points, supports_->options, "point");
   Points result(points.rows(), 3);
-  for_each_point(*impl_, gathered(points), [&](const Evaluator& at, std::span<const Found> found) {
+  for_each_point(*supports_, gathered(points), [&](const Evaluator& at, std::span<const Found> found) {
     Lane sum[3];
-    blend(at.sights(), values, sum);
+    blend(at.neighbours(), values, sum);
     for (const auto& [lane, point] : found) {
       result.row(point) << sum[0][lane], sum[1][lane], sum[2][lane];
     }

@@ -6,27 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
-#include "solve/cut/visibility.hpp"
-#include "solve/held_bytes.hpp"
-#include "solve/shape/shape_options.hpp"
+#include "segmentation/geometry/points.hpp"
+#include "solve/interface/shape_options.hpp"
+#include "solve/shape/shape_rows.hpp"
+#include "solve/shape/visibility.hpp"
 
 namespace brainshift::solve {
 
-/// Support radius / local spacing that the options stand for: as given, else the basis's default.
-double dilatation(const ShapeOptions& options);
-
-/// Shape functions at many points, compressed rows: row i holds the support of point i.
-struct ShapeRows {
-  std::vector<std::int64_t> begin;  ///< (points + 1) offsets into the arrays below
-  std::vector<std::int32_t> node;   ///< supporting node
-  std::vector<double> value;        ///< φ_a(x_i)
-  std::vector<double> derivative;   ///< (pairs × 3) ∂φ_a/∂X_J, 1/mm; empty when not asked for
-  std::size_t grown = 0;            ///< points whose support had to be grown until it was admissible
-
-  std::size_t size() const { return begin.size() - 1; }
-  std::size_t held_bytes() const { return bytes(begin) + bytes(node) + bytes(value) + bytes(derivative); }
-};
+struct NodeSupports;
 
 /// The shape functions of a cloud: prepared once (search tree), evaluated anywhere. Cheap to copy; const calls may run
 /// on many threads.
@@ -50,10 +37,8 @@ class ShapeFunctions {
 
   std::size_t nodes() const;
 
-  struct Impl;
-
  private:
-  std::shared_ptr<const Impl> impl_;
+  std::shared_ptr<const NodeSupports> supports_;
 };
 
 /// û from u: solves Σ_b φ_b(X_a) û_b = u_a at all nodes. displacement (n × 3), mm. Afterwards

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/points.hpp"
 
 namespace brainshift::solve {
 

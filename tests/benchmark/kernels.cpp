@@ -14,17 +14,21 @@
 #include <cstring>
 #include <memory>
 
-#include "solve/prepare.hpp"
+#include "solve/force/internal_force.hpp"
+#include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
+#include "solve/run/prepare.hpp"
 #include "solve/shape/consistent_derivatives.hpp"
+#include "solve/shape/node_supports.hpp"
 #include "solve/shape/support_search.hpp"
-#include "tests/benchmark/bodies.hpp"
+#include "tests/benchmark/problems.hpp"
 
 namespace {
 
 using namespace brainshift;
 using namespace brainshift::solve;
-using bench::Body;
+using bench::bytes;
+using bench::Problem;
 using ::benchmark::State;
 
 /// Parameters of a smooth deformation of a few per cent.
@@ -49,15 +53,15 @@ struct Step {
   NodalVectors parameters, force;
   ForceScratch scratch;
 
-  explicit Step(const Body& body)
-      : prepared(prepare(body.model, body.options, {}, measures, {})),
-        parameters(bent(ordered_positions(body.model, prepared.original))),
+  explicit Step(const Problem& problem)
+      : prepared(prepare(problem.model, problem.options, {}, measures, {})),
+        parameters(bent(ordered_positions(problem.model, prepared.body.original))),
         force(parameters.size(), 0.0),
-        scratch(prepared.points, prepared.laws) {}
+        scratch(prepared.body.points, prepared.body.laws) {}
 
-  void once() { internal_force(prepared.points, prepared.laws, parameters, scratch, force); }
+  void once() { internal_force(prepared.body.points, prepared.body.laws, parameters, scratch, force); }
   double pairs() const { return static_cast<double>(measures.pairs); }
-  double bytes_read() const { return bench::bytes_read(prepared.points); }
+  double bytes_read() const { return bench::bytes_read(prepared.body.points); }
 };
 
 /// What preparing a model makes first, for the kernels of the set-up.
@@ -66,30 +70,32 @@ struct SetUp {
   ShapeOptions shape;
   IntegrationPoints points;
 
-  explicit SetUp(const Body& body) : cloud(order_nodes(body.model.cloud)), shape(body.options.shape) {
+  explicit SetUp(const Problem& problem)
+      : cloud(order_nodes(problem.model.cloud, problem.model.conditions)), shape(problem.options.shape) {
     std::vector<std::int32_t> tissues;
-    for (const auto& [label, material] : body.model.materials) {
+    for (const auto& [label, material] : problem.model.materials) {
       tissues.push_back(label);
     }
-    points = integration_points(body.model.cells, body.options.points_per_cell,
-                                body.model.labels ? &*body.model.labels : nullptr, tissues);
+    const BackgroundCells& cells = problem.model.cells;
+    points = integration_points(cells, points_per_cell(problem.options.points_per_cell, cells.kind, false),
+                                problem.model.labels ? &*problem.model.labels : nullptr, tissues);
   }
   ShapeFunctions functions() const { return {cloud.positions, cloud.spacing, shape}; }
 };
 
-/// Settings of a body, with what was made of it; made when first asked for.
+/// Settings of a problem, with what was made of it; made when first asked for.
 struct Setting {
   std::string name;
-  Body body;
+  Problem problem;
   std::shared_ptr<Step> step = {};
   std::shared_ptr<SetUp> set_up = {};
 
   Step& stepping() {
-    step = step ? step : std::make_shared<Step>(body);
+    step = step ? step : std::make_shared<Step>(problem);
     return *step;
   }
   SetUp& setting_up() {
-    set_up = set_up ? set_up : std::make_shared<SetUp>(body);
+    set_up = set_up ? set_up : std::make_shared<SetUp>(problem);
     return *set_up;
   }
 };
@@ -154,29 +160,29 @@ void time_correction(State& state, Setting& setting) {
     ShapeRows rows = plain;
     state.ResumeTiming();
     make_derivatives_consistent(made.cloud.positions, surface, nodal, made.points.volume,
-                                setting.body.options.consistency_defect, rows);
+                                setting.problem.options.consistency_defect, rows);
   }
   count(state, static_cast<double>(plain.node.size()), 0);
 }
 
 void time_conditions(State& state, Setting& setting) {
   Step& step = setting.stepping();
-  const std::vector<double> mass(step.prepared.points.nodes(), 1.0);
-  step.prepared.essential.factorise(mass);
+  const std::vector<double> mass(step.prepared.body.points.nodes(), 1.0);
+  step.prepared.body.essential.factorise(mass);
   NodalVectors parameters = step.parameters;
   for (auto _ : state) {
-    step.prepared.essential.apply(0.5, parameters);
+    step.prepared.body.essential.apply(0.5, parameters);
   }
   count(state, 0, 0);
 }
 
 void time_contact(State& state, Setting& setting) {
   Step& step = setting.stepping();
-  const std::vector<double> mass(step.prepared.points.nodes(), 1.0);
-  step.prepared.contact->weigh(mass);
+  const std::vector<double> mass(step.prepared.body.points.nodes(), 1.0);
+  step.prepared.body.contact->weigh(mass);
   NodalVectors parameters(step.parameters.size(), 0.0);
   for (auto _ : state) {
-    step.prepared.contact->apply(parameters);
+    step.prepared.body.contact->apply(parameters);
   }
   count(state, 0, 0);
 }
@@ -254,20 +260,20 @@ void time_plain_rows(State& state, Setting& setting) {
     ::benchmark::DoNotOptimize(plain.force[0].data());
   }
   count(state, static_cast<double>(plain.node.size()),
-        static_cast<double>(bytes(plain.begin) + bytes(plain.node) + bytes(plain.derivative) + bytes(plain.volume) +
-                            bytes(plain.displacement)));
+        bytes(plain.begin) + bytes(plain.node) + bytes(plain.derivative) + bytes(plain.volume) +
+            bytes(plain.displacement));
 }
 
-/// As published in double and single precision, and the program's defaults, on a body for each.
-std::vector<Setting> settings(const Body& published, const Body& usual) {
+/// As published in double and single precision, and the program's defaults, on a problem for each.
+std::vector<Setting> settings(const Problem& published, const Problem& usual) {
   std::vector<Setting> all;
   for (const auto precision : {Precision::double_precision, Precision::single_precision}) {
     const std::string name = precision == Precision::double_precision ? "double" : "single";
     all.push_back({"linear, 1 point, " + name, published});
-    bench::as_published(all.back().body.options);
-    all.back().body.options.precision = precision;
+    bench::as_published(all.back().problem.options);
+    all.back().problem.options.precision = precision;
     all.push_back({"MMLS, 8 points, " + name, usual});
-    all.back().body.options.precision = precision;
+    all.back().problem.options.precision = precision;
   }
   return all;
 }
@@ -296,19 +302,19 @@ void enrol_all(std::vector<Setting>& all) {
     enrol(all[i], "correction of the derivatives", time_correction);
   }
   enrol(all[0], "essential conditions", time_conditions);
-  if (all[0].body.model.skull) {
+  if (all[0].problem.model.skull) {
     enrol(all[0], "contact", time_contact);
   }
 }
 
-Body small_ellipsoid(double cells_per_node) {
-  Body body = bench::ellipsoid(800, cells_per_node);
-  body.model.skull = bench::ellipsoid_surface(0.5);
-  return body;
+Problem small_ellipsoid(double cells_per_node) {
+  Problem problem = bench::ellipsoid(800, cells_per_node);
+  problem.model.skull = bench::ellipsoid_surface(0.5);
+  return problem;
 }
 
 std::vector<Setting> brains(char** argv) {
-  return settings(bench::body_of_run(argv[0], argv[1]), bench::body_of_run(argv[0], argv[2]));
+  return settings(bench::problem_of_run(argv[0], argv[1]), bench::problem_of_run(argv[0], argv[2]));
 }
 
 std::vector<Setting> small_ones() {

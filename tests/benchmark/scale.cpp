@@ -15,11 +15,16 @@
 #include <string>
 #include <vector>
 
-#include "solve/prepare.hpp"
+#include "solve/dynamics/motion.hpp"
+#include "solve/force/internal_force.hpp"
+#include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
+#include "solve/run/prepare.hpp"
+#include "solve/run/step.hpp"
 #include "solve/shape/consistent_derivatives.hpp"
 #include "solve/shape/shape_functions.hpp"
-#include "tests/benchmark/bodies.hpp"
+#include "tests/benchmark/heap.hpp"
+#include "tests/benchmark/problems.hpp"
 
 namespace {
 
@@ -61,24 +66,24 @@ auto measured(Row& row, const std::string& name, const Part& part) {
 
 /// The least seconds of an evaluation of the internal force, at rest.
 double force_seconds(const Prepared& prepared) {
-  const NodalVectors parameters(4 * prepared.points.nodes(), 0.0);
+  const NodalVectors parameters(4 * prepared.body.points.nodes(), 0.0);
   NodalVectors force(parameters.size(), 0.0);
-  ForceScratch scratch(prepared.points, prepared.laws);
+  ForceScratch scratch(prepared.body.points, prepared.body.laws);
   double least = 1e9;
   for (int i = 0; i < 7; ++i) {
     const double start = now();
-    internal_force(prepared.points, prepared.laws, parameters, scratch, force);
+    internal_force(prepared.body.points, prepared.body.laws, parameters, scratch, force);
     least = std::min(least, now() - start);
   }
   return least;
 }
 
 /// The median seconds a step between two reports of the solver's progress.
-double step_seconds(const bench::Body& body, Prepared prepared, Row& row) {
-  SolveOptions options = body.options;
+double step_seconds(const bench::Problem& problem, Prepared prepared) {
+  SolveOptions options = problem.options;
   options.max_steps = 60;
   std::vector<std::pair<int, double>> reports;
-  const SolveResult result = step(body.model, options, std::move(prepared), {}, [&](double, std::string_view what) {
+  step_to_end(problem.model, options, std::move(prepared), {}, {}, [&](double, std::string_view what) {
     if (what.starts_with("step ")) {
       reports.emplace_back(std::atoi(std::string(what).c_str() + 5), now());
     }
@@ -89,47 +94,66 @@ double step_seconds(const bench::Body& body, Prepared prepared, Row& row) {
       seconds.push_back((reports[i].second - reports[i - 1].second) / (reports[i].first - reports[i - 1].first));
     }
   }
-  const HeldBytes& held = result.measures.bytes;
-  row.emplace_back("held_shape_functions", held.shape_functions);
-  row.emplace_back("held_nodal_vectors", held.nodal_vectors);
-  row.emplace_back("held_pressure_patches", held.pressure_patches);
-  row.emplace_back("held_essential_conditions", held.essential_conditions);
-  row.emplace_back("held", held.total());
   std::sort(seconds.begin(), seconds.end());
   return seconds.empty() ? 0 : seconds[seconds.size() / 2];
 }
 
+/// The bytes that the heap holds while a body is stepped, all of them and part by part. To be called after a first
+/// prepare(), which leaves the threads their scratch.
+void measure_held(const bench::Problem& problem, Row& row) {
+  const double before = bench::heap_in_use();
+  SolveMeasures measures;
+  Prepared prepared = prepare(problem.model, problem.options, {}, measures, {});
+  Motion motion(std::move(prepared.body), 0);
+  motion.weigh(std::vector<double>(motion.body.nodes(), 1.0));
+  const double held = bench::heap_in_use() - before;
+  const double pressures = bench::freed(motion.body.points.mode);
+  const double shapes =
+      bench::freed(motion.body.points) + bench::freed(motion.body.nodal_rows) + bench::freed(motion.body.placed);
+  const double conditions = bench::freed(motion.body.essential);
+  row.emplace_back("held_shape_functions", shapes);
+  row.emplace_back("held_nodal_vectors", held - shapes - pressures - conditions);
+  row.emplace_back("held_pressure_patches", pressures);
+  row.emplace_back("held_essential_conditions", conditions);
+  row.emplace_back("held", held);
+}
+
 /// The parts of prepare() that cost most, one by one, as it runs them.
-void measure_parts(const bench::Body& body, Row& row) {
-  const OrderedCloud cloud = measured(row, "order_nodes", [&] { return order_nodes(body.model.cloud); });
+void measure_parts(const bench::Problem& problem, Row& row) {
+  const OrderedCloud cloud =
+      measured(row, "order_nodes", [&] { return order_nodes(problem.model.cloud, problem.model.conditions); });
   const IntegrationPoints points = measured(row, "integration_points", [&] {
-    return integration_points(body.model.cells, body.options.points_per_cell, nullptr, std::vector<std::int32_t>{1});
+    const BackgroundCells& cells = problem.model.cells;
+    return integration_points(cells, points_per_cell(problem.options.points_per_cell, cells.kind, false), nullptr,
+                              std::vector<std::int32_t>{1});
   });
-  const ShapeFunctions shape(cloud.positions, cloud.spacing, body.options.shape);
+  const ShapeFunctions shape(cloud.positions, cloud.spacing, problem.options.shape);
   ShapeRows rows = measured(row, "shape_functions", [&] { return shape.evaluate(points.positions, true); });
   const ShapeRows nodal =
       measured(row, "nodal_shape_functions", [&] { return shape.evaluate(cloud.positions, false); });
   measured(row, "correction", [&] {
     return make_derivatives_consistent(cloud.positions, surface_nodes(cloud), nodal, points.volume,
-                                       body.options.consistency_defect, rows);
+                                       problem.options.consistency_defect, rows);
   });
 }
 
 Row measure(std::size_t nodes) {
   Row row;
-  bench::Body body =
+  bench::Problem problem =
       measured(row, "discretise", [&] { return bench::ellipsoid(nodes, bench::published_cells_per_node); });
-  bench::as_published(body.options);
+  bench::as_published(problem.options);
   SolveMeasures measures;
-  Prepared prepared = measured(row, "prepare", [&] { return prepare(body.model, body.options, {}, measures, {}); });
+  Prepared prepared =
+      measured(row, "prepare", [&] { return prepare(problem.model, problem.options, {}, measures, {}); });
   row.emplace_back("nodes", measures.nodes);
   row.emplace_back("points", measures.integration_points);
   row.emplace_back("pairs", measures.pairs);
-  row.emplace_back("bytes_read_a_step", bench::bytes_read(prepared.points));
+  row.emplace_back("bytes_read_a_step", bench::bytes_read(prepared.body.points));
   row.emplace_back("force_s", force_seconds(prepared));
-  row.emplace_back("step_s", measured(row, "stepping", [&] { return step_seconds(body, std::move(prepared), row); }));
+  row.emplace_back("step_s", measured(row, "stepping", [&] { return step_seconds(problem, std::move(prepared)); }));
   row.emplace_back("threads", omp_get_max_threads());
-  measure_parts(body, row);
+  measure_held(problem, row);
+  measure_parts(problem, row);
   return row;
 }
 

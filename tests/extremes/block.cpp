@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "solve/material/elastic_law.hpp"
+#include "solve/shape/node_supports.hpp"
+#include "tests/unit/solve/all_free.hpp"
 
 namespace brainshift::extremes {
 
@@ -19,16 +21,17 @@ Eigen::Matrix3d first_piola(const solve::Material& material, const Eigen::Matrix
 solve::Model Block::model(NodeCloud cloud, BackgroundCells cells) const {
   solve::Model model;
   model.cloud = std::move(cloud);
+  model.conditions = test::all_free(model.cloud);
   model.cells = std::move(cells);
   model.materials[1] = material;
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     for (int axis = 0; axis < 3; ++axis) {
       if (model.cloud.positions(a, axis) == 0) {
-        model.cloud.prescribed_displacement(a, axis) = 0;
+        model.conditions.displacement(a, axis) = 0;
       }
     }
     if (model.cloud.positions(a, 2) == size[2]) {
-      model.cloud.prescribed_displacement(a, 2) = (stretch - 1) * size[2];
+      model.conditions.displacement(a, 2) = (stretch - 1) * size[2];
     }
   }
   return model;

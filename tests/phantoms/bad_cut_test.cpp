@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Bad cuts, rupture and resection through the program: each ends with the right code and one sentence.
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/files/surface_file.hpp"
+#include "segmentation/geometry/surface.hpp"
 #include "tests/phantoms/bad_input.hpp"
 
 namespace brainshift {

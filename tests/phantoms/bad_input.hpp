@@ -11,10 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "discretise/background_cells.hpp"
-#include "discretise/node_cloud.hpp"
+#include "discretise/interface/background_cells.hpp"
+#include "discretise/interface/node_cloud.hpp"
 #include "segmentation/image/image.hpp"
 #include "tests/phantoms/program.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift::bad_input {
@@ -95,15 +96,16 @@ class BadInput : public testing::Test {
   /// Solves a box whose bottom is held, or what `change` makes of it.
   static std::string solve_box(const std::string& more, const std::function<void(NodeCloud&)>& change = {}) {
     NodeCloud cloud = test::irregular_box(4, 30);
+    solve::Conditions conditions = test::all_free(cloud);
     for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
       if (cloud.positions(a, 2) < 1e-6) {
-        cloud.prescribed_displacement.row(a).setZero();
+        conditions.displacement.row(a).setZero();
       }
     }
     if (change) {
       change(cloud);
     }
-    write_node_cloud(at("box_nodes.vtu"), cloud);
+    solve::write_nodes(at("box_nodes.vtu"), cloud, conditions);
     write_background_cells(at("box_cells.vtu"), test::box_cells(3, 30));
     return "brainshift solve --quiet --nodes " + at("box_nodes.vtu") + " --cells " + at("box_cells.vtu") + " --out " +
            at("out") + " " + more;
@@ -111,10 +113,10 @@ class BadInput : public testing::Test {
 
   /// Solves a rectangle that two of its nodes hold.
   static std::string solve_flat(const std::string& more) {
-    NodeCloud cloud = test::irregular_rectangle(6, 4, 50, 30);
-    cloud.prescribed_displacement.row(0).setZero();
-    cloud.prescribed_displacement.row(1).setZero();
-    write_node_cloud(at("flat_nodes.vtu"), cloud);
+    const NodeCloud cloud = test::irregular_rectangle(6, 4, 50, 30);
+    solve::Conditions conditions = test::all_free(cloud);
+    conditions.displacement.topRows<2>().setZero();
+    solve::write_nodes(at("flat_nodes.vtu"), cloud, conditions);
     write_background_cells(at("flat_cells.vtu"), test::rectangle_cells(5, 3, 50, 30));
     return "brainshift solve --quiet --nodes " + at("flat_nodes.vtu") + " --cells " + at("flat_cells.vtu") + " --out " +
            at("out") + " " + more;

@@ -3,7 +3,8 @@
 // Bad input through the program: each ends with the right code and one sentence, and leaves nothing half-written.
 #include <limits>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/files/surface_file.hpp"
+#include "segmentation/geometry/surface.hpp"
 #include "tests/phantoms/bad_input.hpp"
 
 namespace brainshift {
@@ -111,9 +112,7 @@ TEST_F(BadInput, TooFewNodesForASupport) {
   cloud.positions.conservativeResize(3, Eigen::NoChange);
   cloud.spacing.resize(3);
   cloud.on_surface.resize(3);
-  cloud.label.resize(3);
-  cloud.prescribed_displacement = Points::Zero(3, 3);
-  write_node_cloud(at("three.vtu"), cloud);
+  solve::write_nodes(at("three.vtu"), cloud, {.displacement = Points::Zero(3, 3)});
   expect_refused("brainshift solve --quiet --nodes " + at("three.vtu") + " --cells " + at("ball/cells.vtu") +
                      " --material 1:3000,0.45 --out " + at("out"),
                  {"node"});

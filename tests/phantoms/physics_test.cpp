@@ -10,8 +10,11 @@
 #include <nlohmann/json.hpp>
 
 #include "pipelines/report/run_data.hpp"
-#include "solve/solution.hpp"
+#include "solve/interface/model.hpp"
+#include "solve/interface/solution.hpp"
+#include "solve/output/solution_file.hpp"
 #include "tests/phantoms/program.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift {
@@ -26,9 +29,9 @@ class Physics : public testing::Test {
 
   static std::string at(const std::string& name) { return (*scratch / name).string(); }
 
-  static void write_problem(const NodeCloud& cloud, const BackgroundCells& cells) {
-    write_node_cloud(at("nodes.vtu"), cloud);
-    write_background_cells(at("cells.vtu"), cells);
+  static void write_problem(const solve::Model& model) {
+    solve::write_nodes(at("nodes.vtu"), model.cloud, model.conditions);
+    write_background_cells(at("cells.vtu"), model.cells);
   }
   /// Runs the solver on the problem written last.
   static void solve(const std::string& options) {
@@ -42,14 +45,17 @@ class Physics : public testing::Test {
   }
 
   /// A box that stands on nodes that do not move.
-  static NodeCloud standing_box(int n = 5) {
-    NodeCloud cloud = test::irregular_box(n, side);
-    for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
-      if (cloud.positions(a, 2) < 1e-6) {
-        cloud.prescribed_displacement.row(a).setZero();
+  static solve::Model standing_box(int cells_a_side = 4) {
+    solve::Model model;
+    model.cloud = test::irregular_box(cells_a_side + 1, side);
+    model.cells = test::box_cells(cells_a_side, side);
+    model.conditions = test::all_free(model.cloud);
+    for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+      if (model.cloud.positions(a, 2) < 1e-6) {
+        model.conditions.displacement.row(a).setZero();
       }
     }
-    return cloud;
+    return model;
   }
 
   static std::unique_ptr<ScratchFolder> scratch;
@@ -57,20 +63,23 @@ class Physics : public testing::Test {
 std::unique_ptr<ScratchFolder> Physics::scratch;
 
 /// A rectangle pulled along x by one per cent, free across.
-NodeCloud pulled_rectangle() {
-  NodeCloud cloud = test::irregular_rectangle(9, 5, 2 * side, side);
-  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
-    const double x = cloud.positions(a, 0);
+solve::Model pulled_rectangle() {
+  solve::Model model;
+  model.cloud = test::irregular_rectangle(9, 5, 2 * side, side);
+  model.cells = test::rectangle_cells(8, 4, 2 * side, side);
+  model.conditions = test::all_free(model.cloud);
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    const double x = model.cloud.positions(a, 0);
     if (x < 1e-6 || x > 2 * side - 1e-6) {
-      cloud.prescribed_displacement(a, 0) = 0.01 * x;
+      model.conditions.displacement(a, 0) = 0.01 * x;
     }
   }
-  cloud.prescribed_displacement(0, 1) = 0;
-  return cloud;
+  model.conditions.displacement(0, 1) = 0;
+  return model;
 }
 
 TEST_F(Physics, PlaneStressPullsWithYoungsModulusAndPlaneStrainHarder) {
-  write_problem(pulled_rectangle(), test::rectangle_cells(8, 4, 2 * side, side));
+  write_problem(pulled_rectangle());
   const std::string material =
       "--material 1:law=linear_elastic,youngs_modulus=1000,poisson_ratio=0.3 --tolerance 1e-5 ";
   // Pa mm² = µN: E ε H on one millimetre of thickness.
@@ -83,25 +92,26 @@ TEST_F(Physics, PlaneStressPullsWithYoungsModulusAndPlaneStrainHarder) {
 }
 
 TEST_F(Physics, TrianglesTakeThreePoints) {
-  const NodeCloud cloud = pulled_rectangle();
-  write_problem(cloud, test::rectangle_triangles(cloud, 9, 5));
+  solve::Model model = pulled_rectangle();
+  model.cells = test::rectangle_triangles(model.cloud, 9, 5);
+  write_problem(model);
   solve("--material 1:1000,0.3 --plane strain --points-per-cell 3 --tolerance 1e-4");
   const auto run = nlohmann::json::parse(read_text(at("out/stage.json")))["entry"];
   EXPECT_EQ(run["sizes"]["integration_points"], 3 * 64);
 }
 
 TEST_F(Physics, ABoxStandsWithTheWeightAndTheForcesThatItCarries) {
-  NodeCloud cloud = standing_box();
-  cloud.force = Points::Zero(cloud.positions.rows(), 3);
-  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
-    if (cloud.positions(a, 2) > side - 1e-6) {
-      cloud.force.row(a) << 4e-4, 0, 1e-4;
+  solve::Model model = standing_box();
+  model.conditions.force = Points::Zero(model.cloud.positions.rows(), 3);
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    if (model.cloud.positions(a, 2) > side - 1e-6) {
+      model.conditions.force.row(a) << 4e-4, 0, 1e-4;
     }
   }
-  write_problem(cloud, test::box_cells(4, side));
+  write_problem(model);
   solve("--material 1:30000,0.3,1200 --gravity 0,0,-9.81 --tolerance 1e-5");
   const double weight = 1200 * side * side * side * 1e-9 * 9.81;  // N
-  const Eigen::RowVector3d carried = cloud.force.colwise().sum() - Eigen::RowVector3d(0, 0, weight);
+  const Eigen::RowVector3d carried = model.conditions.force.colwise().sum() - Eigen::RowVector3d(0, 0, weight);
   const Eigen::RowVector3d reaction = read_solution(at("out/solution.vtu")).reaction_force.colwise().sum();
   EXPECT_LE((reaction + carried).norm(), 1e-3 * weight) << reaction << " holds " << carried;
   EXPECT_LT(read_solution(at("out/solution.vtu")).displacement.col(2).minCoeff(), -0.01);
@@ -109,14 +119,14 @@ TEST_F(Physics, ABoxStandsWithTheWeightAndTheForcesThatItCarries) {
 
 TEST_F(Physics, AResectionLeavesACavityThatSinksUnlessPressureHoldsIt) {
   constexpr int cells_a_side = 8;
-  const NodeCloud cloud = standing_box(cells_a_side + 1);
-  BackgroundCells cells = test::box_cells(cells_a_side, side);
+  solve::Model model = standing_box(cells_a_side);
+  BackgroundCells& cells = model.cells;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Eigen::Vector3d low = cells.vertices.row(cells.connectivity[8 * i]);
     const Eigen::Vector3d high = cells.vertices.row(cells.connectivity[8 * i + 6]);
     cells.label[i] = ((low + high).array() / 2 - side / 2).abs().maxCoeff() < side / 4 ? 2 : 1;
   }
-  write_problem(cloud, cells);
+  write_problem(model);
   const auto sinking_of_top = [&](const std::string& options) {
     solve("--material 1:10000,0.4 --material 2:10000,0.4 --gravity 0,0,-9.81 --tolerance 1e-3 " + options);
     const Solution solution = read_solution(at("out/solution.vtu"));
@@ -127,7 +137,7 @@ TEST_F(Physics, AResectionLeavesACavityThatSinksUnlessPressureHoldsIt) {
   const double emptied = sinking_of_top("--resection 2");
   EXPECT_NEAR(measures()["resection"]["removed_volume_mm3"], side * side * side / 8, 1e-6);
   EXPECT_EQ(read_solution(at("out/solution.vtu")).positions.rows(),
-            cloud.positions.rows() - static_cast<int>(measures()["resection"]["removed_nodes"]));
+            model.cloud.positions.rows() - static_cast<int>(measures()["resection"]["removed_nodes"]));
   const double pressed = sinking_of_top("--resection 2 --resection-pressure 100");
   EXPECT_GT(emptied, 1.1 * full);
   EXPECT_LT(pressed, emptied - 0.1 * full);
@@ -144,13 +154,13 @@ double left_at(double t) {
 }
 
 TEST_F(Physics, AViscoelasticBoxRelaxesInTime) {
-  NodeCloud cloud = standing_box();
-  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
-    if (cloud.positions(a, 2) > side - 1e-6) {
-      cloud.prescribed_displacement.row(a) << 0, 0, -0.05 * side;
+  solve::Model model = standing_box();
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    if (model.cloud.positions(a, 2) > side - 1e-6) {
+      model.conditions.displacement.row(a) << 0, 0, -0.05 * side;
     }
   }
-  write_problem(cloud, test::box_cells(4, side));
+  write_problem(model);
   write_text(at("curve.csv"), "# pressed at once, then held\ntime,factor\n0,0\n0.1,1\n1,1\n");
   solve("--material 1:brain_viscoelastic --dynamics transient --curve " + at("curve.csv") +
         " --curve-join straight --damping 50 --points-per-cell 1 --snapshot-every 500");
@@ -166,9 +176,9 @@ TEST_F(Physics, AViscoelasticBoxRelaxesInTime) {
 }
 
 TEST_F(Physics, MaterialsMeanTheSameHoweverTheyAreTyped) {
-  NodeCloud cloud = standing_box();
-  cloud.prescribed_displacement.row(cloud.positions.rows() - 1) << 0, 0, 1;
-  write_problem(cloud, test::box_cells(4, side));
+  solve::Model model = standing_box();
+  model.conditions.displacement.bottomRows<1>() << 0, 0, 1;
+  write_problem(model);
   const auto solution_of = [&](const std::string& material) {
     solve("--tolerance 0.01 --material " + material);
     return read_text(at("out/solution.vtu"));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipelines/report/rasteriser.hpp"
+#include "solve/output/field_difference.hpp"
 #include "tests/verification/reference.hpp"
 
 namespace brainshift::verification {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pipelines/report/canvas.hpp"
-#include "solve/solution.hpp"
+#include "solve/interface/solution.hpp"
 
 namespace brainshift::verification {
 

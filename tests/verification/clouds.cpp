@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "discretise/neighbours/neighbour_distance.hpp"
+#include "segmentation/geometry/neighbour_distance.hpp"
 
 namespace brainshift::verification {
 
@@ -70,10 +70,8 @@ NodeCloud Darts::cloud(bool planar) const {
     cloud.positions.row(static_cast<Eigen::Index>(a)) = nodes_[a];
   }
   cloud.on_surface = on_surface_;
-  cloud.label.assign(nodes_.size(), 1);
   const int nearest = planar ? 4 : 6;
   cloud.spacing = mean_neighbour_distance(nearest_neighbours(cloud.positions, nearest), nearest);
-  cloud.prescribed_displacement = Points::Constant(cloud.positions.rows(), 3, std::nan(""));
   return cloud;
 }
 

@@ -9,9 +9,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "discretise/background_cells.hpp"
 #include "discretise/discretise.hpp"
-#include "discretise/node_cloud.hpp"
+#include "discretise/interface/background_cells.hpp"
+#include "discretise/interface/node_cloud.hpp"
 
 namespace brainshift::verification {
 

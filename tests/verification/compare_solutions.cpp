@@ -9,7 +9,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "solve/field_difference.hpp"
+#include "solve/output/field_difference.hpp"
+#include "solve/output/solution_file.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 3) {

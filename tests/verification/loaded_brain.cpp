@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/verification/loaded_brain.hpp"
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <vector>
 
+#include "discretise/discretise.hpp"
+#include "segmentation/files/surface_file.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/verification/reference.hpp"
 
 namespace brainshift::verification {
@@ -74,7 +78,7 @@ Points moved(const Surface& surface, const Points& at_vertex) {
 
 }  // namespace
 
-discretise::Discretisation loaded_brain(std::size_t nodes, CellKind kind, bool refined) {
+solve::Model loaded_brain(std::size_t nodes, CellKind kind, bool refined) {
   const Surface surface = read_surface(BRAINSHIFT_REFERENCES "/brain_surface.vtp");
   const Points at_vertex = at_vertices(surface, read_rows("brain_load.csv"));
   discretise::DiscretiseOptions options;
@@ -84,17 +88,20 @@ discretise::Discretisation loaded_brain(std::size_t nodes, CellKind kind, bool r
     options.craniotomy = discretise::Refinement{moved(surface, at_vertex), 10, 0.5};
   }
   discretise::Discretisation made = discretise::discretise(surface, nullptr, options);
-  NodeCloud& cloud = made.cloud;
-  put_nodes_at_loaded_vertices(cloud, surface, at_vertex);
+  solve::Model model;
+  model.cloud = std::move(made.cloud);
+  model.cells = std::move(made.cells);
+  const NodeCloud& cloud = model.cloud;
+  put_nodes_at_loaded_vertices(model.cloud, surface, at_vertex);
+  model.conditions = test::all_free(cloud);
   const auto count = static_cast<Eigen::Index>(cloud.size());
-  cloud.prescribed_displacement = Points::Constant(count, 3, std::nan(""));
 #pragma omp parallel for schedule(dynamic, 64)
   for (Eigen::Index a = 0; a < count; ++a) {
     if (cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      cloud.prescribed_displacement.row(a) = imposed_at(surface, at_vertex, cloud.positions.row(a));
+      model.conditions.displacement.row(a) = imposed_at(surface, at_vertex, cloud.positions.row(a));
     }
   }
-  return made;
+  return model;
 }
 
 }  // namespace brainshift::verification

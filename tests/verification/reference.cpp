@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "solve/output/field_difference.hpp"
+#include "solve/output/solution_file.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::verification {

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "segmentation/surface/surface.hpp"
+#include "segmentation/geometry/points.hpp"
+#include "solve/output/field_difference.hpp"
 #include "solve/solve.hpp"
 
 namespace brainshift::verification {

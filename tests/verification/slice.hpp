@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "discretise/background_cells.hpp"
-#include "discretise/node_cloud.hpp"
+#include "discretise/interface/background_cells.hpp"
+#include "discretise/interface/node_cloud.hpp"
+#include "segmentation/geometry/surface.hpp"
 
 namespace brainshift::verification {
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "solve/output/solution_file.hpp"
 #include "tests/verification/loaded_brain.hpp"
 #include "tests/verification/reference.hpp"
 
@@ -19,8 +20,10 @@ namespace {
 using namespace brainshift;
 
 void make_cloud(const std::vector<std::string>& words) {
-  discretise::write_discretisation(
-      words[1], verification::loaded_brain(std::stoul(words[2]), CellKind::hexahedron, words[0] == "refined"));
+  const solve::Model brain =
+      verification::loaded_brain(std::stoul(words[2]), CellKind::hexahedron, words[0] == "refined");
+  solve::write_nodes(words[1] + "/nodes.vtu", brain.cloud, brain.conditions);
+  write_background_cells(words[1] + "/cells.vtu", brain.cells);
 }
 
 void evaluate(const std::vector<std::string>& words) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "register/registration.hpp"
+#include "register/warp/warp.hpp"
 
 namespace {
 

@@ -8,8 +8,9 @@
 #include <random>
 #include <sstream>
 
-#include "discretise/neighbours/neighbour_distance.hpp"
+#include "segmentation/geometry/neighbour_distance.hpp"
 #include "tests/extremes/row.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/clouds.hpp"
 
@@ -37,11 +38,12 @@ solve::SolveOptions exact_integration() {
 Ending patch_test(NodeCloud cloud, BackgroundCells cells, const solve::SolveOptions& options = exact_integration()) {
   solve::Model model;
   model.cloud = std::move(cloud);
+  model.conditions = test::all_free(model.cloud);
   model.cells = std::move(cells);
   model.materials[1] = {3000, 0.49, 1000};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.cloud.prescribed_displacement.row(a) = model.cloud.positions.row(a) * imposed().transpose();
+      model.conditions.displacement.row(a) = model.cloud.positions.row(a) * imposed().transpose();
     }
   }
   return run(model, options);
@@ -102,9 +104,7 @@ NodeCloud with_twins(NodeCloud cloud, double apart, bool held) {
   for (Eigen::Index i = 0; i < more; ++i) {
     cloud.positions.row(n + i) = twins[static_cast<std::size_t>(i)];
     cloud.on_surface.push_back(held ? 1 : 0);
-    cloud.label.push_back(1);
   }
-  cloud.prescribed_displacement = Points::Constant(n + more, 3, std::nan(""));
   cloud.spacing = mean_neighbour_distance(nearest_neighbours(cloud.positions, 6), 6);
   return cloud;
 }
@@ -138,8 +138,6 @@ Row slab(int layers, double thickness, int n, Must must) {
   for (std::size_t a = count - static_cast<std::size_t>(n * n); a < count; ++a) {
     cloud.on_surface[a] = 1;
   }
-  cloud.label.assign(count, 1);
-  cloud.prescribed_displacement = Points::Constant(positions.rows(), 3, std::nan(""));
   cloud.spacing = mean_neighbour_distance(nearest_neighbours(cloud.positions, 6), 6);
   const BackgroundCells cells = test::box_cells({n - 1, n - 1, std::max(layers - 1, 1)}, {side, side, thickness});
   const Ending ending = patch_test(cloud, cells);

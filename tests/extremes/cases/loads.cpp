@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/extremes/brain.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::extremes {
@@ -69,6 +70,7 @@ std::vector<Row> rotation(bool small) {
   constexpr double side = 20, height = 60;
   solve::Model model;
   model.cloud = test::irregular_box(n, height);
+  model.conditions = test::all_free(model.cloud);
   model.cloud.positions.leftCols(2) *= side / height;
   model.cloud.positions.leftCols(2).array() -= side / 2;
   model.cells = test::box_cells({n - 1, n - 1, 2 * (n - 1)}, {side, side, height});
@@ -85,7 +87,7 @@ std::vector<Row> rotation(bool small) {
   const Eigen::RowVector3d axis = model.cloud.positions.row(bottom);
   Points wanted = (model.cloud.positions.rowwise() - axis) * (turn - Eigen::Matrix3d::Identity());
   for (const Eigen::Index node : {bottom, top, beside}) {
-    model.cloud.prescribed_displacement.row(node) = wanted.row(node);
+    model.conditions.displacement.row(node) = wanted.row(node);
   }
   solve::SolveOptions options;
   options.tolerance = 1e-4;

@@ -15,7 +15,7 @@ constexpr double sink = 8;  // mm
 /// Lengths in other units than they should be.
 solve::Model scaled(solve::Model model, double factor) {
   model.cloud.positions *= factor;
-  model.cloud.prescribed_displacement *= factor;
+  model.conditions.displacement *= factor;
   for (double& spacing : model.cloud.spacing) {
     spacing *= factor;
   }

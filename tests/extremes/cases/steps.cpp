@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tests/extremes/row.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::extremes {
@@ -19,12 +20,13 @@ solve::Model bar() {
   solve::Model model;
   model.plane = solve::Plane::strain;  // without lateral strain, so as thin as any
   model.cloud = test::irregular_rectangle(31, 4, length, 6);
+  model.conditions = test::all_free(model.cloud);
   model.cells = test::rectangle_cells(30, 3, length, 6);
   model.materials[1] = {
       .youngs_modulus = modulus, .poisson_ratio = 0, .density = density, .law = solve::Law::linear_elastic};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     if (model.cloud.positions(a, 0) < 1e-9) {
-      model.cloud.prescribed_displacement(a, 0) = 0;
+      model.conditions.displacement(a, 0) = 0;
     }
   }
   model.gravity = {1, 0, 0};
@@ -89,7 +91,7 @@ std::vector<Row> free_vibration(bool small) {
   solve::Model model = solve::box_model(test::box_cells(2, solve::model_side), 4);
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     if (model.cloud.positions(a, 2) == 0) {
-      model.cloud.prescribed_displacement.row(a).setZero();
+      model.conditions.displacement.row(a).setZero();
     }
   }
   model.gravity = {2, 1, -1};

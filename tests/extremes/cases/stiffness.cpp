@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "tests/extremes/block.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -47,6 +48,7 @@ constexpr double width = 15, height = 60;  // mm
 solve::Model layered(const std::vector<solve::Material>& layers, double pressed, double least_distance) {
   solve::Model model;
   model.cloud = verification::box_cloud({width, width, height}, least_distance, 3);
+  model.conditions = test::all_free(model.cloud);
   const int across = static_cast<int>(width / least_distance);
   model.cells = test::box_cells({across, across, 12 * (across / 3)}, {width, width, height});
   const auto layer_of = [&](double z) {
@@ -61,7 +63,7 @@ solve::Model layered(const std::vector<solve::Material>& layers, double pressed,
     model.materials[static_cast<std::int32_t>(i) + 1] = layers[i];
   }
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    auto prescribed = model.cloud.prescribed_displacement.row(a);
+    auto prescribed = model.conditions.displacement.row(a);
     const Eigen::RowVector3d x = model.cloud.positions.row(a);
     for (int axis = 0; axis < 2; ++axis) {
       if (x[axis] == 0 || x[axis] == width) {

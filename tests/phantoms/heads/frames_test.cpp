@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "register/registration.hpp"
+#include "register/warp/warp.hpp"
 #include "tests/phantoms/heads/head_runs.hpp"
 
 namespace brainshift {

@@ -9,7 +9,11 @@
 
 #include "pipelines/report/run_data.hpp"
 #include "register/registration.hpp"
+#include "register/warp/warp.hpp"
+#include "segmentation/files/surface_file.hpp"
 #include "segmentation/segment.hpp"
+#include "solve/output/field_difference.hpp"
+#include "solve/output/solution_file.hpp"
 #include "tests/phantoms/heads/head_runs.hpp"
 
 namespace brainshift {

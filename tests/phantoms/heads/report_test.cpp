@@ -1,29 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The page: well-formed, its pictures readable by others, its verdicts those of the bounds.
+// The page: well-formed, its pictures readable by others.
+#include "pipelines/report/report.hpp"
+
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
-#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "pipelines/report/canvas.hpp"
-#include "pipelines/report/measure_table.hpp"
-#include "pipelines/report/report.hpp"
-#include "pipelines/report/slice_plane.hpp"
-#include "segmentation/surface/surface.hpp"
 #include "tests/phantoms/heads/head_runs.hpp"
 #include "tests/phantoms/program.hpp"
 
-namespace brainshift::pipelines {
-namespace {
+namespace brainshift::pipelines::report_test {
 
 namespace fs = std::filesystem;
-using Eigen::Vector3d;
 
 // Independent of the encoder: six bits a letter, looked up one by one.
 std::string decode_base64(const std::string& text) {
@@ -126,16 +119,6 @@ TEST(Report, RefusesAFolderThatIsNoRun) {
   EXPECT_THROW(write_report(scratch.path(), scratch / "page"), std::invalid_argument);
 }
 
-TEST(MeasureTable, JudgesByTheBound) {
-  const auto verdict_of = [](double error) {
-    const nlohmann::json record = {{"stages", {{"solve", {{"measures", {{"constraint_error_mm", error}}}}}}}};
-    return quality_measures(record).at(0).verdict;
-  };
-  EXPECT_EQ(verdict_of(0.05), Verdict::within);
-  EXPECT_EQ(verdict_of(0.051), Verdict::outside);
-  EXPECT_EQ(verdict_of(std::nan("")), Verdict::outside);
-}
-
 TEST(Base64, MatchesTheExamplesOfRfc4648) {
   EXPECT_EQ(encode_base64(""), "");
   EXPECT_EQ(encode_base64("f"), "Zg==");
@@ -143,44 +126,4 @@ TEST(Base64, MatchesTheExamplesOfRfc4648) {
   EXPECT_EQ(encode_base64("foobar"), "Zm9vYmFy");
 }
 
-TEST(SlicePlane, ShowsThePatientsLeftOnTheRightWhateverTheImagesAxes) {
-  ScalarImage image;
-  image.geometry.size = {30, 30, 30};
-  image.geometry.direction << 0, 0, -1, 0, 1, 0, -1, 0, 0;
-  image.geometry.origin = {29, 0, 29};
-  image.voxels.resize(image.geometry.voxel_count());
-  for (int k = 0; k < 30; ++k) {
-    for (int j = 0; j < 30; ++j) {
-      for (int i = 0; i < 30; ++i) {
-        image.at(i, j, k) = static_cast<float>(image.geometry.to_world({i * 1.0, j * 1.0, k * 1.0}).x());
-      }
-    }
-  }
-  const auto planes = anatomical_planes({15, 15, 15}, {2, 2, 2}, {28, 28, 28}, 2);
-  const SlicePlane& axial = planes[0];
-  const auto values = sample_slice(axial, image);
-  for (const int x : {4, 20, 40}) {
-    const double expected = axial.world({x + 0.5, 10.5}).x();
-    EXPECT_NEAR(values[static_cast<std::size_t>(10 * axial.width + x)], expected, 1e-4);
-  }
-  EXPECT_EQ(axial.letters[1], 'L');
-  EXPECT_GT(axial.right.x(), 0);  // LPS: x grows towards the patient's left
-}
-
-TEST(SlicePlane, MaskOfACutCubeHasTheCubesArea) {
-  Surface cube;
-  cube.vertices = Points(8, 3);
-  for (int corner = 0; corner < 8; ++corner) {
-    cube.vertices.row(corner) << 10 * (corner & 1), 10 * (corner >> 1 & 1), 10 * (corner >> 2 & 1);
-  }
-  cube.triangles = Triangles(12, 3);
-  cube.triangles << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5,
-      3, 7, 5;
-  for (const SlicePlane& plane : anatomical_planes({5, 5, 5}, {-5, -5, -5}, {15, 15, 15}, 4)) {
-    const auto mask = inside_mask(plane, cut_surface(plane, cube));
-    EXPECT_EQ(std::ranges::count(mask, 1), 40 * 40) << plane.name;
-  }
-}
-
-}  // namespace
-}  // namespace brainshift::pipelines
+}  // namespace brainshift::pipelines::report_test

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "solve/solution.hpp"
+#include "solve/interface/solution.hpp"
+#include "solve/output/solution_file.hpp"
 #include "tests/phantoms/heads/head_runs.hpp"
 
 namespace brainshift {

@@ -55,19 +55,6 @@ Surface ball(double radius, const Eigen::Vector3d& centre, int splits) {
   return surface;
 }
 
-Surface box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  Surface surface;
-  surface.vertices.resize(8, 3);
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Array3d upper(corner & 1, (corner >> 1) & 1, corner >> 2);
-    surface.vertices.row(corner) = (low.array() + upper * (high - low).array()).matrix().transpose();
-  }
-  surface.triangles.resize(12, 3);
-  surface.triangles << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3,
-      5, 3, 7, 5;
-  return surface;
-}
-
 Surface bumpy_brain() {
   Surface surface = unit_sphere(5);
   for (auto vertex : surface.vertices.rowwise()) {

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
-#include "segmentation/surface/surface.hpp"
 
 namespace brainshift::test {
 
 /// A ball, its vertices on the sphere: an octahedron whose triangles are split in four `splits` times.
 Surface ball(double radius, const Eigen::Vector3d& centre, int splits);
-
-/// An axis-aligned box of 12 triangles.
-Surface box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
 /// Ellipsoid of 160 × 130 × 120 mm with bumps and dents, far from the origin: a stand-in for a brain.
 Surface bumpy_brain();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "discretise/discretise.hpp"
 
 #include <gtest/gtest.h>
@@ -11,10 +12,9 @@
 #include <numeric>
 
 #include "tests/unit/discretise/bodies.hpp"
-#include "tests/unit/discretise/scratch_folder.hpp"
+#include "tests/unit/scratch_folder.hpp"
 
-namespace brainshift::discretise {
-namespace {
+namespace brainshift::discretise::discretise_test {
 
 using test::ball;
 using test::ball_labels;
@@ -148,18 +148,20 @@ TEST(Discretise, GivesTheTissueOfTheVoxelOrOfTheNearestOfTheBrain) {
   DiscretiseOptions options;
   options.nodes = 2000;
   const Discretisation result = discretise(ball(40, centre, 4), &labels, options);
-  std::size_t inner = 0;
-  for (std::size_t node = 0; node < result.cloud.size(); ++node) {
-    const double distance = (result.cloud.positions.row(static_cast<Eigen::Index>(node)) - centre.transpose()).norm();
+  double inner = 0, all = 0;
+  for (std::size_t cell = 0; cell < result.cells.size(); ++cell) {
+    const std::int32_t* corner = &result.cells.connectivity[8 * cell];
+    const Eigen::RowVector3d low = result.cells.vertices.row(corner[0]), high = result.cells.vertices.row(corner[6]);
+    const double distance = ((low + high) / 2 - centre.transpose()).norm();
+    const double volume = result.cells.inside_fraction[cell] * (high - low).prod();
+    EXPECT_TRUE(result.cells.label[cell] == 1 || result.cells.label[cell] == 3);
     if (std::abs(distance - 20) > 1) {
-      EXPECT_EQ(result.cloud.label[node], distance < 20 ? 3 : 1);
+      EXPECT_EQ(result.cells.label[cell], distance < 20 ? 3 : 1);
     }
-    inner += result.cloud.label[node] == 3 ? 1 : 0;
+    inner += result.cells.label[cell] == 3 ? volume : 0;
+    all += volume;
   }
-  EXPECT_NEAR(static_cast<double>(inner), 2000.0 / 8, 60.0);
-  for (const std::int32_t label : result.cells.label) {
-    EXPECT_TRUE(label == 1 || label == 3);
-  }
+  EXPECT_NEAR(inner / all, 1.0 / 8, 0.03);
 }
 
 TEST(Discretise, IsReallyFinerTowardsACraniotomy) {
@@ -268,5 +270,4 @@ TEST(Discretise, RefusesLabelsThatLieElsewhere) {
             std::string::npos);
 }
 
-}  // namespace
-}  // namespace brainshift::discretise
+}  // namespace brainshift::discretise::discretise_test

@@ -5,16 +5,15 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <random>
 #include <vector>
 
 #include "register/registration.hpp"
+#include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
-#include "segmentation/surface/surface.hpp"
-#include "solve/solution.hpp"
+#include "solve/interface/solution.hpp"
 
 namespace brainshift::registration::builders {
 
@@ -163,24 +162,5 @@ inline RegisterInput head(const DisplacementOf& displacement, const ImageGeometr
   });
   return input;
 }
-
-/// A folder of its own, gone afterwards.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "brainshift-register-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace brainshift::registration::builders

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "solve/output/solution_file.hpp"
 #include "solve/shape/shape_functions.hpp"
 #include "tests/unit/register/builders.hpp"
 
-namespace brainshift::registration {
-namespace {
+namespace brainshift::registration::field_of_places_test {
 
 using namespace builders;
 
@@ -77,5 +77,4 @@ TEST(FieldOfPlaces, IsThatOfEachPlaceAloneBesideACut) {
   EXPECT_EQ(together_and_alone(nodes), 0);
 }
 
-}  // namespace
-}  // namespace brainshift::registration
+}  // namespace brainshift::registration::field_of_places_test

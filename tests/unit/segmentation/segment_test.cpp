@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <limits>
-#include <random>
-
-#include "builders.hpp"
 #include "segmentation/segment.hpp"
 
-namespace brainshift::test {
-namespace {
+#include <gtest/gtest.h>
 
-using namespace segmentation;
+#include <random>
+
+#include "segmentation/files/surface_file.hpp"
+#include "tests/unit/scratch_folder.hpp"
+
+namespace brainshift::test::segment_test {
 
 const Eigen::Vector3d centre(10.0, -40.0, 60.0);
 constexpr double brain_radius = 30.0;
@@ -147,7 +147,7 @@ TEST(Segment, TheSkullsInnerSurfaceComesFromItsLabel) {
 }
 
 TEST(Segment, TheFilesThatItWritesAreReadBackTheSame) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const Head drawn = head(oblique_left_handed());
   SegmentInput input;
   input.t1 = drawn.t1;
@@ -170,54 +170,4 @@ TEST(Segment, TheSameInputGivesTheSameSurfaceBitForBit) {
   EXPECT_EQ(first.tissues.at(2).vertices, second.tissues.at(2).vertices);
 }
 
-TEST(Segment, InputThatDoesNotFitIsRefusedInASentence) {
-  const Head drawn = head(oblique());
-  SegmentInput shifted;
-  shifted.t1 = drawn.t1;
-  shifted.labels = drawn.labels;
-  shifted.labels->geometry.origin.z() += 1.0;
-  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(shifted, two_labels()); }, {"different grids", "T1"}));
-
-  SegmentInput lacking;
-  lacking.labels = drawn.mask;
-  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(lacking, two_labels()); }, {"label 2"}));
-
-  SegmentInput empty;
-  empty.t1 = drawn.t1;
-  empty.brain_mask = drawn.mask;
-  std::fill(empty.brain_mask->voxels.begin(), empty.brain_mask->voxels.end(), std::int16_t{0});
-  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(empty, two_labels()); }, {"empty"}));
-
-  SegmentInput cut = empty;
-  cut.brain_mask = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, 0.0, 20.0), brain_radius);
-  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(cut, two_labels()); }, {"border", "pad"}));
-
-  SegmentInput broken;
-  broken.t1 = drawn.t1;
-  broken.brain_mask = drawn.mask;
-  broken.t1->at(36, 36, 36) = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(broken, two_labels()); }, {"finite"}));
-
-  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment({}, two_labels()); }, {"give labels"}));
-  SegmentOptions bad = two_labels();
-  bad.edge_length = std::nan("");
-  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(lacking, bad); }, {"edge length"}));
-}
-
-TEST(Segment, RefusesABrainWhoseLengthsAreInMetres) {
-  SegmentInput input;
-  const auto grid =
-      grid_around(Eigen::Vector3d::Zero(), 40, Eigen::Vector3d::Constant(0.004), Eigen::Matrix3d::Identity());
-  input.labels = ball(grid, Eigen::Vector3d::Zero(), 0.07);
-  SegmentOptions options;
-  options.brain_labels = {1};
-  try {
-    segment(input, options);
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("metres"), std::string::npos) << error.what();
-  }
-}
-
-}  // namespace
-}  // namespace brainshift::test
+}  // namespace brainshift::test::segment_test

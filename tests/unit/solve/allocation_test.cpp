@@ -6,9 +6,9 @@
 #include <new>
 
 #include "solve/dynamics/motion.hpp"
-#include "solve/dynamics/stiffness_bound.hpp"
-#include "solve/prepare.hpp"
-#include "tests/unit/solve/load/shapes.hpp"
+#include "solve/force/stiffness_bound.hpp"
+#include "solve/run/prepare.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/models.hpp"
 
 // The linker turns every call of malloc, calloc and the operators new in this program into one of these
@@ -41,14 +41,13 @@ void* __wrap__ZnwmSt11align_val_t(std::size_t size, std::align_val_t alignment) 
 }
 }
 
-namespace brainshift::solve {
-namespace {
+namespace brainshift::solve::allocation_test {
 
 /// A cube that is stretched within a ball which it touches, with forces, so that all that a step has is there.
 Model everything() {
   Model model = uniaxial(1.2);
   const double half = model_side / 2;
-  model.skull = testing_shapes::sphere(Eigen::Vector3d::Constant(half), 1.75 * half, 4);
+  model.skull = test::sphere(Eigen::Vector3d::Constant(half), 1.75 * half, 4);
   model.gravity = {0, 0, -9.81};
   return model;
 }
@@ -56,15 +55,14 @@ Model everything() {
 int allocated_in_steps(const Model& model, SolveOptions options) {
   SolveMeasures measures;
   Prepared p = prepare(model, completed(options, model), {}, measures, {});
-  const System system{p.points,     p.laws,     p.essential, p.contact ? &*p.contact : nullptr, p.external, model.curve,
-                      p.nodal_rows, p.original, nullptr};
-  Motion motion(system, p.laws, 0);
-  internal_force(p.points, p.laws, motion.now, motion.scratch, motion.force);
-  const std::vector<double> mass = stiffness_bound(p.points, p.laws, motion.scratch);
+  Motion motion(std::move(p.body), 0);
+  const Body& body = motion.body;
+  internal_force(body.points, body.laws, motion.now, motion.scratch, motion.force);
+  const std::vector<double> mass = stiffness_bound(body.points, body.laws, motion.scratch);
   motion.weigh(mass);
   const auto steps = [&](int count) {
     for (int i = 0; i < count; ++i) {
-      motion.step(p.laws, mass, 1, 0.9, 1, 1);
+      motion.step(body.laws, mass, 1, 0.9, 1, 1);
     }
   };
   steps(2);
@@ -90,5 +88,4 @@ TEST(Step, AllocatesNothing) {
   }
 }
 
-}  // namespace
-}  // namespace brainshift::solve
+}  // namespace brainshift::solve::allocation_test

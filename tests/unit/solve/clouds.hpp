@@ -2,11 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 
-#include "discretise/background_cells.hpp"
-#include "discretise/node_cloud.hpp"
+#include "discretise/interface/background_cells.hpp"
+#include "discretise/interface/node_cloud.hpp"
 
 namespace brainshift::test {
 
@@ -34,8 +33,6 @@ inline NodeCloud irregular_box(int n, double side, double jitter = 0.25, unsigne
     }
   }
   cloud.spacing.assign(cloud.on_surface.size(), h);
-  cloud.label.assign(cloud.on_surface.size(), 1);
-  cloud.prescribed_displacement = Points::Constant(cloud.positions.rows(), 3, std::nan(""));
   return cloud;
 }
 
@@ -110,8 +107,6 @@ inline NodeCloud irregular_rectangle(int nx, int ny, double width, double height
     }
   }
   cloud.spacing.assign(cloud.on_surface.size(), std::max(hx, hy));
-  cloud.label.assign(cloud.on_surface.size(), 1);
-  cloud.prescribed_displacement = Points::Constant(cloud.positions.rows(), 3, std::nan(""));
   return cloud;
 }
 

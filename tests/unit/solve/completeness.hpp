@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discretise/node_cloud.hpp"
+#include "discretise/interface/node_cloud.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::test {

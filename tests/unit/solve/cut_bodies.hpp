@@ -4,8 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "solve/cut/visibility.hpp"
+#include "solve/shape/visibility.hpp"
 #include "solve/solve.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift::test {
@@ -59,11 +60,12 @@ inline solve::Model strip(double stretch, solve::Plane plane = solve::Plane::str
   solve::Model model;
   model.plane = plane;
   model.cloud = irregular_rectangle(16, 11, strip_length, strip_width);
+  model.conditions = test::all_free(model.cloud);
   model.cells = rectangle_cells(16, 11, strip_length, strip_width);
   model.materials[1] = {3000, 0.45, 1000};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const double x = model.cloud.positions(a, 0);
-    auto prescribed = model.cloud.prescribed_displacement.row(a);
+    auto prescribed = model.conditions.displacement.row(a);
     if (x == 0 || x == strip_length) {
       prescribed[0] = x == 0 ? 0 : (stretch - 1) * strip_length;
     }

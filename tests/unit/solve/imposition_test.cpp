@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/solve.hpp"
+
 #include <gtest/gtest.h>
 
 #include "tests/unit/solve/models.hpp"
 
-namespace brainshift::solve {
-namespace {
+namespace brainshift::solve::imposition_test {
 
 /// Both forms of the essential conditions on one model, at rest.
 struct BothForms {
@@ -21,7 +22,7 @@ struct BothForms {
 
 /// Largest |u − ū| over the conditions, mm.
 double miss(const Model& model, const Solution& solution) {
-  const auto& prescribed = model.cloud.prescribed_displacement.array();
+  const auto& prescribed = model.conditions.displacement.array();
   return prescribed.isNaN().select(0.0, (solution.displacement.array() - prescribed).abs()).maxCoeff();
 }
 
@@ -49,7 +50,7 @@ TEST(SimplifiedImposition, IndentsACubeAsTheExactFormDoes) {
   Model model = uniaxial(1);
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const Eigen::RowVector3d x = model.cloud.positions.row(a);
-    auto prescribed = model.cloud.prescribed_displacement.row(a);
+    auto prescribed = model.conditions.displacement.row(a);
     if (x[2] > model_side - 1e-9) {  // a punch over a third of the top
       prescribed[2] = (x.head<2>().array() - model_side / 2).abs().maxCoeff() < model_side / 5 ? -4 : std::nan("");
     }
@@ -57,5 +58,4 @@ TEST(SimplifiedImposition, IndentsACubeAsTheExactFormDoes) {
   expect_agreement(model, 4);
 }
 
-}  // namespace
-}  // namespace brainshift::solve
+}  // namespace brainshift::solve::imposition_test

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solve/material/elastic_law.hpp"
+#include "solve/shape/node_supports.hpp"
 
 namespace brainshift::solve {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "solve/solve.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/unit/solve/material_cases.hpp"
 
@@ -15,6 +16,7 @@ constexpr double model_side = 60;
 inline Model box_model(BackgroundCells cells, int n = 7) {
   Model model;
   model.cloud = test::irregular_box(n, model_side);
+  model.conditions = test::all_free(model.cloud);
   model.cells = std::move(cells);
   model.materials[1] = {3000, 0.49, 1000};
   return model;
@@ -25,7 +27,7 @@ inline Model uniaxial(double stretch, int n = 7) {
   Model model = box_model(test::box_cells(n - 1, model_side), n);
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const Eigen::RowVector3d x = model.cloud.positions.row(a);
-    auto prescribed = model.cloud.prescribed_displacement.row(a);
+    auto prescribed = model.conditions.displacement.row(a);
     if (x[2] < 1e-9) {
       prescribed[2] = 0;
     }
@@ -65,7 +67,7 @@ inline double difference_from(const Solution& solution, const Eigen::Matrix3d& h
 inline SolveResult patch_test(Model model, const SolveOptions& options, const Eigen::Matrix3d& h) {
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.cloud.prescribed_displacement.row(a) = model.cloud.positions.row(a) * h.transpose();
+      model.conditions.displacement.row(a) = model.cloud.positions.row(a) * h.transpose();
     }
   }
   return solve(model, options);

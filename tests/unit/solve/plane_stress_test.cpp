@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/solve.hpp"
+
 #include <gtest/gtest.h>
 
-#include "solve/dynamics/patch_dilatation.hpp"
-#include "solve/solve.hpp"
-#include "tests/unit/solve/body.hpp"
+#include "solve/force/patch_dilatation.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/material_cases.hpp"
+#include "tests/unit/solve/specimen.hpp"
 
-namespace brainshift::solve {
-namespace {
+namespace brainshift::solve::plane_stress_test {
 
 using test::irregular_rectangle;
 using test::rectangle_cells;
@@ -18,7 +19,7 @@ class PlaneStress : public testing::TestWithParam<Material> {
  protected:
   ElasticLaw law = elastic_law(GetParam());
 
-  Body body() const {
+  Specimen body() const {
     return {irregular_rectangle(9, 6, width, height),
             rectangle_cells(10, 5, width, height),
             {GetParam()},
@@ -41,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Material, PlaneStress, testing::ValuesIn(every_law),
                          [](const auto& tested) { return name_of(tested.param); });
 
 TEST_P(PlaneStress, LeavesNoStressAcrossTheThickness) {
-  Body b = body();
+  Specimen b = body();
   b.force(b.random_parameters(0.8));
   const double modulus = std::visit([](const auto& l) { return l.bulk_modulus; }, law);
   double largest_change = 0;
@@ -55,7 +56,7 @@ TEST_P(PlaneStress, LeavesNoStressAcrossTheThickness) {
 }
 
 TEST_P(PlaneStress, ForceIsTheDerivativeOfTheStrainEnergy) {
-  Body b = body();
+  Specimen b = body();
   const NodalVectors u = b.random_parameters(0.5);
   const NodalVectors f = b.force(u);
   constexpr double step = 1e-5;
@@ -70,7 +71,7 @@ TEST_P(PlaneStress, ForceIsTheDerivativeOfTheStrainEnergy) {
 }
 
 TEST_P(PlaneStress, StoresTheEnergyOfUniaxialTension) {
-  Body b = body();
+  Specimen b = body();
   const double stretch = 1.1;
   const auto [lateral, tension] = uniaxial(stretch);
   const Eigen::Matrix3d f = Eigen::Vector3d(stretch, lateral, lateral).asDiagonal();
@@ -85,10 +86,11 @@ TEST_P(PlaneStress, PullsBackOnAStretchedRectangleAsTheAnalyticSolutionSays) {
   Model model;
   model.plane = Plane::stress;
   model.cloud = irregular_rectangle(9, 6, width, height);
+  model.conditions = test::all_free(model.cloud);
   model.cells = rectangle_cells(10, 5, width, height);
   model.materials[1] = GetParam();
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    auto prescribed = model.cloud.prescribed_displacement.row(a);
+    auto prescribed = model.conditions.displacement.row(a);
     const double x = model.cloud.positions(a, 0);
     prescribed[0] = x < 1e-9 ? 0 : (x > width - 1e-9 ? (stretch - 1) * width : std::nan(""));
     prescribed[1] = model.cloud.positions(a, 1) < 1e-9 ? 0 : std::nan("");
@@ -107,5 +109,4 @@ TEST_P(PlaneStress, PullsBackOnAStretchedRectangleAsTheAnalyticSolutionSays) {
   EXPECT_NEAR(result.solution.displacement(corner, 1), (lateral - 1) * height, 0.02 * height * (stretch - 1));
 }
 
-}  // namespace
-}  // namespace brainshift::solve
+}  // namespace brainshift::solve::plane_stress_test

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+
 #include "solve/solve.hpp"
 
 #include <gtest/gtest.h>
@@ -6,10 +7,11 @@
 
 #include <Eigen/Geometry>
 
+#include "solve/output/solution_file.hpp"
+#include "solve/output/steps.hpp"
 #include "tests/unit/solve/models.hpp"
 
-namespace brainshift::solve {
-namespace {
+namespace brainshift::solve::solve_test {
 
 using test::box_cells;
 using test::box_tetrahedra;
@@ -150,10 +152,10 @@ TEST(Solve, RefusesWhatCannotBeSolved) {
   model.materials[1].youngs_modulus = -1;
   EXPECT_THROW(solve(model, {}), std::invalid_argument);
   model = good;
-  model.cloud.prescribed_displacement.setConstant(std::nan(""));
+  model.conditions.displacement.setConstant(std::nan(""));
   EXPECT_THROW(solve(model, {}), std::invalid_argument);
   model = good;
-  model.cloud.prescribed_displacement.leftCols<2>().setConstant(std::nan(""));  // free to slide and turn
+  model.conditions.displacement.leftCols<2>().setConstant(std::nan(""));  // free to slide and turn
   EXPECT_THROW(solve(model, {}), std::invalid_argument);
 }
 
@@ -169,5 +171,4 @@ TEST(Solution, SurvivesWritingAndReading) {
   EXPECT_EQ(read.shape.basis, result.solution.shape.basis);
 }
 
-}  // namespace
-}  // namespace brainshift::solve
+}  // namespace brainshift::solve::solve_test

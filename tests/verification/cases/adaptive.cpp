@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "segmentation/files/surface_file.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -27,6 +29,7 @@ solve::Model slice_model(double least_distance) {
   solve::Model model;
   model.plane = solve::Plane::strain;
   model.cloud = cloud_in(outline, least_distance, 1);
+  model.conditions = test::all_free(model.cloud);
   model.cells = triangles_in(outline, model.cloud.positions);
   model.materials[1] = {3000, 0.49, 1000};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
@@ -35,9 +38,9 @@ solve::Model slice_model(double least_distance) {
       continue;
     }
     if (t > 0) {
-      model.cloud.prescribed_displacement.row(a) = pushed * t * t * t * (10 - 15 * t + 6 * t * t) * direction;
+      model.conditions.displacement.row(a) = pushed * t * t * t * (10 - 15 * t + 6 * t * t) * direction;
     } else if (distance > held_from) {
-      model.cloud.prescribed_displacement.row(a).setZero();
+      model.conditions.displacement.row(a).setZero();
     }
   }
   return model;

@@ -8,6 +8,8 @@
 
 #include "solve/material/elastic_law.hpp"
 #include "solve/material/named_materials.hpp"
+#include "solve/shape/node_supports.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
@@ -50,14 +52,15 @@ constexpr double side = 20;  // mm
 solve::Model stretched_box(const solve::Material& material, const Eigen::Vector3d& stretch, double least_distance) {
   solve::Model model;
   model.cloud = box_cloud(Eigen::Vector3d::Constant(side), least_distance, 3);
+  model.conditions = test::all_free(model.cloud);
   const int cells = static_cast<int>(std::round(0.75 * side / least_distance));
   model.cells = test::box_cells(cells, side);
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     for (int axis = 0; axis < 3; ++axis) {
       if (model.cloud.positions(a, axis) == 0) {
-        model.cloud.prescribed_displacement(a, axis) = 0;
+        model.conditions.displacement(a, axis) = 0;
       } else if (model.cloud.positions(a, axis) == side && !std::isnan(stretch[axis])) {
-        model.cloud.prescribed_displacement(a, axis) = side * (stretch[axis] - 1);
+        model.conditions.displacement(a, axis) = side * (stretch[axis] - 1);
       }
     }
   }
@@ -90,7 +93,7 @@ Figure shear_figure(const std::string& name, const solve::Material& material, bo
   solve::Model model = stretched_box(material, Eigen::Vector3d::Constant(std::nan("")), small ? 5 : 2.5);
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.cloud.prescribed_displacement.row(a) << shear * model.cloud.positions(a, 2), 0, 0;
+      model.conditions.displacement.row(a) << shear * model.cloud.positions(a, 2), 0, 0;
     }
   }
   const solve::SolveResult result = solved(model, steady_options());
@@ -146,13 +149,14 @@ Outcome cantilever(bool small) {
   const double least = small ? 4 : 2;
   model.plane = solve::Plane::stress;
   model.cloud = rectangle_cloud(length, depth, least, 2);
+  model.conditions = test::all_free(model.cloud);
   model.cells = test::rectangle_cells(static_cast<int>(length / least), static_cast<int>(depth / least), length, depth);
   model.materials[1] = material;
-  model.cloud.force = Points::Zero(model.cloud.positions.rows(), 3);
+  model.conditions.force = Points::Zero(model.cloud.positions.rows(), 3);
   std::vector<std::pair<double, Eigen::Index>> end;
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     if (model.cloud.positions(a, 0) == 0) {
-      model.cloud.prescribed_displacement.row(a) = exact(model.cloud.positions.row(a));
+      model.conditions.displacement.row(a) = exact(model.cloud.positions.row(a));
     } else if (model.cloud.positions(a, 0) == length) {
       end.emplace_back(model.cloud.positions(a, 1), a);
     }
@@ -165,7 +169,7 @@ Outcome cantilever(bool small) {
   for (std::size_t i = 0; i < end.size(); ++i) {
     const double from = i == 0 ? 0 : (end[i - 1].first + end[i].first) / 2;
     const double to = i + 1 == end.size() ? depth : (end[i].first + end[i + 1].first) / 2;
-    model.cloud.force(end[i].second, 1) = sheared(to) - sheared(from);
+    model.conditions.force(end[i].second, 1) = sheared(to) - sheared(from);
   }
   solve::SolveOptions options;
   options.points_per_cell = 4;
@@ -214,6 +218,7 @@ Outcome pressurised_ball(bool small) {
   solve::Model model;
   const double least = small ? 3.0 : 1.4;
   model.cloud = hollow_ball_cloud(inner, outer, least, 4);
+  model.conditions = test::all_free(model.cloud);
   const int radial = static_cast<int>(std::round(10 / (1.2 * least)));
   model.cells = hollow_ball_cells(inner, outer, radial, 2 * radial);
   model.materials[1] = material;
@@ -221,9 +226,9 @@ Outcome pressurised_ball(bool small) {
     const Eigen::RowVector3d x = model.cloud.positions.row(a);
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(x.norm() - inner) < 1e-9) {
-        model.cloud.prescribed_displacement(a, axis) = widened * x[axis] / inner;
+        model.conditions.displacement(a, axis) = widened * x[axis] / inner;
       } else if (std::abs(x[axis]) < 1e-9) {
-        model.cloud.prescribed_displacement(a, axis) = 0;
+        model.conditions.displacement(a, axis) = 0;
       }
     }
   }

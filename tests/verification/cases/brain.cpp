@@ -18,10 +18,7 @@ Outcome brain(bool small) {
   Outcome outcome;
   for (const auto& [cell_name, kind] :
        {std::pair{"hexahedra", CellKind::hexahedron}, std::pair{"tetrahedra", CellKind::tetrahedron}}) {
-    discretise::Discretisation parts = loaded_brain(nodes, kind);
-    solve::Model model;
-    model.cloud = std::move(parts.cloud);
-    model.cells = std::move(parts.cells);
+    solve::Model model = loaded_brain(nodes, kind);
     model.materials[1] = {3000, 0.49, 1000};
     for (const auto& [basis_name, basis, bounded] :
          {std::tuple{"MMLS", Basis::modified_quadratic, true}, {"MLS, linear basis", Basis::linear, false}}) {

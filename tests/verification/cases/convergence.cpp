@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/dynamics/largest_eigenvalue.hpp"
-#include "solve/dynamics/stiffness_bound.hpp"
+#include "solve/force/largest_eigenvalue.hpp"
+#include "solve/force/stiffness_bound.hpp"
 #include "solve/material/material_table.hpp"
+#include "solve/output/field_difference.hpp"
+#include "solve/quadrature/cell_points.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
@@ -35,13 +38,14 @@ double manufactured_error(Basis basis, double least_distance, double& seconds) {
   const double wave_modulus = solve::bulk_modulus(material) + 4 * shear / 3;
   solve::Model model;
   model.cloud = box_cloud(Eigen::Vector3d::Constant(side), least_distance, 5);
+  model.conditions = test::all_free(model.cloud);
   const int cells = static_cast<int>(std::round(side / (1.15 * least_distance)));
   model.cells = test::box_cells(cells, side);
   model.materials[1] = material;
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
       const Eigen::Vector3d x = model.cloud.positions.row(a);
-      model.cloud.prescribed_displacement.row(a) = swirl(x) + squeeze(x);
+      model.conditions.displacement.row(a) = swirl(x) + squeeze(x);
     }
   }
   // −div σ: µk² of a field without divergence, (λ + 2µ) 3k² of a gradient's
@@ -121,7 +125,7 @@ double patch_error(solve::Model model, Basis basis, solve::Integration integrati
   for (Eigen::Index a = 0; a < linear.rows(); ++a) {
     linear.row(a) = slope * model.cloud.positions.row(a).transpose();
     if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.cloud.prescribed_displacement.row(a) = linear.row(a);
+      model.conditions.displacement.row(a) = linear.row(a);
     }
   }
   solve::SolveOptions options;
@@ -146,6 +150,7 @@ Outcome patch_test(bool small) {
   const int n = small ? 6 : 9;
   solve::Model box;
   box.cloud = test::irregular_box(n, 50);
+  box.conditions = test::all_free(box.cloud);
   box.cells = test::box_tetrahedra(box.cloud, n);
   box.materials[1] = cylinder.materials.at(1);
   Outcome outcome;

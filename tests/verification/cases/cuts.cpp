@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/output/field_difference.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/block_picture.hpp"
 #include "tests/verification/cases/cases.hpp"
@@ -26,6 +28,7 @@ solve::Model square(double least_distance) {
   model.plane = solve::Plane::strain;
   model.cloud = rectangle_cloud(side, side, least_distance, 4,
                                 [](const Eigen::Vector3d& x) { return std::clamp((x - tip).norm() / 20, 0.25, 1.0); });
+  model.conditions = test::all_free(model.cloud);
   Points outline(4, 3);
   outline << 0, 0, 0, side, 0, 0, side, side, 0, 0, side, 0;
   model.cells = triangles_in(outline, model.cloud.positions);
@@ -33,7 +36,7 @@ solve::Model square(double least_distance) {
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const double y = model.cloud.positions(a, 1);
     if (y == 0 || y == side) {
-      model.cloud.prescribed_displacement.row(a) << 0, (y == 0 ? 0 : pulled), 0;
+      model.conditions.displacement.row(a) << 0, (y == 0 ? 0 : pulled), 0;
     }
   }
   return model;
@@ -153,13 +156,14 @@ solve::Model block(double least_distance) {
   model.cloud = box_cloud(size, least_distance, 4, [](const Eigen::Vector3d& x) {
     return std::clamp(std::hypot(x.x() - 30, x.z() - 30) / 15, 0.6, 1.0);
   });
+  model.conditions = test::all_free(model.cloud);
   const double edge = std::cbrt(size.prod() / (1.5 * static_cast<double>(model.cloud.size())));
   model.cells = test::box_cells((size / edge).array().round().cast<int>(), size);
   model.materials[1] = {3000, 0.49, 1000};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const double z = model.cloud.positions(a, 2);
     if (z == 0 || z == size.z()) {
-      model.cloud.prescribed_displacement.row(a) << 0, 0, (z == 0 ? 0 : 12);
+      model.conditions.displacement.row(a) << 0, 0, (z == 0 ? 0 : 12);
     }
   }
   model.cuts = {sheet(12)};

@@ -52,7 +52,7 @@ Outcome compare(const std::string& name, double poisson_ratio, const Eigen::RowV
   const int loads = small ? 1 : 4;
   for (int load = 1; load <= loads; ++load) {
     solve::Model part = model;
-    part.cloud.prescribed_displacement *= static_cast<double>(load) / loads;
+    part.conditions.displacement *= static_cast<double>(load) / loads;
     const solve::SolveResult result = solved(part, steady_options());
     ours.x.push_back(imposed * load / loads);
     ours.y.push_back(std::abs(result.history.back().reaction[axis]));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solve/solve.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/verification/clouds.hpp"
 
 namespace brainshift::verification {
@@ -15,14 +16,15 @@ inline solve::Model cylinder_model(double least_distance, double cells_per_node,
   solve::Model model;
   const Grading rims = rim_fineness < 1 ? Grading{{{radius, 0}, {radius, height}}, rim_fineness, 20} : Grading{};
   model.cloud = cylinder_cloud(radius, height, least_distance, 4, rims);
+  model.conditions = test::all_free(model.cloud);
   model.cells = cells_over(cylinder_surface(radius, height), model.cloud.size(), cells_per_node,
                            rims.rings.empty() ? std::nullopt : std::optional(refinement_about(rims, 5)));
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const double z = model.cloud.positions(a, 2);
     if (z == 0) {
-      model.cloud.prescribed_displacement.row(a).setZero();
+      model.conditions.displacement.row(a).setZero();
     } else if (z == height) {
-      model.cloud.prescribed_displacement.row(a) = travel;
+      model.conditions.displacement.row(a) = travel;
     }
   }
   model.materials[1] = {2 * shear_modulus * (1 + poisson_ratio), poisson_ratio, 1000};

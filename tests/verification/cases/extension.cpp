@@ -3,7 +3,8 @@
 // Section 6.2 of the source: a rectangle of 100 × 40 mm with 57 nodes, held at one end, lengthened by 30 %.
 #include <cmath>
 
-#include "discretise/neighbours/neighbour_distance.hpp"
+#include "segmentation/geometry/neighbour_distance.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
@@ -25,9 +26,7 @@ NodeCloud reference_cloud() {
     const bool edge = rows[a][0] == 0 || rows[a][0] == length || rows[a][1] == 0 || rows[a][1] == width;
     cloud.on_surface.push_back(edge ? 1 : 0);
   }
-  cloud.label.assign(rows.size(), 1);
   cloud.spacing = mean_neighbour_distance(nearest_neighbours(cloud.positions, 4), 4);
-  cloud.prescribed_displacement = Points::Constant(cloud.positions.rows(), 3, std::nan(""));
   return cloud;
 }
 
@@ -35,12 +34,13 @@ solve::SolveResult pull(solve::Plane plane, Basis basis) {
   solve::Model model;
   model.plane = plane;
   model.cloud = reference_cloud();
+  model.conditions = test::all_free(model.cloud);
   model.cells = test::rectangle_cells(100, 40, length, width);
   model.materials[1] = {3000, 0.49, 1000};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const double x = model.cloud.positions(a, 0);
     if (x == 0 || x == length) {
-      model.cloud.prescribed_displacement.row(a) << (x == 0 ? 0 : pulled), 0, 0;
+      model.conditions.displacement.row(a) << (x == 0 ? 0 : pulled), 0, 0;
     }
   }
   solve::SolveOptions options = steady_options();

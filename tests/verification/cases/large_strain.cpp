@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -86,14 +87,15 @@ solve::SolveResult indent(double least_distance, double depth, int load_steps) {
   solve::Model model;
   const Grading edge{{{punch, height}}, 0.18, punch};  // the punch's, where the solution is singular
   model.cloud = cylinder_cloud(radius, height, least_distance, 6, edge);
+  model.conditions = test::all_free(model.cloud);
   model.cells = cells_over(cylinder_surface(radius, height), model.cloud.size(), 0.75, refinement_about(edge, 1.5));
   model.materials[1] = {5000, 0.49, 1000};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const Eigen::RowVector3d x = model.cloud.positions.row(a);
     if (x[2] == 0) {
-      model.cloud.prescribed_displacement.row(a).setZero();
+      model.conditions.displacement.row(a).setZero();
     } else if (x[2] == height && x.head<2>().norm() < punch + 1e-6) {
-      model.cloud.prescribed_displacement.row(a) << 0, 0, -depth;
+      model.conditions.displacement.row(a) << 0, 0, -depth;
     }
   }
   solve::SolveOptions options = steady_options();

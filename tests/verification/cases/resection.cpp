@@ -2,12 +2,12 @@
 //
 // Lamé's hollow ball, made from a full one: its core is taken out, and a pressure put in its place.
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "discretise/discretise.hpp"
 #include "solve/material/elastic_law.hpp"
-#include "tests/unit/solve/load/shapes.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -56,15 +56,16 @@ LabelMap core_and_shell() {
 }
 
 /// The outermost node along each axis, both ways, does not leave it: the ball stays where it is, free to grow.
-void hold(NodeCloud& cloud, const Lame& exact) {
-  const Points u = exact(cloud.positions);
-  cloud.prescribed_displacement = Points::Constant(u.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+void hold(solve::Model& model, const Lame& exact) {
+  const Points& x = model.cloud.positions;
+  const Points u = exact(x);
+  model.conditions = test::all_free(model.cloud);
   for (const double side : {-1.0, 1.0}) {
     for (const int axis : {0, 1, 2}) {
       Eigen::Index a = 0;
-      (side * cloud.positions.col(axis)).maxCoeff(&a);
+      (side * x.col(axis)).maxCoeff(&a);
       for (const int other : {(axis + 1) % 3, (axis + 2) % 3}) {
-        cloud.prescribed_displacement(a, other) = u(a, other);
+        model.conditions.displacement(a, other) = u(a, other);
       }
     }
   }
@@ -79,18 +80,18 @@ std::vector<Figure> emptied_ball(std::size_t nodes, double most_wall, double mos
   model.labels = core_and_shell();
   discretise::DiscretiseOptions discretisation;
   discretisation.nodes = nodes;
-  const Surface ball = testing_shapes::sphere(Eigen::Vector3d::Zero(), outer, 5);
+  const Surface ball = test::sphere(Eigen::Vector3d::Zero(), outer, 5);
   discretise::Discretisation parts = discretise::discretise(ball, &*model.labels, discretisation);
   model.cloud = std::move(parts.cloud);
   model.cells = std::move(parts.cells);
   model.materials[1] = material;
   model.resection = solve::Resection{{2}, exact.pressure};
-  hold(model.cloud, exact);
+  hold(model, exact);
   solve::SolveOptions options;
   options.tolerance = 1e-5;
   const solve::SolveResult result = solved(model, options);
 
-  const Points wall = testing_shapes::sphere(Eigen::Vector3d::Zero(), inner, 4).vertices;
+  const Points wall = test::sphere(Eigen::Vector3d::Zero(), inner, 4).vertices;
   const Differences at_wall = differences(result.solution, wall, exact(wall));
   const Points& x = result.solution.positions;
   const Eigen::ArrayXd outside = (x.rowwise().norm().array() >= inner).cast<double>();

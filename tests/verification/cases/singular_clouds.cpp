@@ -5,7 +5,8 @@
 #include <exception>
 #include <limits>
 
-#include "discretise/neighbours/neighbour_distance.hpp"
+#include "segmentation/geometry/neighbour_distance.hpp"
+#include "solve/shape/shape_functions.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/reference.hpp"

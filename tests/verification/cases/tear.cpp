@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/stress_strain.hpp"
+#include "solve/output/stress_strain.hpp"
+#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
@@ -23,6 +24,7 @@ solve::Model specimen(double least_distance, double pulled, const solve::Rupture
   solve::Model model;
   model.plane = solve::Plane::stress;
   model.cloud = rectangle_cloud(length, width, least_distance, 4);
+  model.conditions = test::all_free(model.cloud);
   const double edge = std::sqrt(length * width / static_cast<double>(model.cloud.size()));
   model.cells = test::rectangle_cells(static_cast<int>(std::lround(length / edge)),
                                       static_cast<int>(std::lround(width / edge)), length, width);
@@ -30,7 +32,7 @@ solve::Model specimen(double least_distance, double pulled, const solve::Rupture
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const double x = model.cloud.positions(a, 0);
     if (x == 0 || x == length) {
-      model.cloud.prescribed_displacement.row(a) << (x == 0 ? 0 : pulled * length), 0, 0;
+      model.conditions.displacement.row(a) << (x == 0 ? 0 : pulled * length), 0, 0;
     }
   }
   model.rupture = rupture;

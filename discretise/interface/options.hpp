@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "discretise/interface/background_cells.hpp"
+#include "segmentation/geometry/points.hpp"
+
+namespace brainshift::discretise {
+
+/// Finer nodes near a place: within `radius` mm of any of the points the spacing is multiplied by `factor`, growing
+/// back to the uniform one over the same distance again.
+struct Refinement {
+  Points centres;
+  double radius = 20.0;
+  double factor = 0.5;
+};
+
+struct DiscretiseOptions {
+  std::optional<double> spacing;     ///< mm; give this or nodes, not both
+  std::optional<std::size_t> nodes;  ///< wanted number of nodes, met within 5 %; default 12,000 when neither is given
+  double minimum_distance = 0.5;     ///< no node nearer to another than this fraction of its spacing; 0 to 0.7
+  std::optional<Refinement> craniotomy;  ///< finer towards the opening
+  double tumour_factor = 1.0;            ///< spacing inside and at a tumour / uniform spacing
+  std::int32_t tumour_label = 3;
+  double tissue_boundary_factor = 1.0;    ///< spacing at boundaries between tissues / uniform spacing
+  CellKind cells = CellKind::hexahedron;  ///< or tetrahedron; a body has no planar cells
+  /// Hexahedra: cells a node (inside volume / cell volume / nodes). With eight points a cell that is six points a node.
+  /// Where the nodes are finer the cells are split.
+  double cells_per_node = 0.75;
+  std::vector<std::int32_t> brain_labels = {1, 2, 3};  ///< labels of the label map that are tissue of the brain
+  std::uint64_t seed = 1;
+};
+
+}  // namespace brainshift::discretise

@@ -1,0 +1,57 @@
+# What `cmake --install` puts where, and what cpack makes of it: the program, and for other programs the libraries under
+# the names brainshift::segmentation, brainshift::discretise, brainshift::solve and brainshift::registration.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS brainshift RUNTIME COMPONENT program)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
+
+set(libraries geometry image files segmentation discretise solve registration)
+foreach(library ${libraries})
+  set_target_properties(brainshift_${library} PROPERTIES EXPORT_NAME ${library})
+  add_library(brainshift::${library} ALIAS brainshift_${library})
+  list(APPEND targets brainshift_${library})
+endforeach()
+set_target_properties(brainshift_flags PROPERTIES EXPORT_NAME flags)
+install(TARGETS brainshift_flags ${targets} EXPORT brainshift_targets ARCHIVE COMPONENT library)
+install(EXPORT brainshift_targets NAMESPACE brainshift:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brainshift
+  COMPONENT library)
+install(DIRECTORY segmentation discretise solve register DESTINATION ${BRAINSHIFT_HEADERS} COMPONENT library
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*_bridge.hpp" EXCLUDE)
+configure_package_config_file(pipelines/package/brainshift-config.cmake.in ${PROJECT_BINARY_DIR}/brainshift-config.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brainshift)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/brainshift-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/brainshift-config.cmake ${PROJECT_BINARY_DIR}/brainshift-config-version.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brainshift COMPONENT library)
+
+# help2man writes the page from the program's own help.
+find_program(HELP2MAN help2man)
+if(HELP2MAN)
+  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/brainshift.1.gz
+    COMMAND bash ${PROJECT_SOURCE_DIR}/pipelines/package/man_page.sh ${HELP2MAN} $<TARGET_FILE:brainshift>
+      ${PROJECT_BINARY_DIR}/brainshift.1.gz
+    DEPENDS brainshift ${PROJECT_SOURCE_DIR}/pipelines/package/man_page.sh VERBATIM)
+  add_custom_target(man_page ALL DEPENDS ${PROJECT_BINARY_DIR}/brainshift.1.gz)
+  install(FILES ${PROJECT_BINARY_DIR}/brainshift.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+endif()
+
+set(CPACK_PACKAGE_NAME brainshift)
+set(CPACK_PACKAGE_VENDOR "brainshift")
+set(CPACK_PACKAGE_CONTACT "the brainshift developers <brainshift@example.org>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGE_DESCRIPTION "When the skull is opened the brain sags, and the preoperative MRI no longer fits.
+brainshift takes a labelled head MRI and the displacements measured on the exposed cortex, computes how the whole
+brain moved by mechanics (meshless total Lagrangian explicit dynamics) and warps the MRI to match.
+Research software, not a medical device.")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_SOURCE_IGNORE_FILES "/\\.git/;/build[^/]*/;/demo/")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME brainshift)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+include(CPack)

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace brainshift::pipelines {
+
+/// What a stage says of itself, for run.json (README.md lists the fields).
+struct StageReport {
+  nlohmann::ordered_json sizes = nlohmann::ordered_json::object();
+  nlohmann::ordered_json measures = nlohmann::ordered_json::object();
+  std::string failure;  ///< empty, or the sentence of a computation that did not converge; its artefacts are written
+};
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+namespace brainshift::registration {
+
+enum class Interpolation : std::uint8_t { linear, bspline };
+
+struct RegisterOptions {
+  double fade = 20.0;  ///< distance outside the brain over which the field goes to zero, mm; it does not fold while
+                       ///< displacements away from the brain stay below about 0.7 of it
+  Interpolation interpolation = Interpolation::linear;
+  double inverse_tolerance = 0.01;  ///< of the inversion at the voxels, mm
+};
+
+}  // namespace brainshift::registration

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "register/registration.hpp"
+
+#include <omp.h>
+
+#include <fstream>
+#include <future>
+#include <iomanip>
+#include <stdexcept>
+
+#include "register/files/write_transform.hpp"
+
+namespace brainshift::registration {
+
+namespace {
+
+void write_landmarks(const std::filesystem::path& file, const Points& preop, const Points& intraop) {
+  std::ofstream out(file);
+  out << "# frame: LPS\n# unit: mm\nlabel,x,y,z,intraop_x,intraop_y,intraop_z,ux,uy,uz\n"
+      << std::fixed << std::setprecision(6);
+  for (Eigen::Index p = 0; p < preop.rows(); ++p) {
+    out << p + 1;
+    const Eigen::RowVector3d moved = intraop.row(p) - preop.row(p);
+    for (const Eigen::RowVector3d& triple :
+         {Eigen::RowVector3d(preop.row(p)), Eigen::RowVector3d(intraop.row(p)), moved}) {
+      out << ',' << triple.x() << ',' << triple.y() << ',' << triple.z();
+    }
+    out << '\n';
+  }
+  if (!out.flush()) {
+    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+  }
+}
+
+}  // namespace
+
+void write_registration(const std::filesystem::path& folder, const Registration& registration) {
+  // The transforms go beside the images: each has parts on one thread, which the other's fill up. Not beside each
+  // other: HDF5 knows no threads.
+  const int threads = omp_get_max_threads();
+  const auto when = threads > 1 ? std::launch::async : std::launch::deferred;
+  std::future<void> transforms = std::async(when, [&folder, &registration, threads] {
+    omp_set_num_threads(threads);  // OpenMP keeps it for each thread
+    write_transform(folder / "intraop_to_preop.h5", registration.resampling);
+    write_transform(folder / "preop_to_intraop.h5", registration.forward);
+  });
+  write_image(folder / "intraop_to_preop.nii.gz", registration.resampling);
+  write_image(folder / "preop_to_intraop.nii.gz", registration.forward);
+  write_image(folder / "warped.nii.gz", registration.warped);
+  write_image(folder / "jacobian.nii.gz", registration.jacobian);
+  if (registration.warped_labels) {
+    write_image(folder / "warped_labels.nii.gz", *registration.warped_labels);
+  }
+  if (registration.landmarks.rows() > 0) {
+    write_landmarks(folder / "landmarks.csv", registration.preop_landmarks, registration.landmarks);
+  }
+  transforms.get();
+}
+
+}  // namespace brainshift::registration

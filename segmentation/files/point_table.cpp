@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/files/point_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "segmentation/files/refuse.hpp"
+#include "segmentation/files/text_lines.hpp"
+
+namespace brainshift {
+
+namespace {
+
+/// 3D Slicer's own columns of a .fcsv.
+const std::vector<std::string> fcsv_columns = {"id", "x",   "y",   "z",    "ow",    "ox",  "oy",
+                                               "oz", "vis", "sel", "lock", "label", "desc"};
+
+void read_frame(std::string_view name, std::size_t line, PointTable& table) {
+  const std::optional<Frame> frame = frame_named(name);
+  if (!frame) {
+    fail_at_line(table.file, line, "the frame must be LPS or RAS, found \"" + std::string(name) + "\"");
+  }
+  if (table.frame && *table.frame != *frame) {
+    fail_at_line(table.file, line, "the frame is named twice, differently");
+  }
+  table.frame = frame;
+}
+
+void read_columns(std::string_view names, std::size_t line, PointTable& table) {
+  table.columns = split_fields(names);
+  for (const char* wanted : {"x", "y", "z"}) {
+    if (!table.find_column(wanted)) {
+      fail_at_line(table.file, line,
+                   "a header with the columns x, y and z is expected, found \"" + std::string(names) + "\"");
+    }
+  }
+}
+
+/// "# key: value" or "# key = value".
+void read_comment(std::string_view text, std::size_t line, PointTable& table) {
+  const std::size_t mark = text.find_first_of(":=");
+  if (mark == std::string_view::npos) {
+    return;
+  }
+  const std::string_view key = trimmed(text.substr(1, mark - 1)), value = trimmed(text.substr(mark + 1));
+  if (key == "columns") {
+    read_columns(value, line, table);
+  } else if (key == "frame" || key == "CoordinateSystem") {
+    read_frame(value, line, table);
+  }
+}
+
+/// The column's number, and that each row has it.
+std::size_t column_in(const PointTable& table, const std::string& name) {
+  const std::optional<std::size_t> column = table.find_column(name);
+  if (!column) {
+    refuse(table.file, "the column \"" + name + "\" is missing");
+  }
+  return *column;
+}
+
+const std::string& field_in(const PointTable& table, const std::vector<std::string>& fields, std::size_t column,
+                            std::size_t line) {
+  if (column >= fields.size()) {
+    fail_at_line(table.file, line, "a point with all its columns is expected, found \"" + table.lines[line - 1] + "\"");
+  }
+  return fields[column];
+}
+
+}  // namespace
+
+std::optional<std::size_t> PointTable::find_column(std::string_view name) const {
+  const auto place = std::find(columns.begin(), columns.end(), name);
+  return place == columns.end() ? std::nullopt : std::optional(static_cast<std::size_t>(place - columns.begin()));
+}
+
+PointTable read_point_table(const std::filesystem::path& file) {
+  PointTable table{.file = file, .lines = read_lines(file), .frame = {}, .columns = {}, .rows = {}};
+  const bool is_csv = file.extension() == ".csv";
+  if (!is_csv) {
+    table.columns = fcsv_columns;
+  }
+  for (std::size_t i = 0; i < table.lines.size(); ++i) {
+    const std::string_view text = trimmed(table.lines[i]);
+    if (text.starts_with('#')) {
+      read_comment(text, i + 1, table);
+    } else if (!text.empty() && table.columns.empty()) {
+      read_columns(text, i + 1, table);
+    } else if (!text.empty()) {
+      table.rows.push_back(i);
+    }
+  }
+  if (table.rows.empty()) {
+    refuse(file, "holds no point; a line of numbers under a header with x,y,z is expected");
+  }
+  if (!table.frame) {
+    refuse(file, is_csv ? "the frame is not named; add a line \"# frame: LPS\" or \"# frame: RAS\" at its beginning"
+                        : "the frame is not named; a line \"# CoordinateSystem = LPS\" or RAS is expected");
+  }
+  return table;
+}
+
+Points vectors_in(const PointTable& table, const std::string& x, const std::string& y, const std::string& z) {
+  const std::array<std::size_t, 3> columns = {column_in(table, x), column_in(table, y), column_in(table, z)};
+  Points vectors(static_cast<Eigen::Index>(table.rows.size()), 3);
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const std::size_t line = table.rows[row] + 1;
+    const std::vector<std::string> fields = split_fields(table.lines[table.rows[row]]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      vectors(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis)) =
+          parse_number(field_in(table, fields, columns[axis], line), table.file, line);
+    }
+  }
+  to_lps(vectors, *table.frame);
+  return vectors;
+}
+
+std::vector<std::string> texts_in(const PointTable& table, const std::string& name) {
+  const std::size_t column = column_in(table, name);
+  std::vector<std::string> texts;
+  for (const std::size_t row : table.rows) {
+    texts.push_back(field_in(table, split_fields(table.lines[row]), column, row + 1));
+  }
+  return texts;
+}
+
+void write_point_table(const std::filesystem::path& out, const PointTable& table, const Points& places) {
+  Points in_frame = places;
+  to_lps(in_frame, *table.frame);  // the way there and back is the same
+  std::vector<std::string> lines = table.lines;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    std::string& line = lines[table.rows[row]];
+    std::vector<std::string_view> fields = split_raw_fields(line);
+    std::array<std::array<char, 40>, 3> text;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double value = in_frame(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis));
+      const int length = std::snprintf(text[axis].data(), text[axis].size(), "%.6f", value);
+      fields[*table.find_column(std::string(1, "xyz"[axis]))] =
+          std::string_view(text[axis].data(), static_cast<std::size_t>(length));
+    }
+    std::string joined;
+    for (const std::string_view field : fields) {
+      joined += joined.empty() ? "" : ",";
+      joined += field;
+    }
+    line = std::move(joined);
+  }
+  std::ofstream stream(out);
+  for (const std::string& line : lines) {
+    stream << line << '\n';
+  }
+  if (!stream.flush()) {
+    throw std::runtime_error(out.string() + ": could not be written whole; is the disk full or the folder read-only?");
+  }
+}
+
+}  // namespace brainshift

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/files/points_file.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <variant>
+
+#include "segmentation/files/frame.hpp"
+#include "segmentation/files/point_table.hpp"
+#include "segmentation/files/refuse.hpp"
+#include "segmentation/files/text_lines.hpp"
+
+namespace brainshift {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool ends_with(const std::filesystem::path& file, std::string_view ending) {
+  return file.filename().string().ends_with(ending);
+}
+
+/// A placed control point of a markups document.
+struct ControlPoint {
+  std::string position;  ///< JSON pointer
+  Frame frame;
+};
+
+struct Markups {
+  Json document;
+  std::vector<ControlPoint> points;
+};
+
+Json parse_markups(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  Json document = Json::parse(text, nullptr, false);
+  if (document.is_discarded()) {
+    refuse(file, "is no JSON; save the markups again");
+  }
+  return document;
+}
+
+const Json& list_in(const Json& object, const char* name, const std::filesystem::path& file) {
+  if (!object.is_object() || !object.contains(name) || !object.at(name).is_array()) {
+    refuse(file, "is no 3D Slicer markup: the list \"" + std::string(name) + "\" is missing");
+  }
+  return object.at(name);
+}
+
+Frame frame_of(const Json& markup, const std::filesystem::path& file) {
+  if (!markup.contains("coordinateSystem")) {
+    return Frame::lps;
+  }
+  const Json& system = markup.at("coordinateSystem");
+  const auto frame = frame_named(system.is_string() ? system.get<std::string>() : system.dump());
+  if (!frame) {
+    refuse(file, "coordinateSystem must be LPS or RAS, found " + system.dump());
+  }
+  return *frame;
+}
+
+void check_units(const Json& markup, const std::filesystem::path& file) {
+  if (!markup.contains("coordinateUnits")) {
+    return;
+  }
+  const Json& units = markup.at("coordinateUnits");
+  if (units != "mm" && !(units.is_array() && !units.empty() && units.front() == "mm")) {
+    refuse(file, "coordinateUnits must be mm, found " + units.dump());
+  }
+}
+
+std::string label_of(const Json& point) {
+  const bool labelled = point.contains("label") && point.at("label").is_string();
+  return labelled ? point.at("label").get<std::string>() : "";
+}
+
+Eigen::RowVector3d position_of(const Json& point, const std::string& which, const std::filesystem::path& file) {
+  const Json none;
+  const Json& position = point.contains("position") ? point.at("position") : none;
+  Eigen::RowVector3d place = Eigen::RowVector3d::Constant(NAN);
+  for (std::size_t axis = 0; position.is_array() && position.size() == 3 && axis < 3; ++axis) {
+    place[static_cast<Eigen::Index>(axis)] = position[axis].is_number() ? position[axis].get<double>() : NAN;
+  }
+  if (!place.allFinite()) {
+    refuse(file, which + " must have a position of three finite numbers, found " + position.dump());
+  }
+  return place;
+}
+
+bool is_placed(const Json& point) {
+  return !point.contains("positionStatus") || point.at("positionStatus") == "defined";
+}
+
+void write_json(const std::filesystem::path& out, const Json& document) {
+  std::ofstream stream(out);
+  stream << document.dump(2) << '\n';
+  if (!stream.flush()) {
+    throw std::runtime_error(out.string() + ": could not be written whole; is the disk full or the folder read-only?");
+  }
+}
+
+}  // namespace
+
+struct PointsFile::Content {
+  std::variant<PointTable, Markups> as_read;
+};
+
+namespace {
+
+/// The rows of places as one matrix.
+Points stacked(const std::vector<Eigen::RowVector3d>& places) {
+  Points points(static_cast<Eigen::Index>(places.size()), 3);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    points.row(static_cast<Eigen::Index>(i)) = places[i];
+  }
+  return points;
+}
+
+/// Calls use(point, pointer to its position, frame, name for messages) for all control points.
+template <class Use>
+void for_each_control_point(const Json& document, const std::filesystem::path& file, const Use& use) {
+  const Json& lists = list_in(document, "markups", file);
+  for (std::size_t l = 0; l < lists.size(); ++l) {
+    const Json& points = list_in(lists[l], "controlPoints", file);
+    const Frame frame = frame_of(lists[l], file);
+    check_units(lists[l], file);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const std::string which = "control point " + std::to_string(p + 1);
+      if (!points[p].is_object()) {
+        refuse(file, which + " is no object");
+      }
+      use(points[p],
+          ControlPoint{"/markups/" + std::to_string(l) + "/controlPoints/" + std::to_string(p) + "/position", frame},
+          which + " (\"" + label_of(points[p]) + "\")");
+    }
+  }
+}
+
+}  // namespace
+
+PointsFile::PointsFile(const std::filesystem::path& file) {
+  auto content = std::make_shared<Content>();
+  if (ends_with(file, ".json")) {
+    Markups markups{parse_markups(file), {}};
+    std::vector<Eigen::RowVector3d> places;
+    for_each_control_point(markups.document, file,
+                           [&](const Json& point, const ControlPoint& control, const std::string& which) {
+                             if (!is_placed(point)) {
+                               not_placed_.push_back(which);
+                               return;
+                             }
+                             Points place = position_of(point, which, file);
+                             to_lps(place, control.frame);
+                             places.emplace_back(place);
+                             labels_.push_back(label_of(point));
+                             markups.points.push_back(control);
+                           });
+    positions_ = stacked(places);
+    lists_ = markups.document.at("markups").size();
+    content->as_read = std::move(markups);
+  } else if (ends_with(file, ".csv") || ends_with(file, ".fcsv")) {
+    PointTable table = read_point_table(file);
+    positions_ = vectors_in(table, "x", "y", "z");
+    labels_ = table.find_column("label") ? texts_in(table, "label") : std::vector<std::string>(table.rows.size());
+    content->as_read = std::move(table);
+  } else {
+    refuse(file, "a 3D Slicer markup (.mrk.json or .fcsv) or a table (.csv) is expected");
+  }
+  if (positions_.rows() == 0) {
+    refuse(file, not_placed_.empty() ? "holds no point" : "holds no point that has been placed");
+  }
+  content_ = std::move(content);
+}
+
+void PointsFile::write_moved(const std::filesystem::path& out, const Points& places) const {
+  if (const auto* table = std::get_if<PointTable>(&content_->as_read)) {
+    write_point_table(out, *table, places);
+    return;
+  }
+  Markups markups = std::get<Markups>(content_->as_read);
+  for (std::size_t i = 0; i < markups.points.size(); ++i) {
+    Points place = places.row(static_cast<Eigen::Index>(i));
+    to_lps(place, markups.points[i].frame);  // the way there and back is the same
+    markups.document[Json::json_pointer(markups.points[i].position)] = {place(0, 0), place(0, 1), place(0, 2)};
+  }
+  write_json(out, markups.document);
+}
+
+bool is_points_file(const std::filesystem::path& file) {
+  return ends_with(file, ".mrk.json") || ends_with(file, ".fcsv") || ends_with(file, ".csv");
+}
+
+}  // namespace brainshift

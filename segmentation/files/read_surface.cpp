@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <CGAL/IO/PLY.h>
+#include <CGAL/IO/STL.h>
+#include <CGAL/Simple_cartesian.h>
+#include <vtkCallbackCommand.h>
+#include <vtkFieldData.h>
+#include <vtkStringArray.h>
+#include <vtkTriangleFilter.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <stdexcept>
+
+#include "segmentation/files/read_obj.hpp"
+#include "segmentation/files/surface_file.hpp"
+#include "segmentation/files/vtk_bridge.hpp"
+
+namespace brainshift {
+namespace {
+
+namespace fs = std::filesystem;
+using CgalPoint = CGAL::Simple_cartesian<double>::Point_3;
+
+std::string ending_of(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return ending;
+}
+
+void check_present(const fs::path& file) {
+  if (!fs::is_regular_file(file)) {
+    throw std::invalid_argument(file.string() + ": no such file; check the path");
+  }
+  if (fs::file_size(file) == 0) {
+    throw std::invalid_argument(file.string() + ": the file is empty; copy it again");
+  }
+}
+
+PolygonSoup read_with_cgal(const fs::path& file, const std::string& ending) {
+  std::vector<CgalPoint> points;
+  PolygonSoup soup;
+  const auto quiet = CGAL::parameters::verbose(false);
+  const bool read = ending == ".stl" ? CGAL::IO::read_STL(file.string(), points, soup.polygons, quiet)
+                                     : CGAL::IO::read_PLY(file.string(), points, soup.polygons, quiet);
+  if (!read) {
+    throw std::invalid_argument(file.string() + ": is no " + ending +
+                                " surface, or is damaged or truncated; copy it again");
+  }
+  soup.points.reserve(points.size());
+  for (const CgalPoint& point : points) {
+    soup.points.push_back({point.x(), point.y(), point.z()});
+  }
+  return soup;
+}
+
+vtkSmartPointer<vtkPolyData> to_vtk(const fs::path& file, const PolygonSoup& soup) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const auto& point : soup.points) {
+    points->InsertNextPoint(point.data());
+  }
+  vtkNew<vtkCellArray> cells;
+  for (const auto& polygon : soup.polygons) {
+    cells->InsertNextCell(static_cast<int>(polygon.size()));
+    for (const std::size_t corner : polygon) {
+      if (corner >= soup.points.size()) {
+        throw std::invalid_argument(file.string() + ": a face names vertex " + std::to_string(corner + 1) + " of " +
+                                    std::to_string(soup.points.size()));
+      }
+      cells->InsertCellPoint(static_cast<vtkIdType>(corner));
+    }
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  result->SetPolys(cells);
+  return result;
+}
+
+void note_fault(vtkObject*, unsigned long, void* failed, void*) {
+  *static_cast<bool*>(failed) = true;
+}
+
+vtkSmartPointer<vtkPolyData> read_vtp(const fs::path& file) {
+  bool failed = false;
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetCallback(note_fault);
+  observer->SetClientData(&failed);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetReaderErrorObserver(observer);
+  reader->SetParserErrorObserver(observer);
+  reader->AddObserver(vtkCommand::ErrorEvent, observer);
+  reader->AddObserver(vtkCommand::WarningEvent, observer);
+  reader->SetFileName(file.c_str());
+  const bool readable = reader->CanReadFile(file.c_str()) != 0;
+  if (readable) {
+    reader->Update();
+  }
+  if (!readable || failed || reader->GetErrorCode() != 0) {
+    throw std::invalid_argument(file.string() + ": is no .vtp surface, or is damaged or truncated; copy it again");
+  }
+  return reader->GetOutput();
+}
+
+// 3D Slicer notes the frame of a model in a comment of the header, or in a field of a .vtp.
+bool says_ras(const fs::path& file, vtkPolyData& data) {
+  if (auto* space = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("SPACE"))) {
+    return space->GetNumberOfValues() > 0 && space->GetValue(0) == "RAS";
+  }
+  constexpr std::size_t header_length = 1024;
+  std::string header(header_length, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(header.data(), static_cast<std::streamsize>(header.size()));
+  return header.find("SPACE=RAS") != std::string::npos;
+}
+
+void check_values(const fs::path& file, const Surface& surface) {
+  if (surface.triangles.rows() == 0) {
+    throw std::invalid_argument(file.string() + ": holds no face; a triangulated surface is needed");
+  }
+  for (Eigen::Index i = 0; i < surface.vertices.rows(); ++i) {
+    if (!surface.vertices.row(i).allFinite()) {
+      throw std::invalid_argument(file.string() + ": vertex " + std::to_string(i + 1) + " of " +
+                                  std::to_string(surface.vertices.rows()) + " is not finite");
+    }
+  }
+  if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.vertices.rows()) {
+    throw std::invalid_argument(file.string() + ": a face names a vertex that the file lacks");
+  }
+}
+
+vtkSmartPointer<vtkPolyData> read_polygons(const fs::path& file) {
+  const std::string ending = ending_of(file);
+  if (ending == ".vtp") {
+    return read_vtp(file);
+  }
+  if (ending == ".obj") {
+    return to_vtk(file, read_obj(file));
+  }
+  if (ending == ".stl" || ending == ".ply") {
+    return to_vtk(file, read_with_cgal(file, ending));
+  }
+  throw std::invalid_argument(file.string() + ": surfaces end in .vtp, .stl, .ply or .obj");
+}
+
+}  // namespace
+
+Surface read_surface(const fs::path& file) {
+  check_present(file);
+  const auto polygons = read_polygons(file);
+  vtkNew<vtkTriangleFilter> triangulate;
+  triangulate->SetInputData(polygons);
+  triangulate->PassLinesOff();
+  triangulate->PassVertsOff();
+  triangulate->Update();
+  Surface surface = from_vtk(*triangulate->GetOutput());
+  check_values(file, surface);
+  if (says_ras(file, *polygons)) {
+    surface.vertices.leftCols<2>() *= -1.0;
+  }
+  return surface;
+}
+
+}  // namespace brainshift

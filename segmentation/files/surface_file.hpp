@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "segmentation/geometry/surface.hpp"
+
+namespace brainshift {
+
+/// Reads .vtp, .stl, .ply or .obj. Faces with more than three corners are triangulated, repeated points (STL) merged.
+/// Coordinates are taken as LPS, unless the file carries 3D Slicer's note SPACE=RAS: then x and y change sign.
+/// Throws std::invalid_argument, naming the file, when it cannot be read, holds no triangle or a non-finite coordinate.
+Surface read_surface(const std::filesystem::path& file);
+
+/// Writes by the file's ending (.vtp, .stl, .ply, .obj), with 3D Slicer's note SPACE=LPS; all but .stl keep doubles.
+/// Throws std::runtime_error when the file cannot be written whole.
+void write_surface(const std::filesystem::path& file, const Surface& surface);
+
+}  // namespace brainshift

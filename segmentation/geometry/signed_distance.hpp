@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "segmentation/geometry/surface.hpp"
+
+namespace brainshift {
+
+struct SignedDistanceOptions {
+  double spacing = 1.5;  ///< of the grid, mm
+  double margin = 25.0;  ///< by which the grid reaches past the surface's bounding box, mm
+  bool far = true;       ///< false: where the surface is farther than the band, only that it is: the value is ± band
+
+  double band() const { return 3 * spacing; }  ///< within it samples are exact, mm
+};
+
+/// Signed distance to a closed surface, mm, LPS; negative inside. Sampled once on a regular grid, then answered in
+/// O(1). The samples within three grid spacings of the surface are exact, their sign by the angle-weighted normal of
+/// the nearest corner, edge or face (Bærentzen & Aanæs 2005); further out the nearest triangle is handed on from sample
+/// to sample, which may miss it: by a few hundredths of a mm about a head, by up to half a mm deep inside a ball.
+/// Between samples the value is trilinear, which rounds edges and corners: at the vertices of a brain's surface it is
+/// 0.11 mm on average and up to 0.8 mm (0.07 and 0.6 at a spacing of 1 mm). Const calls may run on many threads.
+class SignedDistance {
+ public:
+  /// Uses all threads; the result does not depend on their number. Throws std::invalid_argument on a surface that is
+  /// empty, not finite, open or not 2-manifold, inside out, or too large for the grid (not in millimetres?).
+  explicit SignedDistance(const Surface& surface, const SignedDistanceOptions& options = {});
+
+  /// Distance at a position, mm. Outside the grid: that at the nearest place of the grid plus the distance to there.
+  /// NaN where the position is not finite.
+  double value(const Eigen::Vector3d& position) const;
+
+  /// Outward unit normal of the level surface through a position, by central differences over one grid spacing
+  /// (continuous); the zero vector where there is none.
+  Eigen::Vector3d gradient(const Eigen::Vector3d& position) const;
+
+  /// Where the surface is at least so far away only that is known, mm; infinite where all is sampled.
+  double horizon() const { return horizon_; }
+
+ private:
+  double spacing_, horizon_;
+  Eigen::Vector3d origin_;
+  Eigen::Array3i size_;
+  std::vector<float> samples_;  ///< mm, x fastest
+};
+
+}  // namespace brainshift

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/interface/check_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace brainshift::segmentation {
+namespace {
+
+std::string described(const ImageGeometry& geometry) {
+  std::ostringstream text;
+  text << geometry.size.x() << " x " << geometry.size.y() << " x " << geometry.size.z() << " voxels of "
+       << geometry.spacing.x() << " x " << geometry.spacing.y() << " x " << geometry.spacing.z() << " mm from ("
+       << geometry.origin.x() << ", " << geometry.origin.y() << ", " << geometry.origin.z() << ")";
+  return text.str();
+}
+
+template <class A, class B>
+void check_same_geometry(const Image<A>& a, const char* name_a, const std::optional<Image<B>>& b, const char* name_b) {
+  if (b && !same_geometry(a.geometry, b->geometry)) {
+    throw std::invalid_argument(std::string(name_a) + " and " + name_b + " lie on different grids (" +
+                                described(a.geometry) + " against " + described(b->geometry) +
+                                ", or another direction); resample one onto the other's grid");
+  }
+}
+
+void check_options(const SegmentOptions& options) {
+  if (!(options.edge_length > 0) || !std::isfinite(options.edge_length)) {
+    throw std::invalid_argument("the edge length must be positive, found " + std::to_string(options.edge_length) +
+                                " mm");
+  }
+  if (options.classes < 2) {
+    throw std::invalid_argument("at least 2 classes are needed, found " + std::to_string(options.classes));
+  }
+  if (!(options.ventricle_depth >= 0)) {
+    throw std::invalid_argument("the ventricle depth must not be negative, found " +
+                                std::to_string(options.ventricle_depth) + " mm");
+  }
+}
+
+void check_labels(const SegmentInput& input, const SegmentOptions& options) {
+  check_same_geometry(*input.labels, "the labels", input.t1, "the T1");
+  check_same_geometry(*input.labels, "the labels", input.tumour_mask, "the tumour mask");
+  if (options.brain_labels.empty()) {
+    throw std::invalid_argument("no label is said to be brain; name at least one");
+  }
+}
+
+void check_masked_t1(const SegmentInput& input) {
+  if (!input.t1 || !input.brain_mask) {
+    throw std::invalid_argument("give labels, or a T1 with a brain mask, or a brain surface");
+  }
+  check_same_geometry(*input.t1, "the T1", input.brain_mask, "the brain mask");
+  check_same_geometry(*input.t1, "the T1", input.tumour_mask, "the tumour mask");
+}
+
+}  // namespace
+
+void check_input(const SegmentInput& input, const SegmentOptions& options) {
+  check_options(options);
+  if (input.labels.has_value() + input.brain_mask.has_value() + input.surface.has_value() > 1) {
+    throw std::invalid_argument("give only one of labels, brain mask and brain surface");
+  }
+  if (input.labels) {
+    check_labels(input, options);
+  } else if (!input.surface) {
+    check_masked_t1(input);
+  }
+}
+
+}  // namespace brainshift::segmentation

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "segmentation/geometry/points.hpp"
+#include "solve/arrays/nodal_vectors.hpp"
+#include "solve/boundary/contact.hpp"
+#include "solve/boundary/essential_conditions.hpp"
+#include "solve/boundary/face_contact.hpp"
+#include "solve/force/point_blocks.hpp"
+#include "solve/force/point_laws.hpp"
+#include "solve/interface/cut.hpp"
+#include "solve/shape/shape_rows.hpp"
+
+namespace brainshift::solve {
+
+/// Where the integration points lie, in the order of the blocks.
+struct PlacedPoints {
+  Points position;                   ///< mm
+  std::vector<std::int32_t> tissue;  ///< label
+};
+
+/// A body as time stepping moves it: points and laws that resist, conditions that hold, forces that push. Its nodes are
+/// along a space-filling curve. What it was made from is gone.
+struct Body {
+  std::vector<std::int32_t> original;  ///< the cloud's node of each
+  Points positions;                    ///< undeformed nodes, mm, in the cloud's own order
+  std::vector<double> spacing;         ///< at the nodes, mm, in the cloud's own order
+  CutFacets cut;                       ///< that parts it; none: empty
+  ShapeRows nodal_rows;                ///< at the nodes' own positions, without derivatives
+  PointBlocks points;
+  PlacedPoints placed;  ///< for the sentence about a failure
+  PointLaws laws;
+  std::vector<std::vector<PronyTerm>> prony;  ///< of a transient run: one list a row of the laws, or none
+  std::vector<double> mass;                   ///< of a transient run: physical, g
+  EssentialConditions essential;
+  std::optional<Contact> contact;
+  std::optional<FaceContact> face_contact;
+  NodalVectors external;  ///< forces on the parameters under the full load, µN; empty: none
+
+  std::size_t nodes() const { return original.size(); }
+};
+
+}  // namespace brainshift::solve

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solve/body/ordered_cloud.hpp"
+#include "solve/material/material_table.hpp"
+#include "solve/quadrature/integration_points.hpp"
+#include "solve/quadrature/pressure_patches.hpp"
+#include "solve/shape/shape_rows.hpp"
+
+namespace brainshift::solve {
+
+/// What a body is laid out from. Kept where cuts go on, as each advance lays it out anew.
+struct BodyParts {
+  OrderedCloud cloud;
+  ShapeRows nodal_rows;  ///< at the nodes, without derivatives
+  IntegrationPoints points;
+  ShapeRows point_rows;  ///< with derivatives
+  PressurePatches patches;
+  MaterialTable materials;
+};
+
+}  // namespace brainshift::solve

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/body/check_model.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "segmentation/geometry/neighbour_distance.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+/// Rigid motions that the conditions leave free make the steady state undefined. A plane has three, x, y and the turn
+/// about z, else there are six.
+void check_held(const OrderedCloud& cloud, Plane plane, bool contact) {
+  std::vector<Eigen::Matrix<double, 1, 6>> rows;
+  const Eigen::RowVector3d centre = cloud.positions.colwise().mean();
+  const double size = (cloud.positions.rowwise() - centre).cwiseAbs().maxCoeff();
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    const Eigen::Vector3d x = (cloud.positions.row(a) - centre) / size;
+    const Eigen::Matrix3d turn{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
+    for (int axis = 0; axis < (plane == Plane::none ? 3 : 2); ++axis) {
+      if (cloud.conditions.is_prescribed(a, axis)) {
+        Eigen::Matrix<double, 1, 6> row;
+        row << Eigen::RowVector3d::Unit(axis), turn.row(axis);
+        rows.push_back(row);
+      }
+    }
+  }
+  if (rows.empty()) {
+    throw std::invalid_argument("nothing is prescribed: no node is loaded or held; give a load");
+  }
+  Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
+  for (const auto& row : rows) {
+    held += row.transpose() * row;
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(held);
+  const int motions = plane == Plane::none ? 6 : 3;
+  if (!contact && svd.singularValues()[motions - 1] < 1e-9 * svd.singularValues()[0]) {
+    throw std::invalid_argument(
+        "the prescribed displacements leave the body free to move as a whole, and there is no skull to stop it: hold " +
+        std::string(plane == Plane::none ? "three nodes that are not in line, or add contact" : "two nodes"));
+  }
+}
+
+void check_plane(const Model& model) {
+  const bool planar = model.plane != Plane::none;
+  if (planar != is_planar(model.cells.kind)) {
+    throw std::invalid_argument(planar ? "a plane problem needs cells that are quadrilaterals or triangles"
+                                       : "the cells are planar; say whether it is plane strain or plane stress");
+  }
+  if (planar && model.skull) {
+    throw std::invalid_argument("contact with a skull needs three dimensions; leave it out of a plane problem");
+  }
+  for (const auto& [label, material] : model.materials) {
+    if (model.plane == Plane::stress && !material.prony.empty()) {
+      throw std::invalid_argument("the material of label " + std::to_string(label) +
+                                  " relaxes, which plane stress does not model; take plane strain or no Prony terms");
+    }
+  }
+}
+
+/// Nodes in nearly one place have nearly the same shape functions: their difference strains nothing, so it never comes
+/// to rest.
+void check_apart(const NodeCloud& cloud) {
+  constexpr double least = 0.01;  // of the spacing
+  const NearestNeighbours nearest = nearest_neighbours(cloud.positions, 1);
+  for (std::size_t a = 0; a < nearest.distance.size(); ++a) {
+    if (nearest.distance[a] < least * cloud.spacing[a]) {
+      std::ostringstream text;
+      text << "nodes " << a << " and " << nearest.index[a] << " lie only " << nearest.distance[a]
+           << " mm apart, where the spacing is " << cloud.spacing[a] << " mm; remove one of them";
+      throw std::invalid_argument(text.str());
+    }
+  }
+}
+
+/// Of each node the part that it belongs to, numbered from 0.
+std::vector<std::int32_t> parts_of(std::size_t nodes, const ShapeRows& rows) {
+  std::vector<std::int32_t> part(nodes);
+  std::iota(part.begin(), part.end(), 0);
+  const auto root = [&](std::int32_t a) {
+    while (part[static_cast<std::size_t>(a)] != a) {
+      a = part[static_cast<std::size_t>(a)] = part[static_cast<std::size_t>(part[static_cast<std::size_t>(a)])];
+    }
+    return a;
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::span<const std::int32_t> support = rows[i].node;
+    const std::int32_t first = root(support.front());
+    for (const std::int32_t a : support) {
+      part[static_cast<std::size_t>(root(a))] = first;
+    }
+  }
+  for (std::size_t a = 0; a < nodes; ++a) {
+    part[a] = root(static_cast<std::int32_t>(a));
+  }
+  return part;
+}
+
+}  // namespace
+
+void check_model(const Model& model) {
+  check_plane(model);
+  check_apart(model.cloud);
+}
+
+void check_held(const OrderedCloud& cloud, const Model& model) {
+  check_held(cloud, model.plane, model.skull.has_value());
+}
+
+void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, const Model& model) {
+  const std::vector<std::int32_t> part = parts_of(cloud.size(), point_rows);
+  std::map<std::int32_t, std::vector<Eigen::Index>> nodes;
+  for (std::size_t a = 0; a < part.size(); ++a) {
+    nodes[part[a]].push_back(static_cast<Eigen::Index>(a));
+  }
+  for (const auto& [root, members] : nodes) {
+    OrderedCloud alone;
+    alone.positions = cloud.positions(members, Eigen::all);
+    alone.conditions.displacement = cloud.conditions.displacement(members, Eigen::all);
+    try {
+      check_held(alone, model);
+    } catch (const std::invalid_argument& error) {
+      const Eigen::RowVector3d middle = alone.positions.colwise().mean();
+      std::ostringstream text;
+      text << "the body is left in parts, and the part about (" << middle[0] << ", " << middle[1] << ", " << middle[2]
+           << ") mm, of " << members.size() << " nodes, is not held: " << error.what();
+      throw std::invalid_argument(text.str());
+    }
+  }
+}
+
+}  // namespace brainshift::solve

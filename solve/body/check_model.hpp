@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solve/body/ordered_cloud.hpp"
+#include "solve/interface/model.hpp"
+#include "solve/shape/shape_rows.hpp"
+
+namespace brainshift::solve {
+
+/// Throws std::invalid_argument when plane, cells and materials do not go together, or nodes lie in one place.
+void check_model(const Model& model);
+
+/// Throws std::invalid_argument when the conditions leave the body free to move as a whole.
+void check_held(const OrderedCloud& cloud, const Model& model);
+
+/// The same of each part of a body that a cut or a resection leaves in two or more. point_rows: shape functions of the
+/// integration points, which hold a part together.
+void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, const Model& model);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/body/lay_out.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "solve/boundary/external_force.hpp"
+#include "solve/force/stiffness_bound.hpp"
+#include "solve/shape/too_few_nodes.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+/// A node that no integration point sees has no mass, and nothing would hold it.
+void check_supported(const PointBlocks& blocks, const OrderedCloud& cloud) {
+  for (std::size_t a = 0; a < blocks.nodes(); ++a) {
+    if (blocks.node_begin[a] == blocks.node_begin[a + 1]) {
+      throw TooFewNodes("node " + std::to_string(cloud.original[a]) +
+                        " lies in the support of no integration point: the cells do not cover the cloud there, "
+                        "or are too coarse for its spacing");
+    }
+  }
+}
+
+/// Forces on the parameters under the full load, µN; empty when nothing pushes.
+NodalVectors external_force(const Model& model, const BodyParts& parts) {
+  const bool gravity = !model.gravity.isZero();
+  const Points& at_nodes = parts.cloud.conditions.force;
+  if (at_nodes.rows() == 0 && !gravity && !model.body_force) {
+    return {};
+  }
+  NodalVectors force(4 * parts.cloud.size(), 0.0);
+  if (at_nodes.rows() > 0) {
+    add_nodal_force(at_nodes, parts.nodal_rows, force);
+  }
+  if (gravity) {
+    constexpr double per_cubic_millimetre = 1e-9;  // kg/m³ m/s² to N/mm³
+    add_body_force(
+        [&](const Eigen::Vector3d&, std::int32_t label) -> Eigen::Vector3d {
+          return per_cubic_millimetre * model.materials.at(label).density * model.gravity;
+        },
+        parts.points, parts.point_rows, force);
+  }
+  if (model.body_force) {
+    add_body_force(model.body_force, parts.points, parts.point_rows, force);
+  }
+  return force;
+}
+
+/// The laws as stepping needs them: at rest relaxed materials have relaxed.
+PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics) {
+  PointLaws laws;
+  for (const Material& m : table.material) {
+    laws.elastic.push_back(elastic_law(dynamics == Dynamics::relaxation ? long_term(m) : m));
+  }
+  laws.plane_stress = plane == Plane::stress;
+  laws.in_time = dynamics == Dynamics::transient;
+  return laws;
+}
+
+PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::int32_t>& order) {
+  PlacedPoints placed{points.positions(order, Eigen::all), {}};
+  for (const std::int32_t p : order) {
+    placed.tissue.push_back(points.label[static_cast<std::size_t>(p)]);
+  }
+  return placed;
+}
+
+/// Contact pushes nodes back before they are far out, so it is enough to know the distance near the skull; but where a
+/// node starts farther out.
+SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cloud) {
+  SignedDistanceOptions near;
+  near.far = false;
+  near.margin -= 10 * near.spacing;  // whole steps: the samples lie where those of the full field do
+  SignedDistance distance(skull, near);
+  const std::vector<std::int32_t> nodes = free_surface_nodes(cloud, cloud.conditions);
+  const bool far_out = std::any_of(nodes.begin(), nodes.end(), [&](std::int32_t a) {
+    return distance.value(cloud.positions.row(a)) > near.band() - near.spacing;
+  });
+  return far_out ? SignedDistance(skull) : distance;
+}
+
+/// The pairs by ordered numbers.
+std::vector<FacePair> ordered(std::span<const FacePair> pairs, const std::vector<std::int32_t>& original) {
+  std::vector<std::int32_t> number(original.size());
+  for (std::size_t a = 0; a < original.size(); ++a) {
+    number[static_cast<std::size_t>(original[a])] = static_cast<std::int32_t>(a);
+  }
+  std::vector<FacePair> result(pairs.begin(), pairs.end());
+  for (FacePair& pair : result) {
+    pair.above = number[static_cast<std::size_t>(pair.above)];
+    pair.below = number[static_cast<std::size_t>(pair.below)];
+  }
+  return result;
+}
+
+}  // namespace
+
+Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& parts, LayOutExtras extras) {
+  const OrderedCloud& cloud = parts.cloud;
+  const bool in_time = options.dynamics == Dynamics::transient;
+  PointBlocks blocks = point_blocks(parts.points, parts.point_rows, parts.materials.row_of_point, cloud.size(),
+                                    parts.patches, options.precision);
+  check_supported(blocks, cloud);
+  Body body{
+      .original = cloud.original,
+      .positions = in_original_order(cloud.positions, cloud.original),
+      .spacing = in_original_order(cloud.spacing, cloud.original),
+      .cut = std::move(extras.cut),
+      .nodal_rows = parts.nodal_rows,
+      .points = std::move(blocks),
+      .placed = in_order(parts.points, parts.patches.order),
+      .laws = point_laws(parts.materials, model.plane, options.dynamics),
+      .prony = in_time ? parts.materials.prony : std::vector<std::vector<PronyTerm>>(),
+      .mass = {},
+      .essential = {cloud.conditions.displacement, parts.nodal_rows, cloud.original, options.imposition},
+      .contact = {},
+      .face_contact = {},
+      .external = external_force(model, parts),
+  };
+  if (in_time) {
+    body.mass = physical_mass(body.points, parts.materials.density);
+  }
+  body.essential.count_as_held(extras.held);
+  if (model.skull) {
+    body.contact.emplace(extras.skull ? std::move(*extras.skull) : distance_for_contact(*model.skull, cloud),
+                         cloud.positions, free_surface_nodes(cloud, cloud.conditions), parts.nodal_rows);
+  }
+  if (model.face_contact && !model.cuts.empty()) {
+    body.face_contact.emplace(ordered(extras.faces, cloud.original), cloud.positions, cloud.spacing, parts.nodal_rows);
+  }
+  return body;
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/boundary/face_contact.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "solve/shape/shape_matrix.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr int sweeps = 3;  // more leave less overlap, but a corner that little holds may then never come to rest
+
+/// Above and below of each pair.
+std::vector<std::int32_t> face_nodes(std::span<const FacePair> pairs) {
+  std::vector<std::int32_t> nodes;
+  for (const FacePair& p : pairs) {
+    nodes.push_back(p.above);
+    nodes.push_back(p.below);
+  }
+  return nodes;
+}
+
+FaceGaps face_gaps(std::span<const FacePair> pairs, const Points& positions, std::span<const double> spacing) {
+  std::vector<FacePlace> places;
+  for (const FacePair& p : pairs) {
+    places.push_back({p.place, p.normal, spacing[static_cast<std::size_t>(p.above)]});
+  }
+  return {std::move(places), positions(face_nodes(pairs), Eigen::all)};
+}
+
+}  // namespace
+
+FaceContact::FaceContact(std::span<const FacePair> pairs, const Points& positions, std::span<const double> spacing,
+                         const ShapeRows& rows)
+    : shape_(shape_matrix(rows, face_nodes(pairs), positions.rows())),
+      gaps_(face_gaps(pairs, positions, spacing)),
+      row_sum_(gaps_.gaps().size()),
+      push_(row_sum_.size()),
+      force_(row_sum_.size(), 3),
+      shift_(row_sum_.size(), 3) {}
+
+void FaceContact::weigh(std::span<const double> mass) {
+  inverse_mass_ = Eigen::Map<const Eigen::VectorXd>(mass.data(), static_cast<Eigen::Index>(mass.size())).cwiseInverse();
+  const RowMatrix weighed = shape_ * inverse_mass_.asDiagonal();
+  softness_ = weighed * RowMatrix(shape_.transpose());
+}
+
+Points FaceContact::places(const NodalVectors& parameters) const {
+  Points now = gaps_.undeformed();
+#pragma omp parallel for schedule(static)
+  for (Eigen::Index f = 0; f < shape_.rows(); ++f) {
+    for (RowMatrix::InnerIterator entry(shape_, f); entry; ++entry) {
+      now.row(f) += entry.value() * at(parameters, static_cast<std::size_t>(entry.col())).head<3>();
+    }
+  }
+  return now;
+}
+
+void FaceContact::find_overlaps() {
+  links_.clear();
+  for (Eigen::Index f = 0; f < push_.size(); ++f) {
+    if (gaps_.gaps()[f] < 0) {
+      gaps_.append_links(f, links_);
+    }
+  }
+}
+
+void FaceContact::lump() {
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(row_sum_.size());
+  for (const FaceGaps::Link& l : links_) {
+    shares[l.face] += l.share;
+    shares[l.opposite] += l.share;
+  }
+  const Eigen::VectorXd per_face = softness_.cwiseAbs() * shares;
+  row_sum_.setZero();
+  for (const FaceGaps::Link& l : links_) {
+    row_sum_[l.face] += l.share * (per_face[l.face] + per_face[l.opposite]);
+  }
+}
+
+void FaceContact::sweep() {
+  gap_ = gaps_.gaps();
+  for (const FaceGaps::Link& l : links_) {
+    gap_[l.face] += l.share * l.direction.dot(shift_.row(l.face) - shift_.row(l.opposite));
+  }
+  for (Eigen::Index f = 0; f < push_.size(); ++f) {
+    push_[f] = row_sum_[f] > 0 ? std::max(0.0, push_[f] - gap_[f] / row_sum_[f]) : 0;
+  }
+  force_.setZero();
+  for (const FaceGaps::Link& l : links_) {
+    const Eigen::RowVector3d push = push_[l.face] * l.share * l.direction;
+    force_.row(l.face) += push;
+    force_.row(l.opposite) -= push;
+  }
+  shift_ = softness_ * force_;
+}
+
+void FaceContact::shift(NodalVectors& parameters) const {
+  for (Eigen::Index f = 0; f < shape_.rows(); ++f) {
+    if (force_.row(f).isZero(0)) {
+      continue;
+    }
+    for (RowMatrix::InnerIterator entry(shape_, f); entry; ++entry) {
+      at(parameters, static_cast<std::size_t>(entry.col())).head<3>() +=
+          inverse_mass_[entry.col()] * entry.value() * force_.row(f);
+    }
+  }
+}
+
+void FaceContact::apply(NodalVectors& parameters) {
+  gaps_.move(places(parameters));
+  find_overlaps();
+  if (links_.empty()) {
+    return;
+  }
+  lump();
+  push_.setZero();
+  shift_.setZero();
+  for (int i = 0; i < sweeps; ++i) {
+    sweep();
+  }
+  shift(parameters);
+}
+
+FaceContact::Measures FaceContact::measure(const NodalVectors& parameters) const {
+  constexpr double touch = 0.01;  // of the spacing
+  FaceGaps gaps = gaps_;
+  gaps.move(places(parameters));
+  Measures measures;
+  for (Eigen::Index f = 0; f < push_.size(); ++f) {
+    measures.touching += gaps.gaps()[f] < touch * gaps.spacing(f) ? 1 : 0;
+    measures.largest_overlap = std::max(measures.largest_overlap, -gaps.gaps()[f]);
+  }
+  return measures;
+}
+
+}  // namespace brainshift::solve

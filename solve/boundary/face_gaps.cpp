@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/boundary/face_gaps.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace brainshift::solve {
+
+namespace {
+
+// both in spacings
+constexpr double neighbourhood = 2.2;    // of a place on its cut
+constexpr double opposite_within = 1.2;  // of a node to the opposite face: more than half the widest hole between nodes
+
+double bell(double squared) {
+  return squared < 1 ? (1 - squared) * (1 - squared) : 0;
+}
+
+double radius(const FacePlace& p, const FacePlace& q) {
+  return neighbourhood * std::max(p.spacing, q.spacing);
+}
+
+/// Near, and not of another cut that crosses or runs beside.
+bool are_neighbours(const FacePlace& p, const FacePlace& q) {
+  constexpr double least_aligned = 0.5, most_off = 0.5;  // cosine; of their distance
+  const Eigen::Vector3d apart = q.place - p.place;
+  const double distance = apart.norm();
+  return distance > 0 && distance < radius(p, q) && p.normal.dot(q.normal) > least_aligned &&
+         std::abs(p.normal.dot(apart)) < most_off * distance;
+}
+
+}  // namespace
+
+FaceGaps::FaceGaps(std::vector<FacePlace> places, Points undeformed)
+    : places_(std::move(places)),
+      begin_{0},
+      undeformed_(std::move(undeformed)),
+      normal_(undeformed_.rows(), 3),
+      undeformed_gap_(Eigen::VectorXd::Zero(undeformed_.rows())),
+      gap_(undeformed_.rows()) {
+  for (const FacePlace& p : places_) {
+    append_neighbours(p);
+  }
+  move(undeformed_);
+  undeformed_gap_ = gap_;
+}
+
+/// The weights are those of least squares. Along a direction in which there are no neighbours the face does not turn.
+void FaceGaps::append_neighbours(const FacePlace& place) {
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+  for (std::size_t j = 0; j < places_.size(); ++j) {
+    const FacePlace& other = places_[j];
+    if (are_neighbours(place, other)) {
+      const Eigen::Vector3d apart = other.place - place.place;
+      const double w = bell(apart.squaredNorm() / (radius(place, other) * radius(place, other)));
+      neighbours_.push_back({static_cast<Eigen::Index>(j), w * apart});
+      moment += w * apart * apart.transpose();
+    }
+  }
+  constexpr double small = 1e-6;
+  moment.diagonal().array() += small * moment.trace();
+  for (std::size_t i = begin_.back(); i < neighbours_.size(); ++i) {
+    neighbours_[i].weight = moment.inverse() * neighbours_[i].weight;
+  }
+  begin_.push_back(neighbours_.size());
+}
+
+std::span<const FaceGaps::Neighbour> FaceGaps::neighbours(Eigen::Index place) const {
+  const auto i = static_cast<std::size_t>(place);
+  return std::span(neighbours_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
+}
+
+/// Nanson's: along cof(F) N, with the gradient F along the face.
+Eigen::Vector3d FaceGaps::outward_normal(Eigen::Index face) const {
+  const Eigen::Index side = face % 2;
+  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+  for (const Neighbour& n : neighbours(face / 2)) {
+    const Eigen::Index other = 2 * n.place + side;
+    f += (now_.row(other) - undeformed_.row(other) - now_.row(face) + undeformed_.row(face)).transpose() *
+         n.weight.transpose();
+  }
+  const Eigen::Vector3d& n = at(face / 2).normal;
+  const Eigen::Vector3d turned =
+      n[0] * f.col(1).cross(f.col(2)) + n[1] * f.col(2).cross(f.col(0)) + n[2] * f.col(0).cross(f.col(1));
+  return (side == 0 ? -1 : 1) * turned.normalized();
+}
+
+/// On the opposite face, from neighbour to neighbour, from where the two were together.
+Eigen::Index FaceGaps::nearest_place(Eigen::Index face) const {
+  const auto distance = [&](Eigen::Index place) {
+    return (now_.row(2 * place + 1 - face % 2) - now_.row(face)).squaredNorm();
+  };
+  Eigen::Index nearest = face / 2, from = -1;
+  double least = distance(nearest);
+  while (nearest != from) {
+    from = nearest;
+    for (const Neighbour& n : neighbours(from)) {
+      if (const double d = distance(n.place); d < least) {
+        least = d;
+        nearest = n.place;
+      }
+    }
+  }
+  return nearest;
+}
+
+/// Calls visit(opposite, weight, direction) for the nodes within opposite_within.
+template <class Visit>
+void FaceGaps::visit_opposite(Eigen::Index face, const Visit& visit) const {
+  const Eigen::Vector3d inward = -normal_.row(face);
+  const auto look = [&](Eigen::Index place) {
+    const Eigen::Index other = 2 * place + 1 - face % 2;
+    const Eigen::Vector3d outward = normal_.row(other);
+    const double r = opposite_within * at(place).spacing;
+    const double w = bell((now_.row(face) - now_.row(other)).squaredNorm() / (r * r));
+    if (w > 0 && outward.dot(inward) > 0) {
+      visit(other, w, (outward + inward).normalized());
+    }
+  };
+  const Eigen::Index nearest = nearest_place(face);
+  look(nearest);
+  for (const Neighbour& n : neighbours(nearest)) {
+    look(n.place);
+  }
+}
+
+double FaceGaps::mean_gap(Eigen::Index face) const {
+  double sum = 0, weight = 0;
+  visit_opposite(face, [&](Eigen::Index other, double w, const Eigen::Vector3d& direction) {
+    weight += w;
+    sum += w * direction.dot(now_.row(face) - now_.row(other));
+  });
+  return weight > 0 ? sum / weight - undeformed_gap_[face] : std::numeric_limits<double>::infinity();
+}
+
+void FaceGaps::move(Points now) {
+  now_ = std::move(now);
+#pragma omp parallel for schedule(static)
+  for (Eigen::Index f = 0; f < gap_.size(); ++f) {
+    normal_.row(f) = outward_normal(f);
+  }
+#pragma omp parallel for schedule(static)
+  for (Eigen::Index f = 0; f < gap_.size(); ++f) {
+    gap_[f] = mean_gap(f);
+  }
+}
+
+void FaceGaps::append_links(Eigen::Index face, std::vector<Link>& links) const {
+  const std::size_t first = links.size();
+  double weight = 0;
+  visit_opposite(face, [&](Eigen::Index other, double w, const Eigen::Vector3d& direction) {
+    weight += w;
+    links.push_back({face, other, w, direction});
+  });
+  for (std::size_t i = first; i < links.size(); ++i) {
+    links[i].share /= weight;
+  }
+}
+
+}  // namespace brainshift::solve

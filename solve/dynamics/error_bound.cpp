@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/dynamics/error_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr int recent_windows = 4;  // that the bound looks back on
+
+double largest_recent(const std::vector<double>& values) {
+  return *std::max_element(values.end() - recent_windows, values.end());
+}
+
+}  // namespace
+
+void ErrorBound::add(double moved, double damping_rate, bool loaded) {
+  moved_.push_back(moved);
+  rates_.push_back(damping_rate);
+  bounds_.push_back(std::numeric_limits<double>::infinity());
+  if (loaded && moved_.size() > recent_windows) {
+    const double earlier = *(moved_.end() - 1 - recent_windows);
+    const double measured = moved > 0 ? std::pow(moved / earlier, 1.0 / (recent_windows * window_)) : 0.0;
+    const double rate = std::max(measured, largest_recent(rates_));
+    bounds_.back() = rate < 1 ? rate / (1 - rate) * moved : bounds_.back();
+    value_ = largest_recent(bounds_);
+  }
+}
+
+void ErrorBound::reset() {
+  *this = ErrorBound(window_);
+}
+
+}  // namespace brainshift::solve

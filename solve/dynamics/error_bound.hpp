@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <vector>
+
+namespace brainshift::solve {
+
+/// The bound of the error that relaxation leaves open, ρ/(1 − ρ) |û⁺ − û|∞ with ρ the slower of the measured rate a
+/// step and of the rate that the damping stands for. A passing low, as when the body swings through a turning point, is
+/// no rest: the largest of the last windows counts, for the rate and for the bound.
+class ErrorBound {
+ public:
+  /// window: steps between two calls of add().
+  explicit ErrorBound(int window) : window_(window) {}
+
+  /// moved: |û⁺ − û|∞ of the last step, mm; damping_rate: √β; loaded: the whole load is on.
+  void add(double moved, double damping_rate, bool loaded);
+
+  /// mm; infinite until there are enough windows under the whole load.
+  double value() const { return value_; }
+
+  /// What was seen so far says nothing any more, as when the body has changed.
+  void reset();
+
+ private:
+  int window_;
+  std::vector<double> moved_, rates_, bounds_;
+  double value_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace brainshift::solve

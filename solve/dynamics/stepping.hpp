@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "segmentation/geometry/points.hpp"
+#include "solve/body/body.hpp"
+#include "solve/dynamics/body_change.hpp"
+#include "solve/dynamics/diagnosis.hpp"
+#include "solve/force/internal_force.hpp"
+#include "solve/interface/load_curve.hpp"
+#include "solve/interface/result.hpp"
+
+namespace brainshift::solve {
+
+/// What happens to a body while it is stepped.
+struct Course {
+  LoadCurve curve;          ///< of the prescribed displacements and of the forces
+  NodalVectors start = {};  ///< û of a coarse solution under the full load; empty: from rest
+  BodyChange change = {};   ///< empty: the body stays whole
+};
+
+/// What time stepping leaves behind.
+struct SteppingResult {
+  Body body;                        ///< as it was at the end
+  NodalVectors parameters;          ///< û of the last good state, mm
+  Points reactions = Points(0, 3);  ///< µN
+  std::vector<HistoryRow> history;
+  std::vector<Snapshot> snapshots;
+  PointState state;
+  int steps = 0;
+  double fraction = 0;         ///< of the load, at the last good state
+  double error_bound = 0;      ///< mm; relaxation only
+  double critical_step = 0;    ///< s, of the undeformed body; transient only
+  bool unstable = false;       ///< failed because it blew up, not for want of steps
+  std::string failure;         ///< empty when all went well
+  std::optional<Fault> fault;  ///< where, when something went wrong at a place
+};
+
+}  // namespace brainshift::solve

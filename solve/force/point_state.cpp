@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "solve/force/internal_force.hpp"
+#include "solve/force/patch_dilatation.hpp"
+#include "solve/material/principal.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+template <class ElasticLaw>
+void add_patch(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, const ForceScratch& scratch,
+               PointState& state) {
+  const std::vector<Eigen::Matrix3d> gradients = gradients_of(points, patch, scratch);
+  const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, gradients);
+  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+    const Deformation d(gradients[static_cast<std::size_t>(p - patch.first_point)]);
+    const double volumetric = point_energy(law, dilatations.dot(points.modes_of(p)), law.dilatation(d));
+    const double volume = points.volume[static_cast<std::size_t>(p)];
+    state.strain_energy += volume * (law.isochoric_energy(d) + volumetric);
+    state.smallest_jacobian = lesser(state.smallest_jacobian, d.jacobian);
+    const Eigen::Vector3d stretches = principal_stretches(d.gradient);
+    state.largest_stretch = std::max(state.largest_stretch, stretches.maxCoeff());
+    state.compressed_share += stretches.minCoeff() < crease_stretch ? volume : 0;
+  }
+}
+
+}  // namespace
+
+PointState point_state(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch) {
+  std::vector<PointState> partial(points.blocks.size());
+  const auto blocks = static_cast<std::int64_t>(points.blocks.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::int64_t b = 0; b < blocks; ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    for (std::int32_t k = points.blocks[i].first_patch; k < points.blocks[i].last_patch; ++k) {
+      const Patch& patch = points.patches[static_cast<std::size_t>(k)];
+      std::visit([&](const auto& law) { add_patch(points, patch, law, scratch, partial[i]); },
+                 laws.elastic[static_cast<std::size_t>(patch.material)]);
+    }
+  }
+  PointState state;
+  for (const PointState& part : partial) {
+    state.strain_energy += part.strain_energy;
+    state.smallest_jacobian = lesser(state.smallest_jacobian, part.smallest_jacobian);
+    state.largest_stretch = std::max(state.largest_stretch, part.largest_stretch);
+    state.compressed_share += part.compressed_share;
+  }
+  state.compressed_share /= std::accumulate(points.volume.begin(), points.volume.end(), 0.0);
+  return state;
+}
+
+}  // namespace brainshift::solve

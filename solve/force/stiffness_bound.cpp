@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/force/stiffness_bound.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solve/force/internal_force.hpp"
+#include "solve/force/patch_dilatation.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+Eigen::Matrix3Xd derivatives(const PointBlocks& points, std::int32_t point) {
+  const auto nodes = static_cast<Eigen::Index>(points.support_size(point));
+  if (points.precision() == Precision::single_precision) {
+    return Eigen::Map<const Eigen::Matrix3Xf>(points.derivatives_of<float>(point), 3, nodes).cast<double>();
+  }
+  return Eigen::Map<const Eigen::Matrix3Xd>(points.derivatives_of<double>(point), 3, nodes);
+}
+
+/// ‖Σ_b B_b ⊗ B_b / |B_b|‖, the largest eigenvalue.
+double weighted_norm(const Eigen::Matrix3Xd& b) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (Eigen::Index a = 0; a < b.cols(); ++a) {
+    const double norm = b.col(a).norm();
+    if (norm > 0) {
+      sum += b.col(a) * b.col(a).transpose() / norm;
+    }
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(sum, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[2];
+}
+
+/// Sums over the slots of a block.
+struct BlockSums {
+  double* bound;
+  std::vector<Eigen::Matrix<double, 3, 4>> mode;  ///< one a slot: b of each pressure mode; zero between patches
+  std::vector<const Patch*> last;                 ///< one a slot: the last patch that touched it
+  std::vector<std::uint16_t> touched;             ///< slots of the patch
+
+  BlockSums(const Block& block, double* of_slots)
+      : bound(of_slots + block.first_slot),
+        mode(static_cast<std::size_t>(block.slots), Eigen::Matrix<double, 3, 4>::Zero()),
+        last(static_cast<std::size_t>(block.slots), nullptr) {}
+};
+
+template <class ElasticLaw>
+void add_shape_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law,
+                     std::span<const Eigen::Matrix3d> gradients, BlockSums& sums) {
+  ElasticLaw alone = law;  // as its patch leaves it to the point
+  const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, gradients);
+  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+    const Eigen::Matrix3d& gradient = gradients[static_cast<std::size_t>(p - patch.first_point)];
+    const double dilatation = law.dilatation(Deformation(gradient));
+    alone.bulk_modulus = point_modulus(law, dilatation);
+    const double tangent =
+        largest_tangent(alone, gradient, point_pressure(law, dilatations.dot(points.modes_of(p)), dilatation));
+    const auto b = derivatives(points, p);
+    const double scale =
+        points.volume[static_cast<std::size_t>(p)] * std::max(tangent, 2 * law.shear_modulus) * weighted_norm(b);
+    Eigen::Index a = 0;
+    for (const std::uint16_t slot : points.slots_of(p)) {
+      sums.bound[slot] += scale * b.col(a++).norm();
+    }
+  }
+}
+
+template <class ElasticLaw>
+void add_volume_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law,
+                      std::span<const Eigen::Matrix3d> gradients, BlockSums& sums) {
+  sums.touched.clear();
+  for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+    const Eigen::Matrix3d slope =
+        points.volume[static_cast<std::size_t>(p)] *
+        law.dilatation_slope(Deformation(gradients[static_cast<std::size_t>(p - patch.first_point)]));
+    const Eigen::RowVector4d modes = points.modes_of(p).transpose();
+    const auto b = derivatives(points, p);
+    Eigen::Index a = 0;
+    for (const std::uint16_t slot : points.slots_of(p)) {
+      sums.mode[slot] += slope * b.col(a++) * modes;
+      if (sums.last[slot] != &patch) {
+        sums.last[slot] = &patch;
+        sums.touched.push_back(slot);
+      }
+    }
+  }
+  Eigen::RowVector4d total = Eigen::RowVector4d::Zero();
+  for (const std::uint16_t slot : sums.touched) {
+    total += sums.mode[slot].colwise().norm();
+  }
+  for (const std::uint16_t slot : sums.touched) {
+    sums.bound[slot] += law.bulk_modulus * total.dot(sums.mode[slot].colwise().norm());
+    sums.mode[slot].setZero();
+  }
+}
+
+std::vector<double> sum_at_nodes(const PointBlocks& points, const std::vector<double>& at_slots) {
+  std::vector<double> sum(points.nodes(), 0.0);
+  for (std::size_t slot = 0; slot < at_slots.size(); ++slot) {
+    sum[static_cast<std::size_t>(points.slot_node[slot])] += at_slots[slot];
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch) {
+  std::vector<double> slot_bound(points.slots(), 0.0);
+  const auto blocks = static_cast<std::int64_t>(points.blocks.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::int64_t i = 0; i < blocks; ++i) {
+    const Block& block = points.blocks[static_cast<std::size_t>(i)];
+    BlockSums sums(block, slot_bound.data());
+    for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
+      const Patch& patch = points.patches[static_cast<std::size_t>(k)];
+      const std::vector<Eigen::Matrix3d> gradients = gradients_of(points, patch, scratch);
+      std::visit(
+          [&](const auto& law) {
+            add_shape_bound(points, patch, law, gradients, sums);
+            add_volume_bound(points, patch, law, gradients, sums);
+          },
+          laws.elastic[static_cast<std::size_t>(patch.material)]);
+    }
+  }
+  return sum_at_nodes(points, slot_bound);
+}
+
+std::vector<double> physical_mass(const PointBlocks& points, std::span<const double> density) {
+  std::vector<double> slot_mass(points.slots(), 0.0);
+  for (const Block& block : points.blocks) {
+    for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
+      const Patch& patch = points.patches[static_cast<std::size_t>(k)];
+      for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+        const double share = density[static_cast<std::size_t>(patch.material)] *
+                             points.volume[static_cast<std::size_t>(p)] / static_cast<double>(points.support_size(p));
+        for (const std::uint16_t slot : points.slots_of(p)) {
+          slot_mass[static_cast<std::size_t>(block.first_slot) + slot] += share;
+        }
+      }
+    }
+  }
+  return sum_at_nodes(points, slot_mass);
+}
+
+double critical_step(std::span<const double> stiffness_bound, std::span<const double> mass) {
+  double largest = 0;
+  for (std::size_t a = 0; a < mass.size(); ++a) {
+    largest = std::max(largest, stiffness_bound[a] / mass[a]);
+  }
+  return 2 / std::sqrt(largest);
+}
+
+double chapter_critical_step(const PointBlocks& points, std::span<const double> wave_speed) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Patch& patch : points.patches) {
+    const double c = wave_speed[static_cast<std::size_t>(patch.material)];
+    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+      const auto n = static_cast<double>(points.support_size(p));
+      smallest = std::min(smallest, 2 / (c * std::sqrt(n * derivatives(points, p).squaredNorm())));
+    }
+  }
+  return smallest;
+}
+
+}  // namespace brainshift::solve

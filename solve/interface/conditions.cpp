@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/interface/conditions.hpp"
+
+#include <vtkPointData.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "segmentation/files/refuse.hpp"
+#include "segmentation/files/vtu_file.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+Points vectors(const std::filesystem::path& file, vtkUnstructuredGrid& grid, const char* name) {
+  const auto nodes = static_cast<std::size_t>(grid.GetNumberOfPoints());
+  const std::vector<double> values = vtu::array(file, *grid.GetPointData(), name, nodes, 3);
+  return Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
+}
+
+}  // namespace
+
+bool Conditions::is_prescribed(Eigen::Index node, int axis) const {
+  return displacement.rows() > 0 && !std::isnan(displacement(node, axis));
+}
+
+bool Conditions::is_prescribed(Eigen::Index node) const {
+  return displacement.rows() > 0 && !displacement.row(node).array().isNaN().all();
+}
+
+bool Conditions::is_pushed(Eigen::Index node) const {
+  return force.rows() > 0 && !force.row(node).isZero();
+}
+
+std::vector<std::int32_t> prescribed_nodes(const Conditions& conditions) {
+  std::vector<std::int32_t> nodes;
+  for (Eigen::Index a = 0; a < conditions.displacement.rows(); ++a) {
+    if (conditions.is_prescribed(a)) {
+      nodes.push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  return nodes;
+}
+
+std::size_t count_loaded(const Conditions& conditions) {
+  std::size_t loaded = 0;
+  for (Eigen::Index a = 0; a < std::max(conditions.displacement.rows(), conditions.force.rows()); ++a) {
+    loaded += conditions.is_pushed(a) || conditions.is_prescribed(a) ? 1 : 0;
+  }
+  return loaded;
+}
+
+Conditions subset(const Conditions& conditions, const std::vector<std::int32_t>& nodes) {
+  Conditions part;
+  if (conditions.displacement.rows() > 0) {
+    part.displacement = conditions.displacement(nodes, Eigen::all);
+  }
+  if (conditions.force.rows() > 0) {
+    part.force = conditions.force(nodes, Eigen::all);
+  }
+  return part;
+}
+
+Conditions read_conditions(const std::filesystem::path& file) {
+  const auto grid = vtu::read(file);
+  const Conditions conditions{vectors(file, *grid, "prescribed_displacement"), vectors(file, *grid, "force")};
+  for (Eigen::Index a = 0; a < conditions.displacement.rows(); ++a) {
+    if (conditions.displacement.row(a).array().isInf().any()) {
+      refuse(file, "the prescribed_displacement of node " + std::to_string(a) +
+                       " is infinite; a length in mm, or NaN for a free component, is expected.");
+    }
+  }
+  for (Eigen::Index a = 0; a < conditions.force.rows(); ++a) {
+    if (!conditions.force.row(a).allFinite()) {
+      refuse(file, "the force on node " + std::to_string(a) + " is not finite; newtons are expected, 0 for none.");
+    }
+  }
+  return conditions;
+}
+
+void write_nodes(const std::filesystem::path& file, const NodeCloud& cloud, const Conditions& conditions) {
+  std::vector<NodeVectors> vectors;
+  if (conditions.displacement.rows() > 0) {
+    vectors.push_back({"prescribed_displacement", conditions.displacement});
+  }
+  if (conditions.force.rows() > 0) {
+    vectors.push_back({"force", conditions.force});
+  }
+  write_node_cloud(file, cloud, vectors);
+}
+
+}  // namespace brainshift::solve

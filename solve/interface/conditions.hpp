@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <vector>
+
+#include "discretise/interface/node_cloud.hpp"
+#include "segmentation/geometry/points.hpp"
+
+namespace brainshift::solve {
+
+/// What is prescribed at the nodes of a cloud, one row a node in its order.
+struct Conditions {
+  /// (n × 3) mm, NaN: that component is free. No rows when nothing is prescribed.
+  Points displacement = Points(0, 3);
+  /// (n × 3) N, acts at the node. No rows when there is none.
+  Points force = Points(0, 3);
+
+  /// Whether a component of a node's displacement is prescribed; axis 0, 1 or 2.
+  bool is_prescribed(Eigen::Index node, int axis) const;
+  /// Whether any component is.
+  bool is_prescribed(Eigen::Index node) const;
+  /// Whether a force other than 0 acts at a node.
+  bool is_pushed(Eigen::Index node) const;
+};
+
+/// Nodes, ascending, with a prescribed component.
+std::vector<std::int32_t> prescribed_nodes(const Conditions& conditions);
+
+/// How many nodes have a prescribed displacement or a force.
+std::size_t count_loaded(const Conditions& conditions);
+
+/// The conditions at some of the nodes, in their order.
+Conditions subset(const Conditions& conditions, const std::vector<std::int32_t>& nodes);
+
+/// The point arrays `prescribed_displacement` (mm, NaN where free) and `force` (N) of a nodes.vtu; none where there are
+/// none. Throws std::invalid_argument, naming file and node, on an array of the wrong size, an infinite displacement or
+/// a force that is not finite.
+Conditions read_conditions(const std::filesystem::path& file);
+
+/// nodes.vtu with both arrays, those without rows aside. Throws std::runtime_error, naming the file.
+void write_nodes(const std::filesystem::path& file, const NodeCloud& cloud, const Conditions& conditions);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/interface/load_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "segmentation/files/text_lines.hpp"
+
+namespace brainshift::solve {
+
+double smooth_load(double tau) {
+  const double t = std::clamp(tau, 0.0, 1.0);
+  return t * t * t * (10 + t * (-15 + 6 * t));
+}
+
+namespace {
+
+/// What is wrong with row i of the table, given the rows before it; empty: nothing.
+std::string fault_of_row(std::span<const double> time, std::span<const double> factor, std::size_t i) {
+  if (!std::isfinite(time[i]) || !std::isfinite(factor[i])) {
+    return "time and factor must be finite";
+  }
+  if (i == 0 && (time[0] != 0 || factor[0] != 0)) {
+    return "the load curve must start at time 0 with factor 0: the body starts at rest, unloaded";
+  }
+  if (i > 0 && time[i] <= time[i - 1]) {
+    return "the time is not later than that of the row before";
+  }
+  return {};
+}
+
+}  // namespace
+
+LoadCurve::LoadCurve(std::vector<double> time, std::vector<double> factor, Join join)
+    : time_(std::move(time)), factor_(std::move(factor)), join_(join) {
+  if (time_.size() < 2 || factor_.size() != time_.size()) {
+    throw std::invalid_argument("a load curve needs at least two rows of time and factor");
+  }
+  for (std::size_t i = 0; i < time_.size(); ++i) {
+    if (const std::string fault = fault_of_row(time_, factor_, i); !fault.empty()) {
+      throw std::invalid_argument("row " + std::to_string(i + 1) + " of the load curve: " + fault);
+    }
+  }
+}
+
+double LoadCurve::at(double time) const {
+  const auto after = std::upper_bound(time_.begin(), time_.end(), time);
+  if (after == time_.begin()) {
+    return factor_.front();
+  }
+  if (after == time_.end()) {
+    return factor_.back();
+  }
+  const auto i = static_cast<std::size_t>(after - time_.begin());
+  const double tau = (time - time_[i - 1]) / (time_[i] - time_[i - 1]);
+  const double share = join_ == Join::smooth ? smooth_load(tau) : tau;
+  return factor_[i - 1] + share * (factor_[i] - factor_[i - 1]);
+}
+
+LoadCurve read_load_curve(const std::filesystem::path& file, LoadCurve::Join join) {
+  const std::vector<std::string> lines = read_lines(file);
+  std::size_t line = 0;
+  while (line < lines.size() && lines[line].starts_with('#')) {
+    ++line;
+  }
+  if (line == lines.size() || split_fields(lines[line]) != std::vector<std::string>{"time", "factor"}) {
+    fail_at_line(file, line + 1, "the header time,factor is expected here");
+  }
+  std::vector<double> time, factor;
+  for (++line; line < lines.size(); ++line) {
+    if (lines[line].starts_with('#')) {
+      continue;
+    }
+    const std::vector<std::string> fields = split_fields(lines[line]);
+    if (fields.size() != 2) {
+      fail_at_line(file, line + 1, "two numbers time,factor are expected, found \"" + lines[line] + "\"");
+    }
+    time.push_back(parse_number(fields[0], file, line + 1));
+    factor.push_back(parse_number(fields[1], file, line + 1));
+    if (const std::string fault = fault_of_row(time, factor, time.size() - 1); !fault.empty()) {
+      fail_at_line(file, line + 1, fault);
+    }
+  }
+  try {
+    return LoadCurve(std::move(time), std::move(factor), join);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "discretise/interface/background_cells.hpp"
+#include "discretise/interface/node_cloud.hpp"
+#include "segmentation/geometry/surface.hpp"
+#include "segmentation/image/image.hpp"
+#include "solve/interface/conditions.hpp"
+#include "solve/interface/cut.hpp"
+#include "solve/interface/load_curve.hpp"
+#include "solve/material/material.hpp"
+
+namespace brainshift::solve {
+
+/// Force per undeformed volume at an undeformed place (mm) and label, N/mm³.
+using BodyForce = std::function<Eigen::Vector3d(const Eigen::Vector3d& position, std::int32_t label)>;
+
+/// Three dimensions, or a plane problem on nodes and cells with z = 0; forces are then per mm of thickness.
+enum class Plane : std::uint8_t { none, strain, stress };
+
+/// What is solved.
+struct Model {
+  NodeCloud cloud;
+  Conditions conditions = {};  ///< at its nodes
+  BackgroundCells cells;
+  std::optional<LabelMap> labels;              ///< tissue at an integration point; absent, or 0 there: the cell's label
+  std::map<std::int32_t, Material> materials;  ///< by label
+  std::optional<Surface> skull;                ///< rigid, frictionless contact from inside; absent: none
+  Plane plane = Plane::none;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s²
+  BodyForce body_force = {};                          ///< N/mm³ undeformed; empty: none
+  std::vector<Cut> cuts = {};
+  bool face_contact = false;  ///< of cuts: their faces do not pass through each other
+  std::optional<Rupture> rupture = {};
+  std::optional<Resection> resection = {};
+  LoadCurve curve = {};  ///< of prescribed displacements and all forces; in a transient run its times are seconds
+};
+
+}  // namespace brainshift::solve

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solve/interface/solution.hpp"
+
+namespace brainshift::solve {
+
+/// A row of history.csv.
+struct HistoryRow {
+  int step = 0;
+  double time = 0;                                     ///< relaxation: share of the load's curve, 0 to 1; transient: s
+  double external_work = 0;                            ///< mJ
+  double strain_energy = 0;                            ///< mJ
+  double kinetic_energy = 0;                           ///< mJ, fictitious in dynamic relaxation
+  double dissipated_energy = 0;                        ///< mJ, by the damping
+  Eigen::Vector3d reaction = Eigen::Vector3d::Zero();  ///< N, sum over the nodes whose prescribed displacement is not 0
+  double residual = 0;     ///< sum of |f_int - reactions| / sum of |f_int|, or the largest of that at rest so far
+  double error_bound = 0;  ///< mm; infinite until it is estimated
+};
+
+/// The two faces of a cut inside the body, drawn half a spacing fine: lines in a plane problem, triangles in space.
+struct CutSurface {
+  Points vertices = Points(0, 3);      ///< undeformed, mm: those of the face above, then the same of that below
+  Triangles facets = Triangles(0, 3);  ///< of a line the third vertex is -1
+  Points displacement = Points(0, 3);  ///< of the face at each vertex, mm
+  std::vector<std::int32_t> side;      ///< of each vertex: 1 above, on the side of the cut's normal; -1 below
+};
+
+/// The displacement on the way to the end state.
+struct Snapshot {
+  int step = 0;
+  double time = 0;                     ///< as in HistoryRow
+  Points displacement = Points(0, 3);  ///< mm, in the cloud's order, then the nodes that a cut added
+  Points positions = Points(0, 3);     ///< undeformed, mm; fewer than the solution's where a cut has added nodes since
+  CutFacets cut = {};                  ///< as far as it had come
+  CutSurface faces = {};               ///< of that cut; without vertices where nothing is cut
+};
+
+/// A row of stress_strain.csv.
+struct StressStrainRow {
+  double time;        ///< as in HistoryRow
+  double elongation;  ///< of the body between its held and its loaded nodes, over its length
+  double stress;      ///< nominal: reaction along the load over the mean undeformed cross-section, volume / length, Pa
+};
+
+/// What became of the contact of faces, at the end.
+struct FaceMeasures {
+  std::size_t touching_nodes = 0;  ///< that overlap the opposite face or are within a hundredth of the spacing of it
+  double largest_overlap = 0;      ///< mm more than undeformed
+};
+
+/// What cutting took.
+struct CutMeasures {
+  std::size_t split_nodes = 0;        ///< nodes of the cloud that were split in two
+  std::size_t added_nodes = 0;        ///< their twins, and pairs where there was no node to split
+  std::size_t advances = 0;           ///< times the body was cut further while it moved
+  std::size_t touched_supports = 0;   ///< of integration points, evaluated again; over all advances
+  double extent = 0;                  ///< length, mm, or area, mm²
+  double seconds = 0;                 ///< of the advances
+  std::optional<FaceMeasures> faces;  ///< of face contact; absent: it was not asked for
+};
+
+/// What a resection took.
+struct ResectionMeasures {
+  std::size_t removed_nodes = 0;
+  double removed_volume = 0;  ///< of the integration points of its tissue, mm³
+};
+
+struct SolveMeasures {
+  std::size_t nodes = 0;
+  std::size_t integration_points = 0;
+  std::size_t capped_points = 0;  ///< integration points that missed the integration tolerance
+  std::size_t pairs = 0;          ///< (integration point, node) pairs
+  double mean_support = 0;        ///< nodes an integration point
+  std::size_t grown_supports = 0;
+  std::size_t outside_label = 0;  ///< integration points that took their cell's label
+  std::size_t loaded_nodes = 0;
+  std::size_t contact_nodes = 0;  ///< in touch at the end
+  int steps = 0;
+  bool converged = false;
+  double error_bound = 0;           ///< mm
+  double critical_step = 0;         ///< transient: as estimated for the undeformed body, s
+  int consistency_iterations = 0;   ///< of the correction of the derivatives
+  double largest_displacement = 0;  ///< mm
+  double constraint_error = 0;      ///< largest |Σφû − prescribed|, mm
+  double largest_penetration = 0;   ///< deepest node outside the skull, mm
+  double smallest_jacobian = 0;     ///< least det F over integration points
+  double largest_stretch = 0;       ///< largest principal stretch
+  double compressed_share = 0;      ///< of the volume, pressed so far that its free faces may crease
+  std::optional<CutMeasures> cut;   ///< absent: nothing was cut
+  std::optional<ResectionMeasures> resection;
+  double seconds_setup = 0;
+  double seconds_stepping = 0;
+  std::size_t region_nodes = 0;  ///< solved, those at the region's rim too; 0: no region was asked for
+  double seconds_coarse = 0;     ///< of the coarse solution that chose the region or was the start
+  double coarse_error = 0;       ///< of it, largest next to the region's rim, mm: what the outside may be wrong by
+};
+
+struct SolveResult {
+  Solution solution;  ///< the last good state, also when not converged
+  std::vector<HistoryRow> history;
+  std::vector<Snapshot> snapshots;
+  std::vector<StressStrainRow> stress_strain;  ///< of a model with a rupture
+  CutSurface faces;                            ///< of the cut at the end; without vertices where nothing is cut
+  SolveMeasures measures;
+  std::string failure;  ///< empty when converged; else one sentence: what went wrong, where and when (exit 3)
+};
+
+}  // namespace brainshift::solve

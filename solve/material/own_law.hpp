@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "solve/material/deformation.hpp"
+#include "solve/material/material.hpp"
+
+namespace brainshift::solve {
+
+/// The isochoric part of an elastic law that a program brings along (Material::own), W = W_iso(F) + K/2 (J − 1)².
+struct OwnElasticity {
+  double shear_modulus = 0;                                   ///< µ at rest, Pa
+  std::function<double(const Deformation&)> energy;           ///< W_iso, Pa; 0 at rest, the same in every frame
+  std::function<Eigen::Matrix3d(const Deformation&)> stress;  ///< ∂W_iso/∂F, Pa
+};
+
+/// Such a law ready for the solver. Each call goes through a function, so a step takes several times as long as with a
+/// law of the library. J must be positive.
+struct OwnLaw {
+  static constexpr double least_dilatation = -1;  ///< θ where J = 0
+
+  double shear_modulus;  ///< µ, Pa
+  double bulk_modulus;   ///< K, Pa
+
+  /// material.own must be there.
+  explicit OwnLaw(const Material& material);
+
+  /// ∂W/∂F without the volumetric part, Pa.
+  Eigen::Matrix3d isochoric_stress(const Deformation& d) const { return own_->stress(d); }
+  /// W_iso, Pa.
+  double isochoric_energy(const Deformation& d) const { return own_->energy(d); }
+  /// θ = J − 1 and ∂θ/∂F.
+  double dilatation(const Deformation& d) const { return d.jacobian - 1; }
+  Eigen::Matrix3d dilatation_slope(const Deformation& d) const { return d.cofactor; }
+
+ private:
+  std::shared_ptr<const OwnElasticity> own_;
+};
+
+/// Largest eigenvalue of the tangent ∂²W/∂F∂F at F, Pa, by central differences of the stress, with the pressure p given
+/// and U'' = K.
+double largest_tangent(const OwnLaw& law, const Eigen::Matrix3d& gradient, double pressure);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/run/coarse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "solve/run/prepare.hpp"
+#include "solve/run/step.hpp"
+#include "solve/shape/shape_functions.hpp"
+#include "solve/shape/support_search.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr double coarser = 2;             // spacing over that of the cloud
+constexpr double least_distance = 1.41;   // of chosen nodes, over the cloud's spacing: leaves about an eighth
+constexpr double looser = 0.1;            // stop, over the region's displacement
+constexpr std::size_t fewest_nodes = 60;  // of a coarse cloud
+
+/// Loaded nodes first, then the surface, then the inside; each in the cloud's order.
+std::vector<std::int32_t> by_importance(const NodeCloud& cloud, const Conditions& conditions) {
+  std::vector<std::int32_t> order;
+  for (const int wanted : {0, 1, 2}) {
+    for (std::size_t a = 0; a < cloud.size(); ++a) {
+      const auto node = static_cast<std::int32_t>(a);
+      const int rank = conditions.is_prescribed(node) ? 0 : cloud.on_surface[a] != 0 ? 1 : 2;
+      if (rank == wanted) {
+        order.push_back(node);
+      }
+    }
+  }
+  return order;
+}
+
+/// All free surface nodes of the cloud may touch the skull, moved by the coarse parameters: coarse nodes alone would
+/// let the surface between them through, and the body sink by tenths of a millimetre.
+void touch_with_whole_surface(const Model& model, const NodeCloud& coarse, const ShapeOptions& options, Body& body) {
+  const std::vector<std::int32_t> surface = free_surface_nodes(model.cloud, model.conditions);
+  std::vector<std::int32_t> ordinal(surface.size());
+  std::iota(ordinal.begin(), ordinal.end(), 0);
+  const Points positions = model.cloud.positions(surface, Eigen::all);
+  const NodeCloud ordered = subset(coarse, body.original);
+  const ShapeFunctions shape(ordered.positions, ordered.spacing, options);
+  SignedDistance skull = body.contact->skull();
+  body.contact.emplace(std::move(skull), positions, ordinal, shape.evaluate(positions, false));
+}
+
+}  // namespace
+
+std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud, const Conditions& conditions) {
+  const SupportSearch search(cloud.positions, cloud.spacing);
+  std::vector<std::uint8_t> excluded(cloud.size(), 0);
+  std::vector<std::int32_t> chosen;
+  std::vector<std::int32_t> near;
+  for (const std::int32_t a : by_importance(cloud, conditions)) {
+    if (excluded[static_cast<std::size_t>(a)] != 0) {
+      continue;
+    }
+    chosen.push_back(a);
+    search.find(cloud.positions.row(a), least_distance, near);
+    for (const std::int32_t node : near) {
+      excluded[static_cast<std::size_t>(node)] = 1;
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+namespace {
+
+std::optional<Points> solved_on(const std::vector<std::int32_t>& nodes, const Model& model, const SolveOptions& given,
+                                const Progress& progress) {
+  Model coarse = model;
+  coarse.cloud = subset(model.cloud, nodes);
+  coarse.conditions = subset(model.conditions, nodes);
+  for (double& spacing : coarse.cloud.spacing) {
+    spacing *= coarser;
+  }
+  SolveOptions options = given;
+  options.region = 0;
+  options.points_per_cell = 1;
+  options.shape = {.basis = Basis::linear, .derivatives = given.shape.derivatives};
+  options.snapshot_every = 0;
+  options.tolerance = std::max(given.tolerance, looser * given.region);
+  SolveMeasures measures;
+  Prepared prepared = prepare(coarse, options, {}, measures, progress);
+  if (prepared.body.contact) {
+    touch_with_whole_surface(model, coarse.cloud, options.shape, prepared.body);
+  }
+  const SolveResult result = step_to_end(coarse, options, std::move(prepared), measures, {}, progress);
+  if (!result.failure.empty()) {
+    return std::nullopt;
+  }
+  const ShapeFunctions shape(coarse.cloud.positions, coarse.cloud.spacing, result.solution.shape);
+  const Points parameters = parameters_from_displacement(shape, coarse.cloud.positions, result.solution.displacement);
+  Points displacement = shape.interpolate(model.cloud.positions, parameters);
+  const Points& prescribed = model.conditions.displacement;
+  for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
+    if (!std::isnan(prescribed.data()[i])) {
+      displacement.data()[i] = prescribed.data()[i];
+    }
+  }
+  return displacement;
+}
+
+}  // namespace
+
+std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress) {
+  const std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
+  if (nodes.size() < fewest_nodes) {
+    return std::nullopt;
+  }
+  try {
+    return solved_on(nodes, model, options, progress);
+  } catch (const std::logic_error&) {
+    return std::nullopt;  // what the whole cloud holds in place, the coarse one may not
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "segmentation/progress/progress.hpp"
+#include "solve/interface/model.hpp"
+#include "solve/interface/options.hpp"
+
+namespace brainshift::solve {
+
+/// About an eighth of the cloud's nodes, evenly: none nearer to another than a multiple of its spacing, the loaded ones
+/// chosen first, then those on the surface, then the inner ones. Ascending.
+std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud, const Conditions& conditions);
+
+/// The displacement at all nodes (n × 3) mm of the solution on the coarse nodes, their spacing doubled, with linear
+/// shape functions and one point a cell; prescribed components as prescribed. Empty when that cannot be solved: too few
+/// nodes, or refused, or not converged.
+std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/run/prepare.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "solve/body/check_model.hpp"
+#include "solve/body/lay_out.hpp"
+#include "solve/cut/cut_patches.hpp"
+#include "solve/cut/resection.hpp"
+#include "solve/quadrature/adaptive_points.hpp"
+#include "solve/quadrature/cell_points.hpp"
+#include "solve/quadrature/pressure_patches.hpp"
+#include "solve/shape/consistent_derivatives.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+/// The nodes that each integration point stands for: its volume over that of a node there, scaled to their number.
+std::vector<double> nodes_per_point(const IntegrationPoints& points, const ShapeRows& rows,
+                                    std::span<const double> spacing) {
+  std::vector<double> share(points.size());
+  double total = 0;
+  for (std::size_t p = 0; p < share.size(); ++p) {
+    double cube = 0;
+    const std::span<const std::int32_t> support = rows[p].node;
+    for (const std::int32_t node : support) {
+      const double s = spacing[static_cast<std::size_t>(node)];
+      cube += s * s * s / static_cast<double>(support.size());
+    }
+    share[p] = points.volume[p] / cube;
+    total += share[p];
+  }
+  for (double& s : share) {
+    s *= static_cast<double>(spacing.size()) / total;
+  }
+  return share;
+}
+
+AdaptivePoints place_points(const Model& model, const ShapeFunctions& shape, const SolveOptions& options) {
+  const LabelMap* labels = model.labels ? &*model.labels : nullptr;
+  const std::vector<std::int32_t> tissues = tissues_of(model);
+  const bool adaptive = options.integration_tolerance > 0;
+  const int per_cell = points_per_cell(options.points_per_cell, model.cells.kind, adaptive);
+  if (adaptive) {
+    const AdaptiveRule rule{options.integration_tolerance, options.integration_depth, per_cell};
+    return adaptive_points(model.cells, shape, rule, labels, tissues);
+  }
+  AdaptivePoints plain{integration_points(model.cells, per_cell, labels, tissues), {}};
+  plain.rows = shape.evaluate(plain.points.positions, true);
+  return plain;
+}
+
+/// The ordered nodes whose parameter is prescribed.
+std::vector<std::int32_t> pinned_nodes(const OrderedCloud& cloud, std::span<const std::uint8_t> pinned) {
+  std::vector<std::int32_t> nodes;
+  for (std::size_t a = 0; a < cloud.original.size() && !pinned.empty(); ++a) {
+    if (pinned[static_cast<std::size_t>(cloud.original[a])] != 0) {
+      nodes.push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  return nodes;
+}
+
+/// The rows of these nodes become 1 at themselves: there u = û.
+ShapeRows with_pinned(const ShapeRows& rows, std::span<const std::int32_t> pinned) {
+  constexpr double one = 1;
+  ShapeRows result;
+  auto next = pinned.begin();
+  for (std::size_t a = 0; a < rows.size(); ++a) {
+    if (next != pinned.end() && *next == static_cast<std::int32_t>(a)) {
+      result.append({std::span(&*next++, 1), std::span(&one, 1), {}});
+    } else {
+      result.append(rows[a]);
+    }
+  }
+  return result;
+}
+
+void measure_sizes(const BodyParts& parts, std::size_t capped, SolveMeasures& m) {
+  m.nodes = parts.cloud.size();
+  m.integration_points = parts.points.size();
+  m.capped_points = capped;
+  m.pairs = parts.point_rows.node.size();
+  m.mean_support = static_cast<double>(m.pairs) / static_cast<double>(m.integration_points);
+  m.grown_supports = parts.point_rows.grown;
+  m.outside_label = parts.points.labelled_by_cell;
+  m.loaded_nodes = count_loaded(parts.cloud.conditions);
+}
+
+/// Within each patch by the nodes that points see: the processor foresees how long the loop over them is.
+void order_by_support(const ShapeRows& rows, PressurePatches& patches) {
+  const auto size = [&](std::int32_t p) { return rows[static_cast<std::size_t>(p)].size(); };
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    std::stable_sort(patches.order.begin() + patches.begin[i], patches.order.begin() + patches.begin[i + 1],
+                     [&](std::int32_t a, std::int32_t b) { return size(a) < size(b); });
+  }
+}
+
+PressurePatches patches_of(const Model& model, const SolveOptions& options, const BodyParts& parts,
+                           const Visibility* visibility) {
+  const bool shared_pressure = options.volumetric == Volumetric::mean_dilatation && model.plane != Plane::stress;
+  PressurePatches patches =
+      pressure_patches(parts.points.positions, nodes_per_point(parts.points, parts.point_rows, parts.cloud.spacing),
+                       parts.materials.row_of_point, shared_pressure ? options.nodes_per_patch : 0);
+  if (visibility != nullptr && shared_pressure) {
+    patches = part_patches(*visibility, parts.points.positions, patches);
+  }
+  order_by_support(parts.point_rows, patches);
+  return patches;
+}
+
+/// The stress of relaxing materials is not followed point by point for a tear.
+void check_rupture(const Model& model, Dynamics dynamics) {
+  const bool by_stress = model.rupture && model.rupture->criterion == Rupture::Criterion::stress;
+  const bool relaxes = std::any_of(model.materials.begin(), model.materials.end(),
+                                   [](const auto& material) { return !material.second.prony.empty(); });
+  if (by_stress && relaxes && dynamics == Dynamics::transient) {
+    throw std::invalid_argument(
+        "a rupture by stress does not go with a material that relaxes in time; give the stretch at which it tears");
+  }
+}
+
+bool cuts_go_on(const Model& model) {
+  return last_time(model.cuts) > 0 || model.rupture;
+}
+
+}  // namespace
+
+SolveOptions completed(SolveOptions options, const Model& model) {
+  options.shape.planar = model.plane != Plane::none;
+  return options;
+}
+
+Prepared prepare(const Model& model, const SolveOptions& options, std::span<const std::uint8_t> pinned,
+                 SolveMeasures& measures, const Progress& progress) {
+  check_model(model);
+  check_rupture(model, options.dynamics);
+  std::optional<CutBody> cut;
+  if (!model.cuts.empty() || model.rupture) {
+    cut = cut_body(model);
+  }
+  const std::shared_ptr<const Visibility> visibility = cut ? cut->visibility : nullptr;
+  BodyParts parts;
+  parts.cloud = order_nodes(cut ? cut->cloud : model.cloud, cut ? cut->conditions : model.conditions);
+  if (options.dynamics == Dynamics::relaxation) {
+    check_held(parts.cloud, model);
+  }
+  report(progress, 0, "evaluating shape functions");
+  const ShapeFunctions shape(parts.cloud.positions, parts.cloud.spacing, options.shape, visibility);
+  const std::vector<std::int32_t> held = pinned_nodes(parts.cloud, pinned);
+  parts.nodal_rows = shape.evaluate(parts.cloud.positions, false);
+  if (!held.empty()) {
+    parts.nodal_rows = with_pinned(parts.nodal_rows, held);
+  }
+  AdaptivePoints placed = place_points(model, shape, options);
+  if (model.resection) {
+    leave_out(*model.resection, placed);
+  }
+  const bool may_part = visibility || model.resection;
+  if (may_part && !model.face_contact && options.dynamics == Dynamics::relaxation) {  // a face may hold the other
+    check_parts_held(parts.cloud, placed.rows, model);
+  }
+  parts.points = std::move(placed.points);
+  parts.point_rows = std::move(placed.rows);
+  parts.materials = material_table(model.materials, parts.points.label);
+  measure_sizes(parts, placed.capped, measures);
+  if (options.integration == Integration::consistent) {
+    const ConsistencyMeasures done =
+        make_derivatives_consistent(parts.cloud.positions, surface_nodes(parts.cloud), parts.nodal_rows,
+                                    parts.points.volume, options.consistency_defect, parts.point_rows);
+    measures.consistency_iterations = done.iterations;
+  }
+  parts.patches = patches_of(model, options, parts, visibility.get());
+  LayOutExtras extras{.cut = {}, .faces = {}, .held = held, .skull = {}};
+  if (cut) {
+    extras.cut = cut->facets();
+    extras.faces = cut->pairs;
+  }
+  Prepared prepared{.body = lay_out(model, options, parts, std::move(extras)), .cut = std::move(cut), .parts = {}};
+  if (cuts_go_on(model)) {
+    prepared.parts = std::move(parts);
+  }
+  return prepared;
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "segmentation/progress/progress.hpp"
+#include "solve/run/prepare.hpp"
+
+namespace brainshift::solve {
+
+/// Steps what was prepared to the end. measures: as prepare() left them; the rest is filled in. start: û to relax from
+/// under the full load; empty: from rest.
+SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepared prepared, SolveMeasures measures,
+                        NodalVectors start, const Progress& progress);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solve/arrays/nodal_vectors.hpp"
+#include "solve/shape/shape_functions.hpp"
+
+namespace brainshift::solve {
+
+/// Displacement at the nodes, u = Σφû, in the cloud's order, mm.
+Points nodal_displacement(const ShapeRows& nodal_rows, const NodalVectors& parameters,
+                          const std::vector<std::int32_t>& original);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/scene/check_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "segmentation/files/surface_file.hpp"
+#include "tests/unit/pipelines/scene_file.hpp"
+
+namespace brainshift::pipelines::check_scene_test {
+
+LabelMap block_labels() {
+  LabelMap map;
+  map.geometry.size = {4, 4, 4};
+  map.voxels.assign(64, 0);
+  map.at(1, 1, 1) = 1;
+  map.at(2, 1, 1) = 3;
+  map.at(1, 2, 1) = 6;
+  return map;
+}
+
+TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  touch("load.csv");
+  const std::string load = "<load><craniotomy file=\"load.csv\"/></load>";
+  const std::string image = "<image labels=\"labels.nii.gz\"/>";
+  const std::string two = "<tissues><tissue label=\"1\"/><tissue label=\"3\"/></tissues>";
+  const auto scene = [](const std::string& inside) { return "<scene>\n" + inside + "\n</scene>"; };
+  EXPECT_EQ(fault(scene(image + two + load)), "");
+  expect_parts(fault(scene("<image labels=\"none.nii\"/>" + two + load)),
+               {"scene.xml:2", "none.nii", "does not exist"});
+  expect_parts(fault(scene(two + load)), {"exactly one"});
+  expect_parts(fault(scene("<image labels=\"labels.nii.gz\" surface=\"load.csv\"/>" + two + load)), {"exactly one"});
+  expect_parts(fault(scene("<image brain_mask=\"labels.nii.gz\"/>" + two + load)), {"t1"});
+  expect_parts(fault(scene(image + two)), {"no <load>"});
+  expect_parts(fault(scene(image + two + "<load/>")), {"exactly one"});
+  expect_parts(fault(scene(image + load)), {"no <tissues>"});
+  expect_parts(fault(scene(image + load + "<tissues>\n<tissue label=\"1\"/>\n<tissue label=\"2\"/></tissues>")),
+               {"scene.xml:4", "tissue 2", "1 3 6"});
+  expect_parts(fault(scene(image + load + "<tissues><tissue label=\"1\"/></tissues>")),
+               {"label 3", "no material", "other_labels"});
+  expect_parts(fault(scene(image + two + load), {"discretise.nodes=100", "discretise.spacing=3"}), {"both"});
+  expect_parts(fault(scene(image + two + load), {"solve.points_per_cell=4"}), {"--set", "hexahedra take 1 or 8"});
+  expect_parts(fault(scene(image + two + load), {"image.skull_label=5"}), {"--set", "skull_label 5"});
+  expect_parts(fault(scene(image + two + load), {"solve.damping=1"}), {"--set", "damping", "relaxation", "transient"});
+  expect_parts(fault(scene(image + two + load), {"solve.curve_join=straight"}), {"--set", "no curve"});
+  expect_parts(fault(scene(image + two + load), {"tissues.3.law=ogden"}), {"scene.xml:2", "label 3", "no terms"});
+  expect_parts(fault(scene(image + two + load), {"tissues.3.ogden=1,2"}), {"scene.xml:2", "1,2", "law neo_hookean"});
+  std::ofstream(folder_ / "curve.csv") << "time,factor\n0,0\n2,1\n";
+  EXPECT_EQ(fault(scene(image + two + load), {"solve.curve=curve.csv"}), "");
+  expect_parts(
+      fault(scene(image + two + load), {"solve.curve=curve.csv", "solve.dynamics=transient", "solve.duration=2"}),
+      {"--set", "duration", "curve.csv"});
+}
+
+/// Two triangles, or one and its neighbour in two pieces.
+Surface small_sheet(bool whole) {
+  Surface sheet{Points(6, 3), Triangles(2, 3)};
+  sheet.vertices << 0, 0, 0, 9, 0, 0, 9, 9, 0, 0, 9, 0, 20, 0, 0, 20, 9, 0;
+  sheet.triangles << 0, 1, 2, (whole ? 0 : 3), (whole ? 2 : 4), (whole ? 3 : 5);
+  return sheet;
+}
+
+TEST_F(SceneFile, CheckRefusesCutsAndResectionsThatCannotBe) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  touch("load.csv");
+  write_surface(folder_ / "sheet.vtp", small_sheet(true));
+  write_surface(folder_ / "pieces.vtp", small_sheet(false));
+  std::ofstream(folder_ / "path.csv") << "x,y\n0,0\n9,9\n";
+  const auto scene = [](const std::string& inside) {
+    return "<scene><image labels=\"labels.nii.gz\"/><tissues><tissue label=\"1\"/><tissue label=\"3\"/></tissues>"
+           "<load><craniotomy file=\"load.csv\"/></load>\n" +
+           inside + "</scene>";
+  };
+  const std::string cut = "<cuts>\n<cut file=\"sheet.vtp\"/></cuts>";
+  EXPECT_EQ(fault(scene(cut + "<resection labels=\"3\"/>")), "");
+  EXPECT_EQ(fault(scene("<cuts><cut file=\"sheet.vtp\" speed=\"9\" direction=\"1 0 0\"/></cuts>")), "");
+  expect_parts(fault(scene("<cuts>\n<cut file=\"none.vtp\"/></cuts>")), {"scene.xml:3", "none.vtp", "no such file"});
+  expect_parts(fault(scene("<cuts>\n<cut file=\"pieces.vtp\"/></cuts>")), {"scene.xml:3", "pieces.vtp", "pieces"});
+  expect_parts(fault(scene("<cuts>\n<cut file=\"path.csv\"/></cuts>")),
+               {"scene.xml:3", "path.csv", "brainshift solve --plane", "sheets"});
+  expect_parts(fault(scene("<cuts>\n<cut file=\"sheet.vtp\" speed=\"9\"/></cuts>")), {"scene.xml:3", "direction"});
+  expect_parts(fault(scene("<cuts/>")), {"scene.xml:2", "names no cut"});
+  expect_parts(fault(scene(""), {"cuts.contact=yes"}), {"names no cut"});
+  expect_parts(fault(scene("<resection labels=\"2\"/>")), {"scene.xml:2", "label 2", "no tissue", "1 3"});
+  expect_parts(fault(scene("<resection labels=\"1 3\"/>")), {"scene.xml:2", "every tissue"});
+  expect_parts(fault(scene("<resection labels=\"\"/>")), {"scene.xml:2", "names no label", "1 3"});
+  expect_parts(fault(scene(cut), {"solve.region=1"}), {"--set", "region", "cuts"});
+  expect_parts(fault(scene("<resection labels=\"3\"/>"), {"solve.region=1"}), {"--set", "region", "resection"});
+}
+
+TEST_F(SceneFile, ARegionDoesNotGoWithGravity) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  touch("load.csv");
+  const std::string scene = R"(<scene><image labels="labels.nii.gz"/>
+  <tissues><tissue label="1"/><tissue label="3"/></tissues>
+  <load><craniotomy file="load.csv"/></load><stage name="solve" region="1"/></scene>)";
+  EXPECT_EQ(fault(scene), "");
+  expect_parts(fault(scene, {"solve.gravity=0 0 -9.81"}), {"region", "gravity"});
+}
+
+}  // namespace brainshift::pipelines::check_scene_test

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "register/files/write_transform.hpp"
+
+#include <gtest/gtest.h>
+#include <itkDisplacementFieldTransform.h>
+
+#include "segmentation/image/itk_bridge.hpp"
+#include "tests/unit/register/builders.hpp"
+#include "tests/unit/scratch_folder.hpp"
+
+namespace brainshift::registration::write_transform_test {
+
+using ItkTransform = itk::DisplacementFieldTransform<double, 3>;
+
+/// As 3D Slicer and SimpleITK read it: in double precision.
+ItkTransform::Pointer read_transform(const std::filesystem::path& file) {
+  const auto reader = itk::TransformFileReaderTemplate<double>::New();
+  reader->SetTransformIO(itk::HDF5TransformIOTemplate<double>::New());
+  reader->SetFileName(file.string());
+  reader->Update();
+  return dynamic_cast<ItkTransform*>(reader->GetTransformList()->front().GetPointer());
+}
+
+TEST(WriteTransform, OfAFieldThatIsZeroIsTheIdentity) {
+  const ScratchFolder folder;
+  write_transform(folder.path() / "zero.h5",
+                  field(grid(), [](const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); }));
+  const auto transform = read_transform(folder.path() / "zero.h5");
+  const double x[3] = {1, 2, 3};
+  const auto moved = transform->TransformPoint(x);
+  EXPECT_EQ(moved[0], 1);
+  EXPECT_EQ(moved[2], 3);
+}
+
+}  // namespace brainshift::registration::write_transform_test

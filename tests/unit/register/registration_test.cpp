@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "register/registration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "tests/unit/register/builders.hpp"
+
+namespace brainshift::registration::registration_test {
+
+using namespace builders;
+
+/// The sentence that the input's fault is refused with; fails when it is not.
+std::string refusal(const RegisterInput& input, const RegisterOptions& options = {}) {
+  try {
+    register_images(input, options);
+  } catch (const std::invalid_argument& fault) {
+    return fault.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+class RegisterImages : public ::testing::Test {
+ protected:
+  RegisterInput input = head(sinking, grid({28, 25, 24}, {3.2, 3.6, 4.0}));
+};
+
+TEST_F(RegisterImages, RefusesLabelsOnAnotherGrid) {
+  input.labels->geometry.origin.x() += 1;
+  EXPECT_NE(refusal(input).find("same grid"), std::string::npos);
+}
+
+TEST_F(RegisterImages, RefusesAnOpenSurface) {
+  input.brain.triangles.conservativeResize(input.brain.triangles.rows() - 1, 3);
+  refusal(input);
+}
+
+TEST_F(RegisterImages, RefusesASurfaceThatDoesNotMeetTheImage) {
+  input.brain.vertices.col(0).array() += 1000;
+  EXPECT_NE(refusal(input).find("encloses no voxel"), std::string::npos);
+}
+
+TEST_F(RegisterImages, RefusesAFadeNarrowerThanAVoxel) {
+  for (const double fade : {0.0, -1.0, 5.0, std::numeric_limits<double>::quiet_NaN()}) {
+    RegisterOptions options;
+    options.fade = fade;
+    EXPECT_NE(refusal(input, options).find("fade"), std::string::npos);
+  }
+}
+
+TEST_F(RegisterImages, RefusesASolutionThatIsNotFinite) {
+  input.solution.displacement(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refusal(input).find("finite"), std::string::npos);
+}
+
+TEST_F(RegisterImages, RefusesALandmarkThatIsNotFinite) {
+  input.landmarks = Points::Constant(1, 3, std::numeric_limits<double>::infinity());
+  EXPECT_NE(refusal(input).find("landmark"), std::string::npos);
+}
+
+TEST_F(RegisterImages, RefusesATolerancOfZero) {
+  RegisterOptions options;
+  options.inverse_tolerance = 0;
+  refusal(input, options);
+}
+
+TEST_F(RegisterImages, DoesWithoutLabelsAndLandmarks) {
+  input.labels.reset();
+  const Registration result = register_images(input, {});
+  EXPECT_FALSE(result.warped_labels.has_value());
+  EXPECT_EQ(result.landmarks.rows(), 0);
+}
+
+TEST_F(RegisterImages, ReportsProgressThatGrowsToOne) {
+  double last = 0;
+  register_images(input, {}, [&](double fraction, std::string_view) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  });
+  EXPECT_EQ(last, 1);
+}
+
+TEST_F(RegisterImages, WorksWhereTheBrainReachesTheImagesBorder) {
+  ImageGeometry& g = input.t1.geometry;
+  g.origin.z() += 30;  // the image begins inside the brain
+  input.labels->geometry = g;
+  const Registration result = register_images(input, {});
+  EXPECT_EQ(result.measures.not_inverted, 0U);
+  EXPECT_GT(result.measures.brain_voxels, 100U);
+  EXPECT_LE(result.measures.inverse_mean, 0.05);
+}
+
+}  // namespace brainshift::registration::registration_test

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/files/surface_file.hpp"
+
+#include <gtest/gtest.h>
+#include <vtkNew.h>
+#include <vtkSTLWriter.h>
+#include <vtkSphereSource.h>
+
+#include "segmentation/files/vtk_bridge.hpp"
+#include "tests/unit/scratch_folder.hpp"
+
+namespace brainshift::test::read_surface_test {
+
+class EverySurfaceFormat : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Surface, EverySurfaceFormat, ::testing::Values("vtp", "stl", "ply", "obj"),
+                         [](const auto& named) { return named.param; });
+
+TEST_P(EverySurfaceFormat, GivesBackTheSurface) {
+  const ScratchFolder folder;
+  const auto file = folder / ("a." + GetParam());
+  Surface surface = tetrahedron();
+  surface.vertices.array() += 1.0 / 3.0;
+  write_surface(file, surface);
+  const Surface back = read_surface(file);
+  ASSERT_EQ(back.vertices.rows(), 4);
+  ASSERT_EQ(back.triangles.rows(), 4);
+  EXPECT_NEAR(volume(back), 4500.0, 1e-3);
+  if (GetParam() != "stl") {
+    EXPECT_EQ(back.vertices, surface.vertices);
+    EXPECT_EQ(back.triangles, surface.triangles);
+  }
+}
+
+TEST_P(EverySurfaceFormat, IsRefusedWhenCutInItsMiddle) {
+  const ScratchFolder folder;
+  const auto file = folder / ("a." + GetParam());
+  vtkNew<vtkSphereSource> source;
+  source->SetThetaResolution(20);
+  source->SetPhiResolution(20);
+  source->Update();
+  write_surface(file, from_vtk(*source->GetOutput()));
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2 - 1);
+  if (GetParam() == "obj") {  // a text without an end: what is cut off can only be seen where it is missed
+    std::ofstream(file, std::ios::app) << "\nf 1 2 99999\n";
+  }
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_surface(file); }, {file.string()}));
+}
+
+TEST_P(EverySurfaceFormat, IsRefusedWhenEmptyMissingOrProse) {
+  const ScratchFolder folder;
+  const auto file = folder / ("a." + GetParam());
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_surface(file); }, {file.string(), "no such file"}));
+  std::ofstream(file).flush();
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_surface(file); }, {file.string(), "empty"}));
+  std::ofstream(file)
+      << "these are words, and none of them is a triangle of any kind whatsoever, however long it is read";
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_surface(file); }, {file.string()}));
+}
+
+TEST_P(EverySurfaceFormat, AnUnwritableFolderIsAFault) {
+  EXPECT_TRUE(throws_saying<std::runtime_error>([] { write_surface("/nonexistent/a." + GetParam(), tetrahedron()); },
+                                                {"/nonexistent/a."}));
+}
+
+TEST(SurfaceIo, AnStlInTextOfVtkIsRead) {
+  const ScratchFolder folder;
+  vtkNew<vtkSTLWriter> writer;
+  const auto data = to_vtk(tetrahedron());
+  writer->SetInputData(data);
+  writer->SetFileTypeToASCII();
+  writer->SetFileName((folder / "t.stl").c_str());
+  writer->Write();
+  const Surface surface = read_surface(folder / "t.stl");
+  EXPECT_EQ(surface.vertices.rows(), 4);
+  EXPECT_NEAR(volume(surface), 4500.0, 1e-3);
+}
+
+TEST(SurfaceIo, ASquareFaceBecomesTwoTriangles) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "s.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 -1//1\n";
+  EXPECT_EQ(read_surface(folder / "s.obj").triangles.rows(), 2);
+}
+
+TEST(SurfaceIo, ACoordinateThatDoesNotParseIsNamedWithItsLine) {
+  const ScratchFolder folder;
+  const auto file = folder / "bad.obj";
+  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 1 1,5 0\nf 1 2 3\n";
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_surface(file); }, {"bad.obj:3", "1,5"}));
+  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 three\n";
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_surface(file); }, {"bad.obj:4"}));
+  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n";
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_surface(file); }, {"vertex 3", "finite"}));
+}
+
+TEST(SurfaceIo, AModelThatSaysRasIsTurnedToLps) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "r.obj") << "# 3D Slicer output. SPACE=RAS\nv 1 2 3\nv 4 0 0\nv 0 5 0\nf 1 2 3\n";
+  const Surface surface = read_surface(folder / "r.obj");
+  EXPECT_EQ(surface.vertices.row(0), Eigen::RowVector3d(-1, -2, 3));
+}
+
+}  // namespace brainshift::test::read_surface_test

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/image.hpp"
+
+#include "builders.hpp"
+#include "segmentation/image/itk_bridge.hpp"
+
+namespace brainshift::test::geometry_test {
+
+const Eigen::Vector3d far_away(120.0, -80.0, 300.0);
+
+TEST(ImageGeometry, WorldAndIndexAgreeWithItkInALeftHandedObliqueFrame) {
+  const auto geometry = grid_around(far_away, 9, {0.9, 1.1, 2.5}, oblique_left_handed());
+  const ScalarImage image{geometry, std::vector<float>(geometry.voxel_count())};
+  const auto itk_image = seen_by_itk(image);
+  itk::ContinuousIndex<double, 3> index;
+  index[0] = 1.25;
+  index[1] = 7.5;
+  index[2] = 3.0;
+  itk::Point<double, 3> expected;
+  itk_image->TransformContinuousIndexToPhysicalPoint(index, expected);
+  const Eigen::Vector3d world = geometry.to_world({1.25, 7.5, 3.0});
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(world[axis], expected[axis], 1e-10);
+  }
+  EXPECT_TRUE(geometry.to_index(world).isApprox(Eigen::Vector3d(1.25, 7.5, 3.0), 1e-12));
+}
+
+TEST(ImageGeometry, TheItkBridgeKeepsVoxelsAndPlace) {
+  const auto geometry = grid_around(far_away, 4, {1.0, 2.0, 3.0}, oblique_left_handed());
+  VectorImage image{geometry, std::vector<std::array<float, 3>>(geometry.voxel_count())};
+  image.at(1, 2, 3) = {4.0F, -5.0F, 6.0F};
+  const auto itk_image = seen_by_itk(image);
+  EXPECT_EQ(itk_image->GetPixel({1, 2, 3})[1], -5.0F);
+  const auto back = from_itk<std::array<float, 3>>(*itk_image);
+  EXPECT_EQ(back.voxels, image.voxels);
+  EXPECT_TRUE(same_geometry(back.geometry, geometry));
+}
+
+TEST(ImageGeometry, AThousandthOfAVoxelDecidesWhatIsTheSamePlace) {
+  const auto geometry = grid_around(far_away, 9, {1.0, 1.0, 1.0}, oblique());
+  auto moved = geometry;
+  moved.origin.x() += 5e-4;
+  EXPECT_TRUE(same_geometry(geometry, moved));
+  moved.origin.x() += 5e-3;
+  EXPECT_FALSE(same_geometry(geometry, moved));
+  auto turned = geometry;
+  turned.direction.col(1) *= -1.0;
+  EXPECT_FALSE(same_geometry(geometry, turned));
+  auto broken = geometry;
+  broken.origin.x() = std::nan("");
+  EXPECT_FALSE(same_geometry(geometry, broken));
+}
+
+TEST(ImageGeometry, APointOnTheOutermostHalfVoxelHasALabel) {
+  auto geometry = grid_around(Eigen::Vector3d::Zero(), 3, {2.0, 2.0, 2.0}, oblique_left_handed());
+  LabelMap labels{geometry, std::vector<std::int16_t>(geometry.voxel_count(), 7)};
+  labels.at(2, 0, 1) = 9;
+  EXPECT_EQ(label_at(labels, geometry.to_world({2.499, -0.499, 1.0})), 9);
+  EXPECT_EQ(label_at(labels, geometry.to_world({1.6, 0.4, 1.4})), 9);
+  EXPECT_EQ(label_at(labels, geometry.to_world({2.501, 0.0, 1.0})), 0);
+  EXPECT_EQ(label_at(labels, geometry.to_world({1.4, 0.0, 1.0})), 7);
+  EXPECT_EQ(label_at(labels, Eigen::Vector3d::Constant(std::nan(""))), 0);
+}
+
+}  // namespace brainshift::test::geometry_test

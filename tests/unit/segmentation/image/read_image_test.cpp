@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/image.hpp"
+
+#include <gtest/gtest.h>
+#include <itkGDCMImageIO.h>
+#include <itkImageFileWriter.h>
+#include <itkImageSeriesWriter.h>
+#include <itkNiftiImageIO.h>
+#include <itkNumericSeriesFileNames.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <limits>
+
+#include "segmentation/image/itk_bridge.hpp"
+#include "tests/unit/scratch_folder.hpp"
+
+namespace brainshift::test::read_image_test {
+
+using std::filesystem::file_size;
+using std::filesystem::resize_file;
+
+ScalarImage wavy_image() {
+  const auto geometry = grid_around({40.0, -70.0, 15.0}, 24, {0.9, 1.1, 2.5}, oblique_left_handed());
+  return image_by<float>(geometry, [](const Eigen::Vector3d& x) {
+    return static_cast<float>(100.0 + 50.0 * std::sin(0.3 * x.x()) * std::cos(0.2 * x.y()) + x.z());
+  });
+}
+
+class EveryFormat : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Image, EveryFormat, ::testing::Values("a.nii", "a.nii.gz", "a.nrrd", "a.mha"),
+                         [](const auto& named) {
+                           std::string name = named.param.substr(2);
+                           std::erase(name, '.');
+                           return name;
+                         });
+
+TEST_P(EveryFormat, GivesBackVoxelsAndPlace) {
+  const ScratchFolder folder;
+  const ScalarImage image = wavy_image();
+  write_image(folder / GetParam(), image);
+  const ScalarImage back = read_image(folder / GetParam());
+  EXPECT_EQ(back.voxels, image.voxels);
+  EXPECT_TRUE(same_geometry(back.geometry, image.geometry));
+}
+
+TEST_P(EveryFormat, GivesBackLabels) {
+  const ScratchFolder folder;
+  const LabelMap labels = ball(wavy_image().geometry, {40.0, -70.0, 15.0}, 9.0);
+  write_image(folder / GetParam(), labels);
+  EXPECT_EQ(read_label_map(folder / GetParam()).voxels, labels.voxels);
+}
+
+TEST_P(EveryFormat, GivesBackVectorsInLps) {
+  const ScratchFolder folder;
+  const auto field = image_by<std::array<float, 3>>(wavy_image().geometry, [](const Eigen::Vector3d& x) {
+    return std::array<float, 3>{static_cast<float>(x.x()), static_cast<float>(x.y()), 1.5F};
+  });
+  write_image(folder / GetParam(), field);
+  EXPECT_EQ(read_vector_image(folder / GetParam()).voxels, field.voxels);
+}
+
+TEST_P(EveryFormat, IsRefusedWhenHalfOfItIsMissing) {
+  const ScratchFolder folder;
+  const auto file = folder / GetParam();
+  write_image(file, wavy_image());
+  resize_file(file, file_size(file) / 2);
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_image(file); }, {file.string(), "truncated"}) ||
+              throws_saying<std::invalid_argument>([&] { read_image(file); }, {file.string(), "cut short"}));
+}
+
+TEST_P(EveryFormat, IsRefusedWhenEmptyOrText) {
+  const ScratchFolder folder;
+  const auto file = folder / GetParam();
+  std::ofstream(file).flush();
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_image(file); }, {file.string(), "empty"}));
+  std::ofstream(file) << std::string(5000, 'x');
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_image(file); }, {file.string()}));
+}
+
+TEST_P(EveryFormat, LeavesNoFileWhenTheDiskIsFull) {
+  const ScratchFolder folder;
+  const auto file = folder / GetParam();
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit old_limit{};
+  getrlimit(RLIMIT_FSIZE, &old_limit);
+  rlimit small = old_limit;
+  small.rlim_cur = 4096;
+  setrlimit(RLIMIT_FSIZE, &small);
+  const auto result =
+      throws_saying<std::runtime_error>([&] { write_image(file, wavy_image()); }, {file.string(), "written whole"});
+  setrlimit(RLIMIT_FSIZE, &old_limit);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_TRUE(result);
+  EXPECT_TRUE(std::filesystem::is_empty(file.parent_path()));
+}
+
+TEST(ImageIo, ADicomFolderIsOneImage) {
+  const ScratchFolder folder;
+  const auto geometry = grid_around({5.0, 6.0, 7.0}, 12, {0.8, 0.8, 2.0}, Eigen::Matrix3d::Identity());
+  auto labels = image_by<std::int16_t>(
+      geometry, [](const Eigen::Vector3d& x) { return static_cast<std::int16_t>(100 + std::lround(x.z() + x.x())); });
+  auto names = itk::NumericSeriesFileNames::New();
+  names->SetSeriesFormat((folder / "slice%03d.dcm").string());
+  names->SetStartIndex(1);
+  names->SetEndIndex(12);
+  auto writer = itk::ImageSeriesWriter<ItkImage<std::int16_t>, itk::Image<std::int16_t, 2>>::New();
+  auto io = itk::GDCMImageIO::New();
+  io->SetKeepOriginalUID(false);
+  writer->SetInput(seen_by_itk(labels));
+  writer->SetImageIO(io);
+  writer->SetFileNames(names->GetFileNames());
+  writer->Update();
+  const ScalarImage image = read_image(folder / "");
+  ASSERT_TRUE((image.geometry.size == geometry.size).all());
+  for (std::size_t i = 0; i < image.voxels.size(); ++i) {
+    ASSERT_EQ(image.voxels[i], static_cast<float>(labels.voxels[i]));
+  }
+}
+
+TEST(ImageIo, ASingleVolumeOfAFourDimensionalImageIsTakenAndTwoAreRefused) {
+  const ScratchFolder folder;
+  for (const unsigned volumes : {1U, 2U}) {
+    auto image = itk::Image<float, 4>::New();
+    image->SetRegions(itk::Size<4>{5, 6, 7, volumes});
+    image->Allocate(true);
+    auto writer = itk::ImageFileWriter<itk::Image<float, 4>>::New();
+    writer->SetImageIO(itk::NiftiImageIO::New());
+    writer->SetInput(image);
+    writer->SetFileName((folder / "four.nii").string());
+    writer->Update();
+    if (volumes == 1) {
+      EXPECT_EQ(read_image(folder / "four.nii").voxels.size(), 210U);
+    } else {
+      EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_image(folder / "four.nii"); }, {"5 x 6 x 7 x 2"}));
+    }
+  }
+}
+
+// NIfTI's library turns such values into zeros on reading.
+TEST_P(EveryFormat, AVoxelThatIsNotANumberIsNamed) {
+  const ScratchFolder folder;
+  ScalarImage image = wavy_image();
+  image.at(3, 4, 5) = std::numeric_limits<float>::quiet_NaN();
+  image.at(3, 4, 6) = std::numeric_limits<float>::infinity();
+  write_image(folder / GetParam(), image);
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_image(folder / GetParam()); },
+                                                   {GetParam(), "2 value(s)", "voxel (3, 4, 5)"}));
+}
+
+TEST(ImageIo, ALabelThatIsNoWholeNumberIsNamed) {
+  const ScratchFolder folder;
+  ScalarImage image = wavy_image();
+  std::fill(image.voxels.begin(), image.voxels.end(), 1.0F);
+  for (const float bad : {1.5F, 40000.0F, std::numeric_limits<float>::quiet_NaN()}) {
+    image.at(1, 0, 2) = bad;
+    write_image(folder / "l.nii", image);
+    EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_label_map(folder / "l.nii"); }, {"voxel (1, 0, 2)"}));
+  }
+}
+
+TEST(ImageIo, ScalarsAndVectorsAreNotMistakenForEachOther) {
+  const ScratchFolder folder;
+  write_image(folder / "s.nii", wavy_image());
+  EXPECT_THROW(read_vector_image(folder / "s.nii"), std::invalid_argument);
+  write_image(folder / "v.nii", VectorImage{wavy_image().geometry, std::vector<std::array<float, 3>>(24 * 24 * 24)});
+  EXPECT_THROW(read_image(folder / "v.nii"), std::invalid_argument);
+}
+
+TEST(ImageIo, AMissingFileOrFolderIsAFaultWithAName) {
+  const ScratchFolder folder;
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_image(folder / "no.nii"); }, {"no.nii", "no such file"}));
+  EXPECT_TRUE(
+      throws_saying<std::runtime_error>([&] { write_image(folder / "no/a.nii.gz", wavy_image()); }, {"a.nii.gz"}));
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { write_image(folder / "a.png", wavy_image()); }, {".nrrd"}));
+}
+
+}  // namespace brainshift::test::read_image_test

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/image.hpp"
+
+#include <gtest/gtest.h>
+#include <itkImageFileReader.h>
+#include <itkNiftiImageIO.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "segmentation/image/itk_bridge.hpp"
+#include "tests/unit/scratch_folder.hpp"
+
+namespace brainshift::test::write_image_test {
+
+ScalarImage wavy_image() {
+  const auto geometry = grid_around({40.0, -70.0, 15.0}, 24, {0.9, 1.1, 2.5}, oblique_left_handed());
+  return image_by<float>(geometry, [](const Eigen::Vector3d& x) {
+    return static_cast<float>(100.0 + 50.0 * std::sin(0.3 * x.x()) * std::cos(0.2 * x.y()) + x.z());
+  });
+}
+
+TEST(ImageIo, NiftiOfOursIsReadByItkAtTheSamePlace) {
+  const ScratchFolder folder;
+  const ScalarImage image = wavy_image();
+  write_image(folder / "a.nii.gz", image);
+  auto reader = itk::ImageFileReader<itk::Image<float, 3>>::New();
+  reader->SetImageIO(itk::NiftiImageIO::New());
+  reader->SetFileName((folder / "a.nii.gz").string());
+  reader->Update();
+  EXPECT_EQ(from_itk<float>(*reader->GetOutput()).voxels, image.voxels);
+  EXPECT_TRUE(same_geometry(geometry_of(*reader->GetOutput()), image.geometry));
+}
+
+TEST(ImageIo, AFieldCarriesNiftisVectorIntentAndItkReadsItAsVectors) {
+  const ScratchFolder folder;
+  VectorImage field{wavy_image().geometry, {}};
+  field.voxels.assign(field.geometry.voxel_count(), {1.0F, 2.0F, 3.0F});
+  write_image(folder / "f.nii", field);
+  std::ifstream header(folder / "f.nii", std::ios::binary);
+  header.seekg(68);
+  std::int16_t intent = 0;
+  header.read(reinterpret_cast<char*>(&intent), sizeof(intent));
+  EXPECT_EQ(intent, 1007);
+  auto reader = itk::ImageFileReader<itk::Image<itk::Vector<float, 3>, 3>>::New();
+  reader->SetImageIO(itk::NiftiImageIO::New());
+  reader->SetFileName((folder / "f.nii").string());
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetPixel({3, 4, 5})[2], 3.0F);
+}
+
+}  // namespace brainshift::test::write_image_test

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/segment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace brainshift::test::check_input_test {
+
+const Eigen::Vector3d centre(10.0, -40.0, 60.0);
+constexpr double brain_radius = 30.0;
+constexpr double ventricle_radius = 8.0;
+
+// A ball of a brain: grey rim, white inside, a round ventricle in the middle, dark sulci that run in from outside.
+struct Head {
+  ScalarImage t1;
+  LabelMap mask;
+  LabelMap labels;
+};
+
+bool in_sulcus(const Eigen::Vector3d& x) {
+  return x.norm() > 22.0 && std::abs(x.x()) < 1.0;
+}
+
+Head head(const Eigen::Matrix3d& direction) {
+  const auto geometry = grid_around(centre, 72, Eigen::Vector3d::Ones(), direction);
+  std::mt19937 generator(7);
+  std::normal_distribution<float> noise(0.0F, 3.0F);
+  Head result;
+  result.t1 = image_by<float>(geometry, [&](const Eigen::Vector3d& world) {
+    const Eigen::Vector3d x = world - centre;
+    const double r = x.norm();
+    const double value = r > brain_radius                       ? 20.0
+                         : r < ventricle_radius || in_sulcus(x) ? 40.0
+                         : r > 25.0                             ? 80.0
+                                                                : 110.0;
+    return static_cast<float>(value) + noise(generator);
+  });
+  result.mask = ball(geometry, centre, brain_radius);
+  result.labels = result.mask;
+  const LabelMap ventricle = ball(geometry, centre, ventricle_radius);
+  for (std::size_t i = 0; i < ventricle.voxels.size(); ++i) {
+    result.labels.voxels[i] = static_cast<std::int16_t>(result.labels.voxels[i] + ventricle.voxels[i]);
+  }
+  return result;
+}
+
+SegmentOptions two_labels() {
+  SegmentOptions options;
+  options.edge_length = 4.0;
+  options.brain_labels = {1, 2};
+  return options;
+}
+
+TEST(Segment, InputThatDoesNotFitIsRefusedInASentence) {
+  const Head drawn = head(oblique());
+  SegmentInput shifted;
+  shifted.t1 = drawn.t1;
+  shifted.labels = drawn.labels;
+  shifted.labels->geometry.origin.z() += 1.0;
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(shifted, two_labels()); }, {"different grids", "T1"}));
+
+  SegmentInput lacking;
+  lacking.labels = drawn.mask;
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(lacking, two_labels()); }, {"label 2"}));
+
+  SegmentInput empty;
+  empty.t1 = drawn.t1;
+  empty.brain_mask = drawn.mask;
+  std::fill(empty.brain_mask->voxels.begin(), empty.brain_mask->voxels.end(), std::int16_t{0});
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(empty, two_labels()); }, {"empty"}));
+
+  SegmentInput cut = empty;
+  cut.brain_mask = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, 0.0, 20.0), brain_radius);
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(cut, two_labels()); }, {"border", "pad"}));
+
+  SegmentInput broken;
+  broken.t1 = drawn.t1;
+  broken.brain_mask = drawn.mask;
+  broken.t1->at(36, 36, 36) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(broken, two_labels()); }, {"finite"}));
+
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment({}, two_labels()); }, {"give labels"}));
+  SegmentOptions bad = two_labels();
+  bad.edge_length = std::nan("");
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(lacking, bad); }, {"edge length"}));
+}
+
+TEST(Segment, RefusesABrainWhoseLengthsAreInMetres) {
+  SegmentInput input;
+  const auto grid =
+      grid_around(Eigen::Vector3d::Zero(), 40, Eigen::Vector3d::Constant(0.004), Eigen::Matrix3d::Identity());
+  input.labels = ball(grid, Eigen::Vector3d::Zero(), 0.07);
+  SegmentOptions options;
+  options.brain_labels = {1};
+  try {
+    segment(input, options);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("metres"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace brainshift::test::check_input_test

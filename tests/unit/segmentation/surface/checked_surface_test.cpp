@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/surface/checked_surface.hpp"
+
+#include <gtest/gtest.h>
+#include <vtkNew.h>
+#include <vtkSphereSource.h>
+
+#include "segmentation/files/vtk_bridge.hpp"
+
+namespace brainshift::test::checked_surface_test {
+
+double ball_volume(double radius) {
+  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
+
+Surface sphere(double radius, int resolution) {
+  vtkNew<vtkSphereSource> source;
+  source->SetRadius(radius);
+  source->SetThetaResolution(resolution);
+  source->SetPhiResolution(resolution);
+  source->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  source->Update();
+  return from_vtk(*source->GetOutput());
+}
+
+void expect_sound(const SurfaceMeasures& measures) {
+  EXPECT_TRUE(measures.closed);
+  EXPECT_TRUE(measures.outward);
+  EXPECT_FALSE(measures.self_intersecting);
+}
+
+TEST(CheckedSurface, ASoundSurfaceIsOnlyRemeshed) {
+  const auto checked = checked_surface(sphere(30.0, 40), 5.0);
+  expect_sound(checked.measures);
+  EXPECT_FALSE(checked.measures.repaired);
+  EXPECT_NEAR(checked.measures.volume, ball_volume(30.0), 0.03 * ball_volume(30.0));
+}
+
+TEST(CheckedSurface, AnInsideOutSurfaceIsTurned) {
+  Surface surface = sphere(30.0, 40);
+  surface.triangles.col(0).swap(surface.triangles.col(1));
+  const auto checked = checked_surface(surface, 5.0);
+  expect_sound(checked.measures);
+  EXPECT_GT(checked.measures.volume, 0.0);
+}
+
+TEST(CheckedSurface, AHoleIsBridgedAndCounted) {
+  Surface surface = sphere(30.0, 40);
+  surface.triangles = surface.triangles.topRows(surface.triangles.rows() - 6).eval();
+  ASSERT_FALSE(measure(surface).closed);
+  const auto checked = checked_surface(surface, 6.0);
+  expect_sound(checked.measures);
+  EXPECT_TRUE(checked.measures.repaired);
+  EXPECT_NEAR(checked.measures.volume, ball_volume(30.0), 0.06 * ball_volume(30.0));
+}
+
+TEST(CheckedSurface, TwoBallsThroughEachOtherBecomeOneBody) {
+  Surface two;
+  const Surface one = sphere(25.0, 30);
+  two.vertices.resize(2 * one.vertices.rows(), 3);
+  two.vertices << one.vertices, one.vertices.rowwise() + Eigen::RowVector3d(20.0, 0.1, 0.2);
+  two.triangles.resize(2 * one.triangles.rows(), 3);
+  two.triangles << one.triangles, one.triangles.array() + static_cast<std::int32_t>(one.vertices.rows());
+  const auto checked = checked_surface(two, 5.0);
+  expect_sound(checked.measures);
+  EXPECT_TRUE(checked.measures.repaired);
+  const double cap_height = 15.0;
+  const double lens = 2.0 * std::numbers::pi * cap_height * cap_height * (3.0 * 25.0 - cap_height) / 3.0;
+  const double expected = 2.0 * ball_volume(25.0) - lens;
+  EXPECT_NEAR(checked.measures.volume, expected, 0.06 * expected);
+}
+
+TEST(CheckedSurface, AFlatSheetIsRefused) {
+  Surface sheet = tetrahedron();
+  sheet.triangles.conservativeResize(1, 3);
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { checked_surface(sheet, 5.0); }, {"surface"}));
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([] { checked_surface({}, 5.0); }, {"no triangle"}));
+}
+
+}  // namespace brainshift::test::checked_surface_test

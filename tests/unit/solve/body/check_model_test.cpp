@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/body/check_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/specimen.hpp"
+
+namespace brainshift::solve::check_model_test {
+
+TEST(Diagnosis, RefusesNodesNearlyInOnePlace) {
+  Model model = uniaxial(0.9, 4);
+  model.cloud.positions.row(21) = model.cloud.positions.row(22) + Eigen::RowVector3d(1e-3, 0, 0);
+  try {
+    solve(model, {});
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("mm apart"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace brainshift::solve::check_model_test

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/boundary/contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include "solve/boundary/essential_conditions.hpp"
+#include "solve/shape/shape_functions.hpp"
+#include "tests/unit/solve/clouds.hpp"
+
+namespace brainshift::solve::contact_test {
+
+using test::irregular_box;
+using test::random_points;
+
+constexpr double side = 40;
+
+struct Cloud {
+  NodeCloud nodes = irregular_box(7, side);
+  ShapeFunctions shape{nodes.positions, nodes.spacing, {}};
+  ShapeRows rows = shape.evaluate(nodes.positions, false);
+  std::vector<double> mass = masses();
+
+  std::vector<double> masses() const {
+    std::vector<double> m;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      m.push_back(1 + 0.5 * std::sin(static_cast<double>(a)));
+    }
+    return m;
+  }
+  NodalVectors random_parameters(double amplitude) const {
+    const Points random = random_points(static_cast<int>(nodes.size()), 2 * amplitude);
+    NodalVectors u(4 * nodes.size(), 0.0);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      Eigen::Vector3d::Map(&u[4 * a]) =
+          random.row(static_cast<Eigen::Index>(a)).transpose() - Eigen::Vector3d::Constant(amplitude);
+    }
+    return u;
+  }
+  Points displacement(const NodalVectors& u) const {
+    Points parameters(nodes.positions.rows(), 3);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      parameters.row(static_cast<Eigen::Index>(a)) = Eigen::Vector3d::Map(&u[4 * a]);
+    }
+    return shape.interpolate(nodes.positions, parameters);
+  }
+};
+
+/// A closed box, outward, as a skull.
+Surface box_surface(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  Surface box;
+  box.vertices.resize(8, 3);
+  for (int i = 0; i < 8; ++i) {
+    box.vertices.row(i) << (i & 1 ? high : low).x(), (i & 2 ? high : low).y(), (i & 4 ? high : low).z();
+  }
+  box.triangles.resize(12, 3);
+  box.triangles << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3,
+      7, 5;
+  return box;
+}
+
+class ContactWithABox : public testing::Test {
+ protected:
+  Cloud cloud;
+  SignedDistance skull{box_surface(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(side + 2))};
+  std::vector<std::int32_t> surface_nodes() const {
+    std::vector<std::int32_t> nodes;
+    for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
+      if (cloud.nodes.on_surface[a] != 0) {
+        nodes.push_back(static_cast<std::int32_t>(a));
+      }
+    }
+    return nodes;
+  }
+  NodalVectors shifted(const Eigen::Vector3d& by) const {
+    NodalVectors u(4 * cloud.nodes.size(), 0.0);
+    for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
+      Eigen::Vector3d::Map(&u[4 * a]) = by;
+    }
+    return u;
+  }
+};
+
+TEST_F(ContactWithABox, LeavesABodyAloneThatDoesNotTouch) {
+  Contact contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows);
+  contact.weigh(cloud.mass);
+  const NodalVectors inside = shifted({0.5, -0.5, 0.5});
+  NodalVectors u = inside;
+  contact.apply(u);
+  EXPECT_EQ(u, inside);
+  EXPECT_EQ(contact.measure(u).touching, 0u);
+}
+
+TEST_F(ContactWithABox, PutsPenetratingNodesBackAlongTheNormal) {
+  Contact contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows);
+  contact.weigh(cloud.mass);
+  NodalVectors u = shifted({3.0, 0, 0});  // one millimetre through the wall at x = side + 2
+  EXPECT_NEAR(contact.measure(u).largest_penetration, 1.0, 1e-3);
+  for (int step = 0; step < 200; ++step) {
+    contact.apply(u);
+  }
+  EXPECT_LE(contact.measure(u).largest_penetration, 0.01);
+  EXPECT_GE(contact.measure(u).touching,
+            20u);  // of 49; the others were drawn a little further in with their neighbours
+  const Points moved = cloud.displacement(u);
+  EXPECT_LE(moved.rightCols<2>().cwiseAbs().maxCoeff(), 0.2);  // frictionless: only the normals at the rim are oblique
+}
+
+TEST_F(ContactWithABox, SaysWhenANodeIsTooFarOutToBePushedBack) {
+  SignedDistanceOptions near;
+  near.far = false;
+  const Surface box = box_surface(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(side + 2));
+  Contact contact(SignedDistance(box, near), cloud.nodes.positions, surface_nodes(), cloud.rows);
+  EXPECT_FALSE(contact.measure(shifted({2 + 0.9 * near.band(), 0, 0})).lost);
+  EXPECT_TRUE(contact.measure(shifted({2 + 1.5 * near.band(), 0, 0})).lost);
+  EXPECT_FALSE(Contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows)
+                   .measure(shifted({2 + 1.5 * near.band(), 0, 0}))
+                   .lost);  // all distances are known
+}
+
+TEST_F(ContactWithABox, AllowsNodesToStayWhereTheyStarted) {
+  const SignedDistance tight(box_surface(Eigen::Vector3d::Constant(0.3), Eigen::Vector3d::Constant(side - 0.3)));
+  Contact contact(tight, cloud.nodes.positions, surface_nodes(), cloud.rows);
+  contact.weigh(cloud.mass);
+  NodalVectors u = shifted(Eigen::Vector3d::Zero());
+  contact.apply(u);
+  EXPECT_EQ(u, shifted(Eigen::Vector3d::Zero()));
+}
+
+}  // namespace brainshift::solve::contact_test

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/boundary/essential_conditions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "solve/boundary/contact.hpp"
+#include "solve/shape/shape_functions.hpp"
+#include "tests/unit/solve/clouds.hpp"
+
+namespace brainshift::solve::essential_conditions_test {
+
+using test::irregular_box;
+using test::random_points;
+
+constexpr double side = 40;
+
+struct Cloud {
+  NodeCloud nodes = irregular_box(7, side);
+  ShapeFunctions shape{nodes.positions, nodes.spacing, {}};
+  ShapeRows rows = shape.evaluate(nodes.positions, false);
+  std::vector<double> mass = masses();
+
+  std::vector<double> masses() const {
+    std::vector<double> m;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      m.push_back(1 + 0.5 * std::sin(static_cast<double>(a)));
+    }
+    return m;
+  }
+  NodalVectors random_parameters(double amplitude) const {
+    const Points random = random_points(static_cast<int>(nodes.size()), 2 * amplitude);
+    NodalVectors u(4 * nodes.size(), 0.0);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      Eigen::Vector3d::Map(&u[4 * a]) =
+          random.row(static_cast<Eigen::Index>(a)).transpose() - Eigen::Vector3d::Constant(amplitude);
+    }
+    return u;
+  }
+  Points displacement(const NodalVectors& u) const {
+    Points parameters(nodes.positions.rows(), 3);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      parameters.row(static_cast<Eigen::Index>(a)) = Eigen::Vector3d::Map(&u[4 * a]);
+    }
+    return shape.interpolate(nodes.positions, parameters);
+  }
+};
+
+std::vector<std::int32_t> names(const Points& prescribed) {
+  std::vector<std::int32_t> names(static_cast<std::size_t>(prescribed.rows()));
+  std::iota(names.begin(), names.end(), 0);
+  return names;
+}
+
+TEST(EssentialConditions, HoldForTheDisplacementNotTheParameter) {
+  Cloud cloud;
+  Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
+  for (Eigen::Index a = 0; a < prescribed.rows(); a += 5) {
+    prescribed.row(a) << 1.0, std::nan(""), -2.0;
+  }
+  prescribed(3, 1) = 0.5;
+  EssentialConditions conditions(prescribed, cloud.rows, names(prescribed));
+  conditions.factorise(cloud.mass);
+  NodalVectors u = cloud.random_parameters(3);
+  conditions.apply(0.7, u);
+  EXPECT_LE(conditions.largest_error(0.7, u), 1e-10);
+  const Points displacement = cloud.displacement(u);
+  for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
+    if (!std::isnan(prescribed.data()[i])) {
+      EXPECT_NEAR(displacement.data()[i], 0.7 * prescribed.data()[i], 1e-10);
+    }
+  }
+}
+
+TEST(EssentialConditions, MoveTheParametersLeastInTheNormOfTheMasses) {
+  // A projection: doing it twice changes nothing, and the correction M⁻¹Vᵀμ is M-orthogonal to every motion that keeps
+  // the conditions.
+  Cloud cloud;
+  Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
+  for (Eigen::Index a = 0; a < prescribed.rows(); a += 7) {
+    prescribed.row(a).setConstant(1.0);
+  }
+  EssentialConditions conditions(prescribed, cloud.rows, names(prescribed));
+  conditions.factorise(cloud.mass);
+  const NodalVectors start = cloud.random_parameters(3);
+  NodalVectors once = start, other = cloud.random_parameters(1);
+  conditions.apply(1, once);
+  conditions.apply(1, other);
+  NodalVectors twice = once;
+  conditions.apply(1, twice);
+  double product = 0, change = 0;
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    change = std::max(change, std::abs(twice[i] - once[i]));
+    product += cloud.mass[i / 4] * (once[i] - start[i]) * (other[i] - once[i]);
+  }
+  EXPECT_LE(change, 1e-10);
+  EXPECT_LE(std::abs(product), 1e-8);
+}
+
+TEST(EssentialConditions, RefuseTwoNodesThatSayTheSame) {
+  Cloud cloud;
+  ShapeRows same = cloud.rows;  // node 1 seen as node 0: both rows alike
+  Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
+  prescribed.topRows(2).setZero();
+  const auto length = static_cast<std::size_t>(same.begin[1]);
+  std::vector<std::int32_t> node(same.node.begin(), same.node.begin() + static_cast<std::ptrdiff_t>(length));
+  std::vector<double> value(same.value.begin(), same.value.begin() + static_cast<std::ptrdiff_t>(length));
+  const std::int64_t removed = same.begin[2] - same.begin[1];
+  same.node.erase(same.node.begin() + same.begin[1], same.node.begin() + same.begin[2]);
+  same.value.erase(same.value.begin() + same.begin[1], same.value.begin() + same.begin[2]);
+  same.node.insert(same.node.begin() + same.begin[1], node.begin(), node.end());
+  same.value.insert(same.value.begin() + same.begin[1], value.begin(), value.end());
+  for (std::size_t i = 2; i < same.begin.size(); ++i) {
+    same.begin[i] += static_cast<std::int64_t>(length) - removed;
+  }
+  EssentialConditions conditions(prescribed, same, names(prescribed));
+  EXPECT_THROW(conditions.factorise(cloud.mass), std::invalid_argument);
+}
+
+}  // namespace brainshift::solve::essential_conditions_test

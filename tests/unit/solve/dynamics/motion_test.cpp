@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "solve/dynamics/motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "solve/force/largest_eigenvalue.hpp"
+#include "solve/force/stiffness_bound.hpp"
+#include "tests/unit/solve/specimen.hpp"
+
+namespace brainshift::solve::motion_test {
+
+constexpr double side = 30;
+
+/// A box under forces that pull its top, `pull` times as large as its spacing asks for, marched with a step of
+/// `of_critical` times the true critical one.
+struct Marched {
+  Specimen box{test::irregular_box(5, side), test::box_cells(4, side), {Material{}}, SpecimenOptions{}};
+  SteppingResult result;
+  int sound_steps = 0;
+
+  explicit Marched(double of_critical, double pull = 1) {
+    const std::vector<double> mass = physical_mass(box.points, std::vector<double>{1e-3});
+    Motion motion(pulled_body(pull), 0);
+    const PointLaws& laws = motion.body.laws;
+    motion.weigh(mass);
+    const double h = of_critical * 2 / std::sqrt(largest_eigenvalue(box.points, laws, mass, 300));
+    while (motion.result.failure.empty() && motion.result.steps < 2000) {
+      const double time = motion.time + h;
+      motion.step(laws, mass, h * h, 1, time, std::min(1.0, 100 * time));
+      if (motion.result.steps % 10 == 0 && motion.look(laws, mass, 0.05)) {
+        sound_steps = motion.result.steps;
+      }
+    }
+    result = motion.finish();
+  }
+
+ private:
+  Body pulled_body(double pull) const {
+    Body body;
+    body.original.resize(box.cloud.size());
+    std::iota(body.original.begin(), body.original.end(), 0);
+    body.points = box.points;
+    body.laws = box.laws;
+    body.external = box.rest();
+    for (std::size_t a = 0; a < box.cloud.size(); ++a) {
+      body.external[4 * a + 2] = pull * (box.cloud.positions(static_cast<Eigen::Index>(a), 2) - side / 2);
+    }
+    return body;
+  }
+};
+
+TEST(Motion, BalancesItsEnergiesJustBelowTheCriticalStep) {
+  const Marched marched(0.98);
+  EXPECT_EQ(marched.result.failure, "");
+  EXPECT_EQ(marched.sound_steps, 2000);
+}
+
+/// What rounding makes of the energies of a hardly loaded body is no instability.
+TEST(Motion, IsSoundUnderAForceNextToNothing) {
+  for (const double pull : {1e-6, 1e-9, 1e-12}) {
+    EXPECT_EQ(Marched(0.9, pull).result.failure, "") << pull;
+  }
+}
+
+TEST(Motion, IsFoundUnstableJustAboveTheCriticalStepAndKeepsTheLastGoodState) {
+  for (const double of_critical : {1.03, 1.5}) {
+    const Marched marched(of_critical);
+    EXPECT_TRUE(marched.result.unstable) << of_critical;
+    EXPECT_NE(marched.result.failure.find("unstable at step"), std::string::npos) << marched.result.failure;
+    EXPECT_LT(marched.result.steps, 2000);
+    double largest = 0;
+    for (const double u : marched.result.parameters) {
+      ASSERT_TRUE(std::isfinite(u));
+      largest = std::max(largest, std::abs(u));
+    }
+    EXPECT_LT(largest, side / 10);
+  }
+}
+
+}  // namespace brainshift::solve::motion_test

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/load/craniotomy_load.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
+
+namespace brainshift::solve::opening_test {
+
+using test::refusal;
+
+const Eigen::RowVector3d centre(-60, 35, 210);
+const double radius = 80;
+
+/// Nodes on a sphere, and one within it.
+NodeCloud head() {
+  const Surface surface = test::sphere(centre, radius, 4);
+  const Eigen::Index n = surface.vertices.rows();
+  NodeCloud cloud;
+  cloud.positions.resize(n + 1, 3);
+  cloud.positions << surface.vertices, centre;
+  cloud.spacing.assign(static_cast<std::size_t>(n) + 1, 6.0);
+  cloud.on_surface.assign(static_cast<std::size_t>(n) + 1, 1);
+  cloud.on_surface.back() = 0;
+  return cloud;
+}
+
+/// Points of the sphere at random within an opening angle about an axis.
+Points measured_places(int count, const Eigen::Vector3d& axis, double angle, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Points places(count, 3);
+  for (int p = 0; p < count;) {
+    const Eigen::Vector3d direction = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+    if (std::acos(direction.dot(axis)) <= angle) {
+      places.row(p++) = centre + radius * direction.transpose();
+    }
+  }
+  return places;
+}
+
+/// A smooth field of the size and extent of a brain shift.
+Eigen::RowVector3d field(const Eigen::RowVector3d& place) {
+  const Eigen::RowVector3d x = (place - centre) / radius;
+  return {3 * x[0] * x[1], 2 * std::sin(2 * x[2]),
+          -8 * std::exp(-6 * (x - Eigen::RowVector3d(0, 0.6, 0.8)).squaredNorm())};
+}
+
+CraniotomyLoad measured(int count, double angle, unsigned seed = 1) {
+  CraniotomyLoad load;
+  load.positions = measured_places(count, Eigen::Vector3d(0, 0.6, 0.8), angle, seed);
+  load.displacement.resize(count, 3);
+  for (int p = 0; p < count; ++p) {
+    load.displacement.row(p) = field(load.positions.row(p));
+  }
+  return load;
+}
+
+bool is_loaded(const Points& prescribed, Eigen::Index node) {
+  return !std::isnan(prescribed(node, 0));
+}
+
+TEST(Opening, LoadsTheNodesUnderItAndNoneUnderTheBoneOrOnTheFarSide) {
+  const NodeCloud cloud = head();
+  const Eigen::RowVector3d axis(0, 0.6, 0.8);
+  const double angle = 0.35;
+  const Points prescribed = prescribed_on_surface_nodes(cloud, measured(400, angle));
+  ASSERT_EQ(prescribed.rows(), cloud.positions.rows());
+  int loaded = 0, far_side = 0;
+  for (Eigen::Index n = 0; n + 1 < prescribed.rows(); ++n) {
+    const Eigen::RowVector3d direction = (cloud.positions.row(n) - centre) / radius;
+    const double off = std::acos(std::clamp(direction.dot(axis), -1.0, 1.0));
+    far_side += M_PI - off < angle;
+    loaded += is_loaded(prescribed, n);
+    if (off < angle - 0.06) {
+      EXPECT_TRUE(is_loaded(prescribed, n)) << off;
+    }
+    if (off > angle + 0.04) {
+      EXPECT_FALSE(is_loaded(prescribed, n)) << off;
+    }
+  }
+  EXPECT_GT(loaded, 50);
+  EXPECT_GT(far_side, 50) << "the test must offer nodes on the far side";
+  EXPECT_FALSE(is_loaded(prescribed, prescribed.rows() - 1)) << "a node within the brain is no surface node";
+}
+
+TEST(Opening, PrescribesAllThreeComponentsOfANodeOrNone) {
+  const Points prescribed = prescribed_on_surface_nodes(head(), measured(60, 0.35));
+  for (const auto& row : prescribed.rowwise()) {
+    EXPECT_TRUE(row.allFinite() || row.array().isNaN().all());
+  }
+}
+
+TEST(Opening, ExtendsASmoothFieldToATenthOfAMillimetre) {
+  const NodeCloud cloud = head();
+  const Points prescribed = prescribed_on_surface_nodes(cloud, measured(300, 0.4));
+  double sum = 0;
+  int loaded = 0;
+  for (Eigen::Index n = 0; n < prescribed.rows(); ++n) {
+    if (is_loaded(prescribed, n)) {
+      const double error = (prescribed.row(n) - field(cloud.positions.row(n))).norm();
+      EXPECT_LT(error, 0.25) << "at the rim the spline extrapolates";
+      sum += error;
+      ++loaded;
+    }
+  }
+  ASSERT_GT(loaded, 50);
+  EXPECT_LT(sum / loaded, 0.03);
+}
+
+TEST(Opening, TakesTheMeasuredDisplacementWhereItWasMeasured) {
+  const NodeCloud cloud = head();
+  CraniotomyLoad load = measured(100, 0.4);
+  std::vector<Eigen::Index> at;
+  for (Eigen::Index n = 0; n < cloud.positions.rows() && at.size() < 40; ++n) {
+    if ((cloud.positions.row(n) - centre).dot(Eigen::RowVector3d(0, 0.6, 0.8)) > radius * std::cos(0.38)) {
+      load.positions.row(static_cast<Eigen::Index>(at.size())) = cloud.positions.row(n);
+      load.displacement.row(static_cast<Eigen::Index>(at.size())) = field(cloud.positions.row(n));
+      at.push_back(n);
+    }
+  }
+  ASSERT_EQ(at.size(), 40);
+  const Points prescribed = prescribed_on_surface_nodes(cloud, load);
+  for (const Eigen::Index n : at) {
+    EXPECT_LT((prescribed.row(n) - field(cloud.positions.row(n))).norm(), 1e-6);
+  }
+}
+
+TEST(Opening, DoesNotOvershootNoisyMeasurements) {
+  CraniotomyLoad load = measured(80, 0.4);
+  std::mt19937 random(9);
+  std::normal_distribution<double> noise(0, 1.0);
+  for (Eigen::Index p = 0; p < load.positions.rows(); ++p) {
+    load.displacement.row(p) += Eigen::RowVector3d(noise(random), noise(random), noise(random));
+  }
+  load.positions.row(1) = load.positions.row(0);
+  load.positions.row(3) = load.positions.row(2) + Eigen::RowVector3d::Constant(1e-4);
+  const Points prescribed = prescribed_on_surface_nodes(head(), load);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double least = load.displacement.col(axis).minCoeff(), most = load.displacement.col(axis).maxCoeff();
+    const double room = 0.1 * (most - least) + 1e-9;
+    for (Eigen::Index n = 0; n < prescribed.rows(); ++n) {
+      if (is_loaded(prescribed, n)) {
+        EXPECT_GE(prescribed(n, axis), least - room);
+        EXPECT_LE(prescribed(n, axis), most + room);
+      }
+    }
+  }
+}
+
+TEST(Opening, OfOnePointOrOfPointsOnALineLoadsTheNodesBesideThem) {
+  const NodeCloud cloud = head();
+  CraniotomyLoad load;
+  load.positions = cloud.positions.topRows(1);
+  load.displacement = Points::Constant(1, 3, -2.0);
+  const Points one = prescribed_on_surface_nodes(cloud, load, {.margin = 8});
+  EXPECT_EQ(one.row(0), Eigen::RowVector3d(-2, -2, -2));
+  EXPECT_LT((one.col(0).array() == -2.0).count(), 20);
+
+  load.positions.resize(9, 3);
+  load.displacement = Points::Constant(9, 3, 1.5);
+  for (int p = 0; p < 9; ++p) {
+    const double angle = 0.05 * (p - 4);
+    load.positions.row(p) = centre + radius * Eigen::RowVector3d(std::sin(angle), 0, std::cos(angle));
+  }
+  const Points line = prescribed_on_surface_nodes(cloud, load, {.margin = 5});
+  int loaded = 0;
+  for (Eigen::Index n = 0; n < line.rows(); ++n) {
+    if (is_loaded(line, n)) {
+      ++loaded;
+      EXPECT_NEAR(line(n, 2), 1.5, 1e-9);
+      EXPECT_LT(std::abs(cloud.positions(n, 1) - centre[1]), 5.1);
+      EXPECT_GT(cloud.positions(n, 2), centre[2]);
+    }
+  }
+  EXPECT_GT(loaded, 3);
+}
+
+TEST(Opening, RefusesAPointFarFromTheSurfaceWithItsDistanceAndGuessesAFlippedFrame) {
+  const NodeCloud cloud = head();
+  CraniotomyLoad far = measured(20, 0.3);
+  far.positions.row(6) += Eigen::RowVector3d(0, 18, 24);
+  const std::string alone = refusal([&] { prescribed_on_surface_nodes(cloud, far); });
+  EXPECT_NE(alone.find("point 7 of 20"), std::string::npos) << alone;
+  EXPECT_NE(alone.find("is 30."), std::string::npos) << alone;
+  EXPECT_EQ(alone.find("RAS"), std::string::npos) << alone;
+
+  CraniotomyLoad flipped = measured(20, 0.3);
+  flipped.positions.leftCols(2) *= -1;
+  const std::string hint = refusal([&] { prescribed_on_surface_nodes(cloud, flipped); });
+  EXPECT_NE(hint.find("RAS"), std::string::npos) << hint;
+}
+
+TEST(Opening, RefusesToLoadNoNode) {
+  NodeCloud cloud = head();
+  CraniotomyLoad between;
+  between.positions = 0.5 * (cloud.positions.row(12) + cloud.positions.row(0));
+  between.displacement = Points::Constant(1, 3, 1.0);
+  const std::string none =
+      refusal([&] { prescribed_on_surface_nodes(cloud, between, {.margin = 0.0, .farthest = 200}); });
+  EXPECT_NE(none.find("no surface node"), std::string::npos) << none;
+  cloud.on_surface.assign(cloud.size(), 0);
+  EXPECT_NE(refusal([&] { prescribed_on_surface_nodes(cloud, measured(20, 0.3)); }).find("on_surface"),
+            std::string::npos);
+}
+
+TEST(Opening, RefusesALoadThatIsEmptyOrNotFinite) {
+  const NodeCloud cloud = head();
+  EXPECT_THROW(prescribed_on_surface_nodes(cloud, {}), std::invalid_argument);
+  CraniotomyLoad load = measured(5, 0.3);
+  load.displacement(2, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refusal([&] { prescribed_on_surface_nodes(cloud, load); }).find("point 3"), std::string::npos);
+}
+
+}  // namespace brainshift::solve::opening_test

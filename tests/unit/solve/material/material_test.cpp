@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/material/material.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "solve/material/check_material.hpp"
+
+namespace brainshift::solve::material_test {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Moduli, AreThoseOfLinearElasticity) {
+  const Material brain;
+  EXPECT_NEAR(shear_modulus(brain), 3000 / 2.98, 1e-12);
+  EXPECT_NEAR(bulk_modulus(brain), 3000 / 0.06, 1e-9);
+  const Material ogden{.youngs_modulus = nan, .law = Law::ogden, .ogden = {{900, 2}, {100, -2}}};
+  EXPECT_EQ(shear_modulus(ogden), 1000);
+  EXPECT_NEAR(bulk_modulus(ogden), 2000 * 1.49 / 0.06, 1e-9);
+}
+
+TEST(LongTerm, KeepsTheBulkModulusAndLosesTheRelaxingShares) {
+  for (const Law law : {Law::neo_hookean, Law::ogden, Law::saint_venant_kirchhoff, Law::linear_elastic}) {
+    const Material material{.law = law, .ogden = {{900, 2}, {-100, 3}}, .prony = {{0.450, 0.50}, {0.365, 50}}};
+    const Material left = long_term(material);
+    EXPECT_TRUE(left.prony.empty());
+    EXPECT_NEAR(shear_modulus(left), 0.185 * shear_modulus(material), 1e-10);
+    EXPECT_NEAR(bulk_modulus(left), bulk_modulus(material), 1e-9 * bulk_modulus(material));
+    EXPECT_EQ(left.density, material.density);
+    EXPECT_NO_THROW(check_material("what is left", left));
+  }
+}
+
+}  // namespace brainshift::solve::material_test

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/material/principal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace brainshift::solve::principal_test {
+
+Eigen::Vector3d sorted(Eigen::Vector3d values) {
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+TEST(PrincipalStretches, AreThoseOfTheDeformation) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 1).normalized()).toRotationMatrix();
+  const Eigen::Vector3d stretch(0.2, 1, 3);
+  EXPECT_LE((sorted(principal_stretches(turn * stretch.asDiagonal() * turn)) - stretch).norm(), 1e-13);
+  EXPECT_LE((principal_stretches(turn) - Eigen::Vector3d::Ones()).norm(), 1e-15);
+}
+
+}  // namespace brainshift::solve::principal_test

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/output/cut_surface.hpp"
+
+#include <gtest/gtest.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <filesystem>
+
+#include "solve/solve.hpp"
+#include "tests/unit/solve/all_free.hpp"
+#include "tests/unit/solve/models.hpp"
+
+namespace brainshift::solve::cut_surface_test {
+
+constexpr double side = 60;
+namespace fs = std::filesystem;
+
+/// A square in plane strain that is pulled open across a cut from its left side to x = 30.
+Model square() {
+  Model model;
+  model.cloud = test::irregular_rectangle(21, 21, side, side);
+  model.conditions = test::all_free(model.cloud);
+  model.cells = test::rectangle_cells(20, 20, side, side);
+  model.materials[1] = {3000, 0.45, 1000};
+  model.plane = Plane::strain;
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    const double y = model.cloud.positions(a, 1);
+    if (y < 1e-9 || y > side - 1e-9) {
+      model.conditions.displacement.row(a) << 0, y > 1 ? 6 : 0, std::nan("");
+    }
+  }
+  Cut cut;
+  cut.name = "path";
+  cut.vertices.resize(2, 3);
+  cut.vertices << -5, 30, 0, 30, 30, 0;
+  model.cuts = {cut};
+  return model;
+}
+
+/// A cube that is pulled open across a sheet over half of it.
+Model cube() {
+  Model model = uniaxial(1.1, 9);
+  Cut sheet;
+  sheet.name = "sheet";
+  sheet.vertices.resize(4, 3);
+  sheet.vertices << -5, -5, 30, 30, -5, 30, 30, 65, 30, -5, 65, 30;
+  sheet.triangles.resize(2, 3);
+  sheet.triangles << 0, 1, 2, 0, 2, 3;
+  model.cuts = {sheet};
+  return model;
+}
+
+SolveOptions planar_options() {
+  SolveOptions options;
+  options.points_per_cell = 4;
+  return options;
+}
+
+fs::path fresh_folder(const char* name) {
+  const fs::path folder = fs::temp_directory_path() / name;
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder;
+}
+
+/// How far the faces are apart across the cut, along an axis, at their vertices in turn.
+Eigen::VectorXd opening(const CutSurface& surface, int axis) {
+  const Eigen::Index half = surface.vertices.rows() / 2;
+  return (surface.displacement.topRows(half) - surface.displacement.bottomRows(half)).col(axis);
+}
+
+TEST(CutSurface, HasTwoFacesThatOpenTowardsTheSurfaceAndMeetAtTheTip) {
+  const SolveResult result = solve(square(), planar_options());
+  const CutSurface& surface = result.faces;
+  const Eigen::Index half = surface.vertices.rows() / 2;
+  EXPECT_EQ(surface.vertices.topRows(half), surface.vertices.bottomRows(half));
+  EXPECT_NEAR(surface.vertices.col(0).minCoeff(), 0, 1.5);  // half a spacing
+  EXPECT_EQ(surface.vertices.col(0).maxCoeff(), 30);
+  const Eigen::VectorXd apart = opening(surface, 1);
+  for (Eigen::Index i = 0; i + 1 < half; ++i) {
+    EXPECT_GT(apart[i], apart[i + 1]);
+  }
+  EXPECT_GT(apart.maxCoeff(), 4);
+  EXPECT_LT(apart.minCoeff(), 0.1);
+}
+
+TEST(CutSurface, IsReadByVtk) {
+  const fs::path folder = fresh_folder("brainshift_cut_surface_test");
+  const SolveResult planar = solve(square(), planar_options()), spatial = solve(cube(), {});
+  for (const SolveResult* result : {&planar, &spatial}) {
+    const CutSurface& surface = result->faces;
+    write_cut_surface(folder / "cut.vtp", surface);
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName((folder / "cut.vtp").c_str());
+    reader->Update();
+    vtkPolyData& read = *reader->GetOutput();
+    ASSERT_EQ(read.GetNumberOfPoints(), surface.vertices.rows());
+    EXPECT_EQ((result == &planar ? read.GetLines() : read.GetPolys())->GetNumberOfCells(), surface.facets.rows());
+    vtkDataArray* displacement = read.GetPointData()->GetArray("displacement");
+    vtkDataArray* sides = read.GetPointData()->GetArray("side");
+    ASSERT_TRUE(displacement != nullptr && sides != nullptr);
+    const vtkIdType last = read.GetNumberOfPoints() - 1;
+    EXPECT_EQ(sides->GetTuple1(0), 1);
+    EXPECT_EQ(sides->GetTuple1(last), -1);
+    EXPECT_EQ(displacement->GetComponent(last, 1), surface.displacement(last, 1));
+  }
+  EXPECT_GT(opening(spatial.faces, 2).maxCoeff(), 4);
+  fs::remove_all(folder);
+}
+
+}  // namespace brainshift::solve::cut_surface_test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/output/solution_file.hpp"
+
+#include <gtest/gtest.h>
+#include <vtkPointData.h>
+
+#include <filesystem>
+
+#include "segmentation/files/vtu_file.hpp"
+#include "solve/interface/solution.hpp"
+#include "solve/shape/shape_functions.hpp"
+#include "tests/unit/solve/clouds.hpp"
+
+namespace brainshift::solution_file_test {
+
+Solution planar_solution() {
+  const NodeCloud cloud = test::irregular_rectangle(7, 6, 60, 50);
+  Solution solution{.positions = cloud.positions,
+                    .displacement = cloud.positions * 0.1,
+                    .reaction_force = Points::Zero(cloud.positions.rows(), 3),
+                    .spacing = cloud.spacing,
+                    .shape = {}};
+  solution.shape.planar = true;
+  return solution;
+}
+
+Solution read_back(const Solution& solution) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "brainshift_planar_solution_test.vtu";
+  write_solution(file, solution);
+  const Solution read = read_solution(file);
+  std::filesystem::remove(file);
+  return read;
+}
+
+std::string refusal(const Solution& solution) {
+  try {
+    read_back(solution);
+  } catch (const std::invalid_argument& fault) {
+    return fault.what();
+  }
+  return {};
+}
+
+TEST(PlanarSolution, GivesItsFieldBackAfterWritingAndReading) {
+  const Solution solution = planar_solution();
+  const Solution read = read_back(solution);
+  EXPECT_TRUE(read.shape.planar);
+  EXPECT_EQ(read.displacement, solution.displacement);
+  Points at = test::random_points(40, 50);
+  at.col(2).setZero();
+  const solve::ShapeFunctions shape(read.positions, read.spacing, read.shape);
+  EXPECT_LE((shape.interpolate(at, read.displacement) - 0.1 * at).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(PlanarSolution, IsOneOnlyWhereTheFileSaysSo) {
+  Solution solution = planar_solution();
+  solution.shape.planar = false;
+  EXPECT_FALSE(read_back(solution).shape.planar);
+  const auto file = std::filesystem::path(testing::TempDir()) / "brainshift_foreign_solution_test.vtu";
+  const auto grid = vtu::vertex_grid(solution.positions);
+  const Points& u = solution.displacement;
+  vtu::add_array(*grid->GetPointData(), "displacement", {u.data(), static_cast<std::size_t>(u.size())}, 3);
+  vtu::write(file, *grid);
+  EXPECT_FALSE(read_solution(file).shape.planar);
+  std::filesystem::remove(file);
+}
+
+TEST(PlanarSolution, OffThePlaneIsRefusedWithTheNode) {
+  Solution solution = planar_solution();
+  solution.positions(8, 2) = 0.5;
+  EXPECT_NE(refusal(solution).find("node 8 has z = 0.5 mm"), std::string::npos) << refusal(solution);
+}
+
+TEST(PlanarSolution, NeedsThreeNodes) {
+  Solution solution = planar_solution();
+  for (Points* points : {&solution.positions, &solution.displacement, &solution.reaction_force}) {
+    points->conservativeResize(3, 3);
+  }
+  solution.spacing.resize(3);
+  EXPECT_EQ(read_back(solution).positions, solution.positions);
+  solution.shape.planar = false;
+  EXPECT_NE(refusal(solution).find("at least 4 nodes"), std::string::npos);
+}
+
+}  // namespace brainshift::solution_file_test

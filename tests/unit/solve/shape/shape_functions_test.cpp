@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/shape/shape_functions.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "segmentation/geometry/neighbour_distance.hpp"
+#include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/completeness.hpp"
+
+namespace brainshift::solve::shape_functions_test {
+
+using test::completeness_error;
+using test::irregular_box;
+using test::random_points;
+
+constexpr double side = 60;
+
+class EveryBasis : public testing::TestWithParam<Basis> {
+ protected:
+  ShapeOptions options() const { return {.basis = GetParam()}; }
+};
+INSTANTIATE_TEST_SUITE_P(Bases, EveryBasis,
+                         testing::Values(Basis::linear, Basis::quadratic, Basis::modified_quadratic));
+
+TEST_P(EveryBasis, IsAPartitionOfUnityAndLinearlyCompleteOnAnIrregularCloud) {
+  EXPECT_LE(completeness_error(irregular_box(9, side), random_points(500, side), options()), 1e-10);
+}
+
+TEST_P(EveryBasis, IsCompleteTenMetresFromTheOrigin) {
+  NodeCloud cloud = irregular_box(9, side);
+  Points at = random_points(200, side);
+  cloud.positions.rowwise() += Eigen::RowVector3d(1e4, -1e4, 5e3);
+  at.rowwise() += Eigen::RowVector3d(1e4, -1e4, 5e3);
+  EXPECT_LE(completeness_error(cloud, at, options()), 1e-9);
+}
+
+TEST_P(EveryBasis, IsCompleteInMetres) {
+  NodeCloud cloud = irregular_box(9, side * 1e-3);
+  EXPECT_LE(completeness_error(cloud, random_points(200, side * 1e-3), options()), 1e-10);
+}
+
+TEST_P(EveryBasis, HasTheDerivativesOfItsValues) {
+  const NodeCloud cloud = irregular_box(8, side);
+  const ShapeFunctions shape(cloud.positions, cloud.spacing, options());
+  const Points at = random_points(60, side);
+  const Points values = cloud.positions.array().sin().matrix();  // anything rough
+  const ShapeRows rows = shape.evaluate(at, true);
+  constexpr double step = 1e-5;
+  for (int axis = 0; axis < 3; ++axis) {
+    Points ahead = at, behind = at;
+    ahead.col(axis).array() += step;
+    behind.col(axis).array() -= step;
+    const Points difference = (shape.interpolate(ahead, values) - shape.interpolate(behind, values)) / (2 * step);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      Eigen::RowVector3d slope = Eigen::RowVector3d::Zero();
+      for (auto k = static_cast<std::size_t>(rows.begin[i]); k < static_cast<std::size_t>(rows.begin[i + 1]); ++k) {
+        slope += rows.derivative[3 * k + static_cast<std::size_t>(axis)] * values.row(rows.node[k]);
+      }
+      EXPECT_LE((slope - difference.row(static_cast<Eigen::Index>(i))).norm(), 1e-6);
+    }
+  }
+}
+
+double quadratic_error(Basis basis) {
+  const NodeCloud cloud = irregular_box(9, side);
+  const Points at = random_points(300, side);
+  const auto field = [](const Points& x) {
+    Points u(x.rows(), 3);
+    u.col(0) = x.col(0).cwiseProduct(x.col(1)) / side;
+    u.col(1) = x.col(2).cwiseAbs2() / side;
+    u.col(2) = (x.col(0) - x.col(2)).cwiseAbs2() / side;
+    return u;
+  };
+  const ShapeFunctions shape(cloud.positions, cloud.spacing, {.basis = basis});
+  return (shape.interpolate(at, field(cloud.positions)) - field(at)).cwiseAbs().maxCoeff();
+}
+
+TEST(ShapeFunctions, ReproduceQuadraticFieldsWithTheQuadraticBasis) {
+  EXPECT_LE(quadratic_error(Basis::quadratic), 1e-9);
+}
+
+TEST(ShapeFunctions, ReproduceQuadraticFieldsUpToThePenaltyWithTheModifiedBasis) {
+  EXPECT_LE(quadratic_error(Basis::modified_quadratic),
+            1e-2);                                 // µ = 1e-7 over second moments of 1e-3 and more, times 60 mm
+  EXPECT_GE(quadratic_error(Basis::linear), 0.1);  // the test can tell
+}
+
+TEST(ShapeFunctions, OfTheModifiedBasisNeedNoMoreNodesThanLinearOnes) {
+  const NodeCloud cloud = irregular_box(2, 10);  // eight corners: quadratic MLS is singular
+  const Points centre = Points::Constant(1, 3, 5.0);
+  const ShapeOptions modified{.basis = Basis::modified_quadratic, .dilatation = 1.5};
+  EXPECT_LE(completeness_error(cloud, centre, modified), 1e-8);  // the penalty, 1e-7, is all that holds the squares
+  EXPECT_THROW(ShapeFunctions(cloud.positions, cloud.spacing, {.basis = Basis::quadratic}), std::invalid_argument);
+}
+
+TEST(ShapeFunctions, GrowASupportThatIsTooSmallAndCountIt) {
+  const NodeCloud cloud = irregular_box(6, side);
+  const ShapeOptions small{.basis = Basis::linear, .dilatation = 0.6};
+  const Points at = random_points(50, side);
+  EXPECT_GT(ShapeFunctions(cloud.positions, cloud.spacing, small).evaluate(at, false).grown, 25u);
+  EXPECT_LE(completeness_error(cloud, at, small), 1e-10);
+}
+
+/// The nodes at a corner are farther from their six nearest than the others.
+TEST_P(EveryBasis, IsCompleteAtTheCornerOfACloudWithoutAStatedSpacing) {
+  NodeCloud cloud = irregular_box(9, side, 0.4);
+  cloud.spacing = mean_neighbour_distance(nearest_neighbours(cloud.positions, 6));
+  const Points at = random_points(500, side / 16);
+  EXPECT_LE(completeness_error(cloud, at, options()), 1e-10);
+}
+
+TEST(ShapeFunctions, RefuseACloudInOnePlane) {
+  NodeCloud cloud = irregular_box(5, side);
+  cloud.positions.col(2).setZero();
+  const ShapeFunctions shape(cloud.positions, cloud.spacing, {.basis = Basis::linear});
+  EXPECT_THROW(shape.evaluate(random_points(3, side), false), std::invalid_argument);
+}
+
+TEST(ShapeFunctions, WithDiffuseDerivativesStayLinearlyComplete) {
+  ShapeOptions diffuse{.basis = Basis::linear, .derivatives = Derivatives::diffuse};
+  EXPECT_LE(completeness_error(irregular_box(9, side), random_points(200, side), diffuse), 1e-10);
+}
+
+TEST(ShapeFunctions, AreTheSameForAnyNumberOfThreads) {
+  const NodeCloud cloud = irregular_box(8, side);
+  const ShapeFunctions shape(cloud.positions, cloud.spacing, {});
+  const Points at = random_points(2000, side);
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const ShapeRows one = shape.evaluate(at, true);
+  omp_set_num_threads(3);
+  const ShapeRows three = shape.evaluate(at, true);
+  omp_set_num_threads(threads);
+  EXPECT_EQ(one.node, three.node);
+  EXPECT_EQ(one.derivative, three.derivative);
+}
+
+TEST_P(EveryBasis, GivesItsParametersBackFromTheDisplacement) {
+  const NodeCloud cloud = irregular_box(9, side);
+  const ShapeFunctions shape(cloud.positions, cloud.spacing, options());
+  const Points parameters = random_points(static_cast<int>(cloud.positions.rows()), 5);
+  const Points displacement = shape.interpolate(cloud.positions, parameters);
+  const Points found = parameters_from_displacement(shape, cloud.positions, displacement);
+  EXPECT_LE((shape.interpolate(cloud.positions, found) - displacement).cwiseAbs().maxCoeff(), 1e-8);
+  EXPECT_LE((found - parameters).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+}  // namespace brainshift::solve::shape_functions_test
