@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "solve/material/ogden.hpp"
-#include "solve/material/own_law.hpp"
+#include "solve/material/own_elasticity.hpp"
 
 namespace brainshift::solve {
 
