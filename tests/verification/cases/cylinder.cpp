@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Section 6.1 of the source: 20 % compression and shear of a soft cylinder between bonded faces.
+// Wittek et al., section 6.1: 20 % compression and shear of a soft cylinder between bonded faces.
 #include <cmath>
 #include <stdexcept>
 
