@@ -20,7 +20,7 @@ namespace brainshift::solve {
 std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch);
 
 /// The physical mass of the nodes (g): each point's is shared evenly by the nodes of its support, as Wittek et al., eq.
-/// 23, have it. density: g/mm³, one a row of the material table.
+/// 21, have it. density: g/mm³, one a row of the material table.
 std::vector<double> physical_mass(const PointBlocks& points, std::span<const double> density);
 
 /// 2 / sqrt(max D_a/m_a), s.
