@@ -43,7 +43,7 @@ cmake_minimum_required(VERSION 3.25)
 project(readme LANGUAGES CXX)
 find_package(brainshift REQUIRED)
 add_executable(readme readme.cpp)
-target_link_libraries(readme PRIVATE brainshift::registration)
+target_link_libraries(readme PRIVATE brainshift::segmentation brainshift::registration)
 END
 cmake -S readme -B readme/build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$scratch/prefix"
 cmake --build readme/build
