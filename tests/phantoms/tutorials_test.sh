@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Runs every command of the tutorials as a reader would: the ```bash blocks of a page one after the other, in a folder of
-# its own. Blocks for an installed library are marked ```sh: tests/structure/install_test.sh runs those.
+# Runs every command of the tutorials as a reader would: the ```bash blocks of a page one after the other, in a folder
+# of its own. Blocks for an installed library are marked ```sh: tests/structure/install_test.sh runs those.
 #
 #   bash tests/phantoms/tutorials_test.sh PROGRAM TUTORIALS
 set -euo pipefail

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Installs the library into a temporary prefix, builds the examples against it as a stranger would, and runs them: by the
-# commands of the tutorials' blocks marked ```sh, which need an installed library. Builds the program of README.md, too.
+# Installs the library into a temporary prefix, builds the examples against it as a stranger would, and runs them: by
+# the commands of the tutorials' blocks marked ```sh, which need an installed library. Builds README.md's program, too.
 #
 #   bash tests/structure/install_test.sh BUILD SOURCE
 set -euo pipefail
