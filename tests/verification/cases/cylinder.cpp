@@ -104,7 +104,7 @@ Outcome cylinder_nearly_incompressible(bool small) {
                  small ? Bounds{5, 9, 4, 1} : Bounds{1.5, 3.5, 1.5, 0.4}, small);
 }
 
-/// What each treatment of the volumetric term leaves, for the README: no bounds.
+/// What each treatment of the volumetric term leaves, for the README beside: no bounds.
 Outcome locking(bool small) {
   const Reference reference = read_reference("cylinder_compression", "cylinder_compression_force");
   struct Variant {
