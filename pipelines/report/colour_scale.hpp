@@ -19,7 +19,7 @@ struct ColourScale {
   ColourMap map = ColourMap::sequential;
   double low = 0;
   double high = 1;
-  std::string title;  ///< with the unit
+  std::string title = {};  ///< with the unit
 
   /// Evenly spaced from low to high; colours between them pass into each other.
   std::span<const Colour> nodes() const;
