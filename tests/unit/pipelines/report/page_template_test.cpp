@@ -3,19 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <stdexcept>
 
 namespace brainshift::pipelines::page_template_test {
 
 using nlohmann::json;
 
-std::string without_line_ends(std::string text) {
-  std::erase(text, '\n');
-  return text;
-}
-
+// Without the lines and their indents that the printer begins between elements.
 std::string filled(const char* page, const json& data) {
-  return without_line_ends(fill_page(page, data));
+  return std::regex_replace(fill_page(page, data), std::regex("\n *"), "");
 }
 
 TEST(PageTemplate, FillsTextAndAttributesAndEscapesThem) {

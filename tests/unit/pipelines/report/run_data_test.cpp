@@ -4,40 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
-#include "pipelines/runner/stage_folder.hpp"
+#include "tests/unit/pipelines/report/small_run.hpp"
+#include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::pipelines::run_data_test {
 
-namespace fs = std::filesystem;
-
-class Runner : public testing::Test {
- protected:
-  Runner() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("brainshift_runner_" + std::string(info->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Runner() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  static std::string read(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-
-  fs::path folder_;
-  Interruption interruption_{[](int) {}};
-};
-
-TEST_F(Runner, AHistoryIsReadByTheNamesOfItsColumns) {
-  const auto rows = read_history(write("h.csv", "time,step,mine,reaction_z_N,error_bound_mm\n0.5,20,7,-3,inf\n"));
+TEST(RunData, AHistoryIsReadByTheNamesOfItsColumns) {
+  const brainshift::test::ScratchFolder folder;
+  const auto rows =
+      read_history(folder.write("h.csv", "time,step,mine,reaction_z_N,error_bound_mm\n0.5,20,7,-3,inf\n"));
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].time, 0.5);
   EXPECT_EQ(rows[0].step, 20);
@@ -49,12 +25,34 @@ TEST_F(Runner, AHistoryIsReadByTheNamesOfItsColumns) {
                                                         {"step,time\n1,2\n3,x\n", "h.csv:3: time is 'x'"}};
   for (const auto& [text, said] : faults) {
     try {
-      read_history(write("h.csv", text));
+      read_history(folder.write("h.csv", text));
       FAIL() << text;
     } catch (const std::invalid_argument& error) {
       EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(RunData, LoadedAreTheNodesWithAReaction) {
+  const RunData run = test::small_run();
+  const Points loaded = loaded_positions(*run.solution);
+  EXPECT_EQ(loaded.rows(), 13);
+  EXPECT_EQ(loaded.col(2).minCoeff(), 20);
+}
+
+TEST(RunData, TheDisplacementAtANodeIsItsOwnAndBetweenNodesThatAround) {
+  const Solution solution = *test::small_run().solution;
+  Points places(2, 3);
+  places << 0, 0, 20, 2.5, 2.5, 20;
+  const Points u = displacement_at(solution, places);
+  EXPECT_NEAR(u(0, 2), -4, 1e-9);
+  EXPECT_LT(u(1, 2), -3);
+  EXPECT_GE(u(1, 2), -4);
+}
+
+TEST(RunData, DynamicsAreThoseOfTheOptionsOrRelaxation) {
+  EXPECT_EQ(dynamics_of(nlohmann::json::object()), solve::Dynamics::relaxation);
+  EXPECT_EQ(dynamics_of({{"options", {{"solve", {{"dynamics", "transient"}}}}}}), solve::Dynamics::transient);
 }
 
 }  // namespace brainshift::pipelines::run_data_test

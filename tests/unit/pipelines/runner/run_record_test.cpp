@@ -12,15 +12,15 @@ namespace brainshift::pipelines::run_record_test {
 
 namespace fs = std::filesystem;
 
-class Runner : public testing::Test {
+class RunRecordTest : public testing::Test {
  protected:
-  Runner() {
+  RunRecordTest() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = fs::temp_directory_path() / ("brainshift_runner_" + std::string(info->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
-  ~Runner() override { fs::remove_all(folder_); }
+  ~RunRecordTest() override { fs::remove_all(folder_); }
 
   fs::path write(const std::string& name, const std::string& text) const {
     fs::create_directories((folder_ / name).parent_path());
@@ -36,7 +36,7 @@ class Runner : public testing::Test {
   Interruption interruption_{[](int) {}};
 };
 
-TEST_F(Runner, AStageRecordReadsBackAndADamagedOneIsNone) {
+TEST_F(RunRecordTest, AStageRecordReadsBackAndADamagedOneIsNone) {
   write_stage_record(folder_, {"stamp", "failure", {{"status", "failed"}}});
   const auto record = read_stage_record(folder_);
   ASSERT_TRUE(record);

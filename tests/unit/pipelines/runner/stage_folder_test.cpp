@@ -9,15 +9,15 @@ namespace brainshift::pipelines::stage_folder_test {
 
 namespace fs = std::filesystem;
 
-class Runner : public testing::Test {
+class StageFolderTest : public testing::Test {
  protected:
-  Runner() {
+  StageFolderTest() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
     folder_ = fs::temp_directory_path() / ("brainshift_runner_" + std::string(info->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
-  ~Runner() override { fs::remove_all(folder_); }
+  ~StageFolderTest() override { fs::remove_all(folder_); }
 
   fs::path write(const std::string& name, const std::string& text) const {
     fs::create_directories((folder_ / name).parent_path());
@@ -33,12 +33,12 @@ class Runner : public testing::Test {
   Interruption interruption_{[](int) {}};
 };
 
-TEST_F(Runner, AnUnfinishedStageLeavesNothingBehind) {
+TEST_F(StageFolderTest, AnUnfinishedStageLeavesNothingBehind) {
   { StageFolder unfinished(folder_ / "stage", interruption_); }
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-TEST_F(Runner, AFinishedStageTakesThePlaceOfTheOneBefore) {
+TEST_F(StageFolderTest, AFinishedStageTakesThePlaceOfTheOneBefore) {
   write("stage/old", "old");
   StageFolder finished(folder_ / "stage", interruption_);
   std::ofstream(finished.path() / "new") << "new";
@@ -47,7 +47,7 @@ TEST_F(Runner, AFinishedStageTakesThePlaceOfTheOneBefore) {
   EXPECT_FALSE(fs::exists(folder_ / "stage/old"));
 }
 
-TEST_F(Runner, ASingleStageKeepsOtherFilesOfItsFolder) {
+TEST_F(StageFolderTest, ASingleStageKeepsOtherFilesOfItsFolder) {
   write("stage/mine", "mine");
   write("stage/made", "old");
   StageFolder finished(folder_ / "stage", interruption_);
