@@ -56,8 +56,8 @@ TEST_F(Tolerance, SweepMeasuresEachChoiceOnceAndCallsFailuresFailures) {
   EXPECT_NE(csv[1].find("25,auto,0,linear,full,double,0.1,,"), std::string::npos) << csv[1];
   EXPECT_NE(csv[1].find('"'), std::string::npos) << "why 25 nodes are too few";
   EXPECT_NE(first.out.find("95 % of the brain"), std::string::npos) << first.out;
-  EXPECT_GT(fs::file_size(out / "tradeoff_solve.png"), 1000U);
-  EXPECT_GT(fs::file_size(out / "tradeoff_run.png"), 1000U);
+  EXPECT_GT(fs::file_size(out / "tradeoff_solve.svg"), 1000U);
+  EXPECT_GT(fs::file_size(out / "tradeoff_run.svg"), 1000U);
   const json coarse = json::parse(contents_of(out / "points/300-auto-0-linear-full-double-0.1.json"));
   const json fine = json::parse(contents_of(out / "points/600-auto-0-linear-full-double-0.1.json"));
   EXPECT_GT(fine["percentile_95_mm"], 0.0);

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/report/canvas.hpp"
 #include "pipelines/report/plot.hpp"
 
 namespace brainshift::verification {
@@ -29,8 +28,8 @@ using pipelines::Plot;
 using pipelines::Series;
 
 struct Picture {
-  std::string file;  ///< without .png
-  pipelines::Canvas canvas;
+  std::string file;  ///< without .svg
+  std::string svg;
 };
 
 struct Outcome {
