@@ -11,9 +11,9 @@
 
 namespace brainshift::pipelines::run_data_test {
 
-class RunData : public RunFolder {};
+class RunDataTest : public RunFolder {};
 
-TEST_F(RunData, AHistoryIsReadByTheNamesOfItsColumns) {
+TEST_F(RunDataTest, AHistoryIsReadByTheNamesOfItsColumns) {
   const auto rows = read_history(write("h.csv", "time,step,mine,reaction_z_N,error_bound_mm\n0.5,20,7,-3,inf\n"));
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].time, 0.5);

@@ -10,16 +10,16 @@
 
 namespace brainshift::pipelines::external_command_test {
 
-class ExternalCommand : public RunFolder {};
+class ExternalCommandTest : public RunFolder {};
 
-TEST_F(ExternalCommand, ACommandSeesItsFoldersWhateverTheirNames) {
+TEST_F(ExternalCommandTest, ACommandSeesItsFoldersWhateverTheirNames) {
   const fs::path out = folder_ / "it's out";
   fs::create_directories(out);
   run_external_command({"echo {in} > {out}/said", folder_ / "in here", out, folder_}, interruption_);
   EXPECT_EQ(read(out / "said"), (folder_ / "in here").string() + "\n");
 }
 
-TEST_F(ExternalCommand, AFailedCommandIsAFaultWithItsCodeAndLastWords) {
+TEST_F(ExternalCommandTest, AFailedCommandIsAFaultWithItsCodeAndLastWords) {
   try {
     run_external_command({"echo first; echo no mesh >&2; exit 7", folder_, folder_, folder_}, interruption_);
     FAIL();

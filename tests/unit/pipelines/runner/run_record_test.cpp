@@ -11,9 +11,9 @@
 
 namespace brainshift::pipelines::run_record_test {
 
-class RunRecord : public RunFolder {};
+class RunRecordTest : public RunFolder {};
 
-TEST_F(RunRecord, AStageRecordReadsBackAndADamagedOneIsNone) {
+TEST_F(RunRecordTest, AStageRecordReadsBackAndADamagedOneIsNone) {
   write_stage_record(folder_, {"stamp", "failure", {{"status", "failed"}}});
   const auto record = read_stage_record(folder_);
   ASSERT_TRUE(record);

@@ -8,14 +8,14 @@
 
 namespace brainshift::pipelines::stage_folder_test {
 
-class StageFolder : public RunFolder {};
+class StageFolderTest : public RunFolder {};
 
-TEST_F(StageFolder, AnUnfinishedStageLeavesNothingBehind) {
+TEST_F(StageFolderTest, AnUnfinishedStageLeavesNothingBehind) {
   { StageFolder unfinished(folder_ / "stage", interruption_); }
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-TEST_F(StageFolder, AFinishedStageTakesThePlaceOfTheOneBefore) {
+TEST_F(StageFolderTest, AFinishedStageTakesThePlaceOfTheOneBefore) {
   write("stage/old", "old");
   StageFolder finished(folder_ / "stage", interruption_);
   std::ofstream(finished.path() / "new") << "new";
@@ -24,7 +24,7 @@ TEST_F(StageFolder, AFinishedStageTakesThePlaceOfTheOneBefore) {
   EXPECT_FALSE(fs::exists(folder_ / "stage/old"));
 }
 
-TEST_F(StageFolder, ASingleStageKeepsOtherFilesOfItsFolder) {
+TEST_F(StageFolderTest, ASingleStageKeepsOtherFilesOfItsFolder) {
   write("stage/mine", "mine");
   write("stage/made", "old");
   StageFolder finished(folder_ / "stage", interruption_);
