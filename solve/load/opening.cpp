@@ -10,6 +10,7 @@
 #include "solve/load/convex_hull.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/load/extension.hpp"
+#include "solve/load/load_options.hpp"
 
 namespace brainshift::solve {
 namespace {
@@ -140,6 +141,7 @@ double default_margin(const Points& measured, const NodeCloud& cloud, const std:
 
 Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options) {
   check_load(load);
+  check_table(opening_options(), options);
   const std::vector<Eigen::Index> nodes = surface_nodes(cloud);
   const Points surface = cloud.positions(nodes, Eigen::all);
   check_near_surface(load.positions, surface, options.farthest);

@@ -43,7 +43,7 @@ TEST_F(SceneFile, ValuesArriveWhereTheyBelong) {
   EXPECT_EQ(scene.discretise.cells, CellKind::tetrahedron);
   EXPECT_EQ(scene.refinement.factor, 0.5);
   EXPECT_EQ(scene.solve.shape.basis, Basis::linear);
-  EXPECT_EQ(scene.points_per_cell, 4);
+  EXPECT_EQ(scene.solve.points_per_cell, 4);
   EXPECT_EQ(scene.commands[index_of(StageId::solve)], "my_solver {in} {out}");
   EXPECT_EQ(scene.registration.interpolation, registration::Interpolation::bspline);
 }
@@ -101,7 +101,7 @@ TEST_F(SceneFile, ThePhysicsOfTheSolveStageArrives) {
   EXPECT_EQ(load_curve(scene.loading).duration(), 3);
   EXPECT_EQ(scene.loading.curve_join, solve::LoadCurve::Join::straight);
   EXPECT_EQ(scene.loading.gravity, Eigen::Vector3d(0, 0, -9.81));
-  EXPECT_EQ(scene.points_per_cell, 3);
+  EXPECT_EQ(scene.solve.points_per_cell, 3);
 }
 
 TEST_F(SceneFile, CutsAndResectionArrive) {
