@@ -16,7 +16,7 @@ namespace {
 constexpr int samples_per_node = 30;
 constexpr int lloyd_sweeps = 8;
 /// Random places at this fraction of the spacing nearly fill a surface at the density that is wanted.
-constexpr double first_distance = 0.8;
+constexpr double first_share = 0.8;
 /// How far inside the surface its nodes lie, in spacings.
 constexpr double inward = 1e-6;
 
@@ -70,9 +70,9 @@ Points pick_apart(const Surface& surface, const std::vector<Sample>& samples, do
   std::iota(order.begin(), order.end(), std::size_t{0});
   random.shuffle(order);
   DartGrid darts(surface.vertices.colwise().minCoeff(), surface.vertices.colwise().maxCoeff(),
-                 first_distance * spacing);
+                 first_share * spacing);
   std::vector<Eigen::Vector3d> picked;
-  for (double fraction = first_distance; fraction > 0.4 && picked.size() < count; fraction *= 0.96) {
+  for (double fraction = first_share; fraction > 0.4 && picked.size() < count; fraction *= 0.96) {
     for (std::size_t i = 0; i < order.size() && picked.size() < count; ++i) {
       const Sample& candidate = samples[order[i]];
       if (darts.is_free(candidate.x, fraction * spacing * candidate.factor)) {

@@ -21,8 +21,8 @@ bool starts_coarse(const Model& model, const SolveOptions& options) {
 
 /// The coarse solution's displacement at the nodes, taken for their parameters: near enough for a start.
 NodalVectors coarse_start(const Model& model, SolveOptions options, const std::vector<std::int32_t>& original) {
-  constexpr double looser = 5;  // what a coarse solution is wrong by is more
-  options.tolerance *= looser;
+  constexpr double factor = 5;  // what a coarse solution is wrong by is more
+  options.tolerance *= factor;
   options.load_steps = std::min(options.load_steps, 100);
   NodalVectors start;
   if (const std::optional<Points> displacement = coarse_displacement(model, options, {})) {
