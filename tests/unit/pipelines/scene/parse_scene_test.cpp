@@ -16,7 +16,7 @@ TEST_F(SceneFile, EveryOptionReadsBackWhatItWrites) {
     element.add(scene);
     for (const auto& option : element.options) {
       const std::string value = option.get(scene);
-      EXPECT_TRUE(option.set(scene, value)) << element.path << "." << option.name << " = '" << value << "'";
+      EXPECT_TRUE(set_option(option, scene, value)) << element.path << "." << option.name << " = '" << value << "'";
       EXPECT_EQ(option.get(scene), value);
     }
   }
@@ -76,7 +76,7 @@ TEST_F(SceneFile, EveryTissueOptionReadsBackWhatItWrites) {
     Tissue tissue{1, "a name", name, *solve::named_material(name)};
     Tissue copy;
     for (const auto& option : tissue_options()) {
-      EXPECT_TRUE(option.set(copy, option.get(tissue))) << option.name;
+      EXPECT_TRUE(set_option(option, copy, option.get(tissue))) << option.name;
     }
     for (const auto& option : tissue_options()) {
       EXPECT_EQ(option.get(copy), option.get(tissue));
@@ -190,7 +190,7 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
       {"<cuts>here</cuts>", {at + "2", "text 'here'"}},
       {"<cuts/>\n<cuts/>", {at + "3", "twice"}},
       {"<resection/>", {at + "2", "needs the attribute 'labels'"}},
-      {"<resection labels=\"two\"/>", {at + "2", "labels", "'two'", "whole numbers from 1 to 32767"}},
+      {"<resection labels=\"two\"/>", {at + "2", "labels", "'two'", "whole number from 1 to 32767"}},
       {"<resection labels=\"2\" pressure=\"high\"/>", {at + "2", "pressure", "'high'", "Pa"}},
       {"<segment edge_length=\"3\"/>", {at + "2", "segment"}},
       {"<image>", {at, "XML"}},
