@@ -24,18 +24,21 @@ std::string wrapped(const std::string& text, const std::string& indent) {
   return lines + line + "\n";
 }
 
+/// "a number > 0, mm; default 5".
+std::string allowed_values(const std::string& allowed, const std::string& unit, bool is_required,
+                           const std::string& value) {
+  return allowed + (unit.empty() ? "" : ", " + unit) +
+         (is_required     ? "; required"
+          : value.empty() ? ""
+                          : "; default " + value);
+}
+
 template <class T>
 std::string list_of(const OptionTable<T>& table, const T& defaults) {
   std::string text;
   for (const Option<T>& option : table) {
-    const std::string value = option.get(defaults);
-    text +=
-        wrapped("- `" + option.name + "`, " + option.allowed + (option.unit.empty() ? "" : " (" + option.unit + ")") +
-                    (option.required ? ", required"
-                     : value.empty() ? ""
-                                     : ", default `" + value + "`") +
-                    ": " + option.help + ".",
-                "  ");
+    const std::string allowed = allowed_values(option.allowed, option.unit, option.required, option.get(defaults));
+    text += wrapped("- `" + option.name + "`: " + option.help + ". [" + allowed + "]", "  ");
   }
   return text;
 }
@@ -71,7 +74,8 @@ std::string options_page() {
           "`--set PATH=VALUE` overrides one: the path is the element's with the option's name, as `image.t1`, "
           "`load.margin`, `tissues.1.density`, or for a stage its name, as `discretise.nodes`. File names are relative "
           "to "
-          "the scene's file. An element that is not built unless it is named may be left out, as may every option that "
+          "the scene's file. In brackets stands what an option may be, its unit and its default. An element that is "
+          "not built unless it is named may be left out, as may every option that "
           "is not required.",
           "");
   for (const Element& element : scene_elements()) {

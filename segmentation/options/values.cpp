@@ -43,9 +43,9 @@ std::optional<std::vector<std::pair<double, double>>> read_number_pairs(std::str
 
 namespace {
 
-/// An end of a range of whole numbers is written as one: 20000000 where a double would be 2e+07.
-std::string write_end(double end, bool whole) {
-  return whole ? write_number(static_cast<long long>(end)) : write_number(end);
+/// Whole numbers are written as such: 20000000 where a double would be 2e+07.
+std::string write_end(double end) {
+  return end == std::trunc(end) && std::abs(end) < 1e15 ? write_number(static_cast<long long>(end)) : write_number(end);
 }
 
 }  // namespace
@@ -55,14 +55,14 @@ std::string allowed_numbers(const Range& range, bool whole) {
   const bool has_low = std::isfinite(range.low);
   const bool has_high = std::isfinite(range.high);
   if (has_low && has_high && range.low_allowed && range.high_allowed) {
-    return kind + " from " + write_end(range.low, whole) + " to " + write_end(range.high, whole);
+    return kind + " from " + write_end(range.low) + " to " + write_end(range.high);
   }
   std::string text = kind;
   if (has_low) {
-    text += (range.low_allowed ? " >= " : " > ") + write_end(range.low, whole);
+    text += (range.low_allowed ? " >= " : " > ") + write_end(range.low);
   }
   if (has_high) {
-    text += std::string(has_low ? " and" : "") + (range.high_allowed ? " <= " : " < ") + write_end(range.high, whole);
+    text += std::string(has_low ? " and" : "") + (range.high_allowed ? " <= " : " < ") + write_end(range.high);
   }
   return text;
 }

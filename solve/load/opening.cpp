@@ -140,8 +140,8 @@ double default_margin(const Points& measured, const NodeCloud& cloud, const std:
 }  // namespace
 
 Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options) {
-  check_load(load);
   check_table(opening_options(), options);
+  check_load(load);
   const std::vector<Eigen::Index> nodes = surface_nodes(cloud);
   const Points surface = cloud.positions(nodes, Eigen::all);
   check_near_surface(load.positions, surface, options.farthest);

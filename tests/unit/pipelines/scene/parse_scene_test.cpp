@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "solve/material/named_materials.hpp"
