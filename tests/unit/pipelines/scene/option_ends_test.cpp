@@ -200,8 +200,13 @@ TEST_F(OptionEnds, OfSimulatedCraniotomies) {
 }
 
 TEST_F(OptionEnds, OfCuts) {
-  walk(solve::cut_timing_options(), "<cuts><cut file=\"sheet.vtp\"@/></cuts>", solve::CutTiming{},
-       [](const solve::CutTiming& timing) { solve::times_along({}, timing, "sheet.vtp"); });
+  const auto walk_one = [&](const char* name, const std::string& element) {
+    walk(OptionTable<solve::CutTiming>{*find_option(solve::cut_timing_options(), name)}, element, solve::CutTiming{},
+         [](const solve::CutTiming& timing) { solve::times_along({}, timing, "sheet.vtp"); });
+  };
+  walk_one("start", "<cuts><cut file=\"sheet.vtp\"@/></cuts>");
+  walk_one("speed", "<cuts><cut file=\"sheet.vtp\" direction=\"1 0 0\"@/></cuts>");
+  walk_one("direction", "<cuts><cut file=\"sheet.vtp\" speed=\"1\"@/></cuts>");
 }
 
 // A new member of a struct does not compile here. It goes into the struct's table, or into the number of those that the
