@@ -9,7 +9,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../pipelines/setup.sh"
 
 case ${1:-} in
-  '') install_packages clang-format libbenchmark-dev ;;
+  '') install_packages clang-format libbenchmark-dev python3 ;;
   --no-install) ;;
   *)
     echo "usage: bash tests/run.sh [--no-install]" >&2
@@ -23,9 +23,11 @@ export OMP_WAIT_POLICY=passive
 cd "$root"
 git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
 
-build build-sanitize unit_tests -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' -DBRAINSHIFT_SANITIZE=ON
+developer=(-DBRAINSHIFT_TESTS=ON -DBRAINSHIFT_DEVELOPER=ON)
+build build-sanitize unit_tests "${developer[@]}" -DBRAINSHIFT_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug \
+  -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1'
 LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
   ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(nproc)"
 
-build build all -DCMAKE_BUILD_TYPE=Release
+build build all "${developer[@]}" -DCMAKE_BUILD_TYPE=Release
 ctest --test-dir build --output-on-failure

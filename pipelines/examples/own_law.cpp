@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "block.hpp"
-#include "solve/material/own_law.hpp"
+#include "solve/material/own_elasticity.hpp"
 #include "solve/solve.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "solve/material/material_options.hpp"
 #include "solve/material/ogden.hpp"
-#include "solve/material/own_law.hpp"
+#include "solve/material/own_elasticity.hpp"
 
 namespace brainshift::solve {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/material/material.hpp"
 
-#include "solve/material/own_law.hpp"
+#include "solve/material/own_elasticity.hpp"
 
 namespace brainshift::solve {
 

@@ -2,21 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
+#include <memory>
 
 #include "solve/material/deformation.hpp"
 #include "solve/material/material.hpp"
+#include "solve/material/own_elasticity.hpp"
 
 namespace brainshift::solve {
 
-/// The isochoric part of an elastic law that a program brings along (Material::own), W = W_iso(F) + K/2 (J − 1)².
-struct OwnElasticity {
-  double shear_modulus = 0;                                   ///< µ at rest, Pa
-  std::function<double(const Deformation&)> energy;           ///< W_iso, Pa; 0 at rest, the same in every frame
-  std::function<Eigen::Matrix3d(const Deformation&)> stress;  ///< ∂W_iso/∂F, Pa
-};
-
-/// Such a law ready for the solver. Each call goes through a function, so a step takes several times as long as with a
+/// An own law ready for the solver. Each call goes through a function, so a step takes several times as long as with a
 /// law of the library. J must be positive.
 struct OwnLaw {
   static constexpr double least_dilatation = -1;  ///< θ where J = 0

@@ -13,6 +13,7 @@
 
 #include "tests/unit/discretise/bodies.hpp"
 #include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
 
 namespace brainshift::discretise::discretise_test {
 

@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "register/registration.hpp"
-
+// ITK brings an Eigen of its own, which must be read before ours.
 #include <gtest/gtest.h>
 #include <itkDisplacementFieldTransform.h>
+#include <itkHDF5TransformIO.h>
 #include <itkImageFileReader.h>
 #include <itkNearestNeighborInterpolateImageFunction.h>
 #include <itkNiftiImageIO.h>
 #include <itkResampleImageFilter.h>
+#include <itkTransformFileReader.h>
 
 #include <fstream>
 
+#include "register/registration.hpp"
 #include "register/warp/warp.hpp"
 #include "segmentation/image/itk_bridge.hpp"
 #include "tests/unit/register/builders.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::registration::write_registration_test {
+
+using namespace builders;
+using test::ScratchFolder;
 
 using ItkField = itk::Image<itk::Vector<float, 3>, 3>;
 using ItkTransform = itk::DisplacementFieldTransform<double, 3>;

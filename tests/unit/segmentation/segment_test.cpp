@@ -3,12 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <random>
 
 #include "segmentation/files/surface_file.hpp"
 #include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::segment_test {
+
+using namespace segmentation;
 
 const Eigen::Vector3d centre(10.0, -40.0, 60.0);
 constexpr double brain_radius = 30.0;

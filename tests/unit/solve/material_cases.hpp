@@ -2,15 +2,30 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <memory>
 #include <ostream>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "solve/material/elastic_law.hpp"
-#include "solve/shape/node_supports.hpp"
 
 namespace brainshift::solve {
+
+/// A law that the library does not have: Fung's, W_iso = µ/(2b) (exp(b (Ī1 − 3)) − 1).
+inline Material fung(double shear_modulus, double b, double poisson_ratio) {
+  const auto strain = [](const Deformation& d) {
+    return std::pow(d.jacobian, -2.0 / 3.0) * d.gradient.squaredNorm() - 3;
+  };
+  const auto energy = [=](const Deformation& d) { return shear_modulus / (2 * b) * std::expm1(b * strain(d)); };
+  const auto stress = [=](const Deformation& d) {
+    const double scale = shear_modulus * std::exp(b * strain(d)) * std::pow(d.jacobian, -2.0 / 3.0);
+    return Eigen::Matrix3d(scale * (d.gradient - d.gradient.squaredNorm() / (3 * d.jacobian) * d.cofactor));
+  };
+  const OwnElasticity own{.shear_modulus = shear_modulus, .energy = energy, .stress = stress};
+  return {.poisson_ratio = poisson_ratio, .law = Law::own, .own = std::make_shared<const OwnElasticity>(own)};
+}
 
 /// Laws for large deformations, soft and hard to compress, of one and of several terms.
 inline const std::vector<Material> finite_strain_laws = {
@@ -20,6 +35,7 @@ inline const std::vector<Material> finite_strain_laws = {
     {.poisson_ratio = 0.3, .law = Law::ogden, .ogden = {{900, 1.3}, {-50, 5}, {100, -2}}},
     {.poisson_ratio = 0.49, .law = Law::saint_venant_kirchhoff},
     {.poisson_ratio = -0.2, .law = Law::saint_venant_kirchhoff},
+    fung(1000, 0.5, 0.49),
 };
 
 inline const std::vector<Material> every_law = [] {
@@ -30,7 +46,7 @@ inline const std::vector<Material> every_law = [] {
 }();
 
 inline std::string name_of(const Material& material) {
-  const std::string names[] = {"neo_hookean", "ogden", "saint_venant_kirchhoff", "linear_elastic"};
+  const std::string names[] = {"neo_hookean", "ogden", "saint_venant_kirchhoff", "linear_elastic", "own"};
   const std::string name = names[static_cast<int>(material.law)];
   return name + (material.poisson_ratio == 0.49 ? "_nearly_incompressible" : "_compressible");
 }

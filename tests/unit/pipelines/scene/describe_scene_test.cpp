@@ -2,6 +2,7 @@
 #include "pipelines/scene/describe_scene.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "pipelines/scene/scene_table.hpp"
 #include "tests/unit/pipelines/scene_file.hpp"

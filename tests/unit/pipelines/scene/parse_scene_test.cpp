@@ -2,6 +2,7 @@
 #include "pipelines/scene/parse_scene.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -12,6 +12,8 @@
 
 namespace brainshift::registration::forward_field_test {
 
+using namespace builders;
+
 constexpr double rounding = 2.2e-4;  // of the stored displacement: half of 1/4096 mm in each component
 
 TEST(ForwardField, IsExactInTheBrainForALinearDisplacement) {

@@ -9,6 +9,8 @@
 
 namespace brainshift::registration::jacobian_test {
 
+using namespace builders;
+
 TEST(Jacobian, OfAnAffineMapIsItsDeterminantOnAnObliqueLeftHandedGrid) {
   Eigen::Matrix3d slope;
   slope << 0.2, -0.1, 0.3, 0.1, -0.25, 0.2, -0.15, 0.05, 0.1;

@@ -11,6 +11,8 @@
 
 namespace brainshift::registration::resampling_field_test {
 
+using namespace builders;
+
 constexpr double rounding = 2.2e-4;  // of the stored displacement: half of 1/4096 mm in each component
 
 TEST(ResamplingField, TakesBackWhatTheForwardFieldDid) {

@@ -15,6 +15,8 @@
 
 namespace brainshift::registration::warp_any_test {
 
+using test::ScratchFolder;
+
 using namespace builders;
 
 const Eigen::Vector3d shift(1.5, -2, 3);

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "register/files/write_transform.hpp"
-
+// ITK brings an Eigen of its own, which must be read before ours.
 #include <gtest/gtest.h>
 #include <itkDisplacementFieldTransform.h>
+#include <itkHDF5TransformIO.h>
+#include <itkTransformFileReader.h>
 
+#include "register/files/write_transform.hpp"
 #include "segmentation/image/itk_bridge.hpp"
 #include "tests/unit/register/builders.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::registration::write_transform_test {
+
+using namespace builders;
+using test::ScratchFolder;
 
 using ItkTransform = itk::DisplacementFieldTransform<double, 3>;
 

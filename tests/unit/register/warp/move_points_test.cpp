@@ -7,6 +7,8 @@
 
 namespace brainshift::registration::move_points_test {
 
+using namespace builders;
+
 const ImageGeometry small = grid({24, 20, 18}, {1.5, 1.5, 1.5});
 
 TEST(MovePoints, CountTheOutermostHalfVoxelAsInside) {

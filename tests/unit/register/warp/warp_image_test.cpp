@@ -10,6 +10,8 @@
 
 namespace brainshift::registration::warp_image_test {
 
+using namespace builders;
+
 const ImageGeometry small = grid({24, 20, 18}, {1.5, 1.5, 1.5});
 
 Eigen::Vector3d shift_of(double x, double y, double z) {

@@ -11,6 +11,7 @@
 
 #include "segmentation/files/vtk_bridge.hpp"
 #include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::write_surface_test {
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/segmentation/builders.hpp"
+
 namespace brainshift::test::depth_test {
 
 Mask empty_mask(int size) {

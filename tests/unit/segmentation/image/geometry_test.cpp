@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/image/image.hpp"
 
-#include "builders.hpp"
 #include "segmentation/image/itk_bridge.hpp"
+#include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::geometry_test {
 

@@ -5,8 +5,11 @@
 
 #include <limits>
 #include <random>
+#include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::check_input_test {
+
+using namespace segmentation;
 
 const Eigen::Vector3d centre(10.0, -40.0, 60.0);
 constexpr double brain_radius = 30.0;

@@ -2,8 +2,11 @@
 #include "segmentation/surface/extract.hpp"
 
 #include <gtest/gtest.h>
+#include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::boundary_distance_test {
+
+using namespace segmentation;
 
 const Eigen::Vector3d centre(100.0, -50.0, 30.0);
 

@@ -2,12 +2,17 @@
 #include "segmentation/surface/checked_surface.hpp"
 
 #include <gtest/gtest.h>
+
 #include <vtkNew.h>
 #include <vtkSphereSource.h>
+#include <numbers>
 
 #include "segmentation/files/vtk_bridge.hpp"
+#include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::checked_surface_test {
+
+using namespace segmentation;
 
 double ball_volume(double radius) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;

@@ -2,13 +2,18 @@
 #include "segmentation/surface/extract.hpp"
 
 #include <gtest/gtest.h>
+
 #include <vtkFeatureEdges.h>
 #include <vtkMassProperties.h>
 #include <vtkNew.h>
+#include <numbers>
 
 #include "segmentation/files/vtk_bridge.hpp"
+#include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::extract_test {
+
+using namespace segmentation;
 
 const Eigen::Vector3d centre(100.0, -50.0, 30.0);
 

@@ -2,8 +2,11 @@
 #include "segmentation/surface/surface_measures.hpp"
 
 #include <gtest/gtest.h>
+#include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::surface_measures_test {
+
+using namespace segmentation;
 
 void expect_sound(const SurfaceMeasures& measures) {
   EXPECT_TRUE(measures.closed);

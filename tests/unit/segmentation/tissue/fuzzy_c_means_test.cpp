@@ -7,9 +7,11 @@
 #include <numeric>
 #include <random>
 
-#include "builders.hpp"
+#include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::fuzzy_c_means_test {
+
+using namespace segmentation;
 
 using segmentation::fuzzy_c_means;
 using segmentation::fuzzy_memberships;

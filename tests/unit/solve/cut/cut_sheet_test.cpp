@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 #include <vtkDoubleArray.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <array>

@@ -9,6 +9,7 @@
 
 #include "solve/material/material.hpp"
 #include "solve/material/ogden.hpp"
+#include "solve/material/own_elasticity.hpp"
 
 namespace brainshift::solve::check_material_test {
 
@@ -29,6 +30,22 @@ TEST(CheckMaterial, AcceptsWhatCanBeComputed) {
   EXPECT_EQ(complaint({.poisson_ratio = -0.9}), "none");
   EXPECT_EQ(complaint({.youngs_modulus = -1, .law = Law::ogden, .ogden = {{-100, 2}, {101, -3}}}), "none");
   EXPECT_EQ(complaint({.prony = {{0, 1}, {0.999, 1e-6}}}), "none");
+}
+
+TEST(CheckMaterial, WantsEnergyAndStressOfAnOwnLaw) {
+  const auto own = [](OwnElasticity law) {
+    return Material{.law = Law::own, .own = std::make_shared<const OwnElasticity>(std::move(law))};
+  };
+  const auto no_energy = [](const Deformation&) { return 0.0; };
+  const auto no_stress = [](const Deformation&) { return Eigen::Matrix3d(Eigen::Matrix3d::Zero()); };
+  EXPECT_EQ(complaint(own({.shear_modulus = 1, .energy = no_energy, .stress = no_stress})), "none");
+  const std::string missing =
+      "the material of label 2 follows a law of its own but does not bring its energy and stress";
+  EXPECT_EQ(complaint({.law = Law::own}), missing);
+  EXPECT_EQ(complaint(own({.shear_modulus = 1, .energy = no_energy, .stress = {}})), missing);
+  EXPECT_EQ(complaint(own({.shear_modulus = 1, .energy = {}, .stress = no_stress})), missing);
+  EXPECT_EQ(complaint(own({.shear_modulus = 0, .energy = no_energy, .stress = no_stress})),
+            "the material of label 2 has a law of its own with mu = 0 Pa; it must be positive");
 }
 
 TEST(CheckMaterial, SaysWhichElasticConstantIsWrong) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "material_cases.hpp"
+#include "tests/unit/solve/material_cases.hpp"
 
 // Homogeneous deformations of an incompressible body, whose nominal stress is known in closed form.
 

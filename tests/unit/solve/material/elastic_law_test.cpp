@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "solve/shape/node_supports.hpp"
+#include "tests/unit/solve/material_cases.hpp"
 
 namespace brainshift::solve::elastic_law_test {
 
@@ -139,7 +139,7 @@ TEST_P(EveryLaw, SmallStrainsKeepTheirDigits) {
   const Eigen::Matrix3d expected =
       2 * shear * strain + (bulk - 2 * shear / 3) * strain.trace() * Eigen::Matrix3d::Identity();
   EXPECT_LE((stress(law, f) - expected).norm(), 20 * size * expected.norm());  // what is left is of second order
-  if (GetParam().law != Law::neo_hookean) {
+  if (GetParam().law != Law::neo_hookean && GetParam().law != Law::own) {      // these take 3 from a number close to 3
     EXPECT_NEAR(energy(law, f), expected.cwiseProduct(strain).sum() / 2, 20 * size * energy(law, f));
   }
 }

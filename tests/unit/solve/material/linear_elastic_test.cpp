@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "solve/material/elastic_law.hpp"
-#include "solve/shape/node_supports.hpp"
+#include "tests/unit/solve/material_cases.hpp"
 
 namespace brainshift::solve::linear_elastic_test {
 

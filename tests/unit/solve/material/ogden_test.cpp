@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "solve/material/elastic_law.hpp"
+#include "tests/unit/solve/material_cases.hpp"
 
 namespace brainshift::solve::ogden_test {
 

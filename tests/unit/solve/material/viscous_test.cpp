@@ -8,8 +8,8 @@
 #include <functional>
 #include <numbers>
 
-#include "material_cases.hpp"
 #include "solve/material/elastic_law.hpp"
+#include "tests/unit/solve/material_cases.hpp"
 
 namespace brainshift::solve::viscous_test {
 
