@@ -153,7 +153,8 @@ Option<T> number_option(std::string name, Access access, Range range, std::strin
     }
   };
   return {.name = std::move(name),
-          .allowed = allowed_numbers(range, std::is_integral_v<Value>) + (optional ? ", or nothing" : ""),
+          .allowed = allowed_numbers(std::is_integral_v<Value> ? "a whole number" : "a number", range) +
+                     (optional ? ", or nothing" : ""),
           .unit = std::move(unit),
           .help = std::move(help),
           .range = range,
@@ -232,7 +233,7 @@ Option<T> labels_option(std::string name, Access access, std::string help) {
     return std::all_of(values.begin(), values.end(), [](Value v) { return label_numbers.holds(v); });
   };
   return {.name = std::move(name),
-          .allowed = "labels, each " + allowed_numbers(label_numbers, true) + ", separated by blanks",
+          .allowed = allowed_numbers("whole numbers", label_numbers) + ", separated by blanks",
           .unit = "",
           .help = std::move(help),
           .read = read,

@@ -50,8 +50,7 @@ std::string write_end(double end) {
 
 }  // namespace
 
-std::string allowed_numbers(const Range& range, bool whole) {
-  const std::string kind = whole ? "a whole number" : "a number";
+std::string allowed_numbers(const std::string& kind, const Range& range) {
   const bool has_low = std::isfinite(range.low);
   const bool has_high = std::isfinite(range.high);
   if (has_low && has_high && range.low_allowed && range.high_allowed) {

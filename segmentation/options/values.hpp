@@ -25,8 +25,8 @@ inline constexpr Range above_zero{.low = 0, .low_allowed = false};
 inline constexpr Range not_negative{.low = 0};
 inline constexpr Range label_numbers{.low = 1, .high = 32767};  ///< of tissues in label maps
 
-/// "a number > 0", "a whole number from 1 to 8".
-std::string allowed_numbers(const Range& range, bool whole);
+/// "a number > 0", "a whole number from 1 to 8": the kind, then the range.
+std::string allowed_numbers(const std::string& kind, const Range& range);
 
 /// Reads the whole of the text as a number; nothing may follow it. Empty on failure.
 template <class T>

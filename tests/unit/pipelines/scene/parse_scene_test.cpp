@@ -2,7 +2,6 @@
 #include "pipelines/scene/parse_scene.hpp"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -193,7 +192,7 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
       {"<cuts>here</cuts>", {at + "2", "text 'here'"}},
       {"<cuts/>\n<cuts/>", {at + "3", "twice"}},
       {"<resection/>", {at + "2", "needs the attribute 'labels'"}},
-      {"<resection labels=\"two\"/>", {at + "2", "labels", "'two'", "whole number from 1 to 32767"}},
+      {"<resection labels=\"two\"/>", {at + "2", "labels", "'two'", "whole numbers from 1 to 32767"}},
       {"<resection labels=\"2\" pressure=\"high\"/>", {at + "2", "pressure", "'high'", "Pa"}},
       {"<segment edge_length=\"3\"/>", {at + "2", "segment"}},
       {"<image>", {at, "XML"}},

@@ -19,12 +19,12 @@ TEST(Values, ARangeHoldsItsEndsWhereTheyAreAllowed) {
 }
 
 TEST(Values, ARangeReadsAsASentence) {
-  EXPECT_EQ(allowed_numbers({.low = 30, .high = 2e7}, true), "a whole number from 30 to 20000000");
-  EXPECT_EQ(allowed_numbers({.low = 1e-6, .high = 1e6}, false), "a number from 1e-06 to 1000000");
-  EXPECT_EQ(allowed_numbers(above_zero, false), "a number > 0");
-  EXPECT_EQ(allowed_numbers({.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false}, false),
+  EXPECT_EQ(allowed_numbers("a whole number", {.low = 30, .high = 2e7}), "a whole number from 30 to 20000000");
+  EXPECT_EQ(allowed_numbers("a number", {.low = 1e-6, .high = 1e6}), "a number from 1e-06 to 1000000");
+  EXPECT_EQ(allowed_numbers("a number", above_zero), "a number > 0");
+  EXPECT_EQ(allowed_numbers("a number", {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false}),
             "a number > -1 and < 0.5");
-  EXPECT_EQ(allowed_numbers(any_number, false), "a number");
+  EXPECT_EQ(allowed_numbers("a number", any_number), "a number");
 }
 
 TEST(Values, ANumberIsTheWholeOfTheText) {
