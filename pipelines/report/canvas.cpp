@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/report/canvas.hpp"
 
+#include <openssl/evp.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace brainshift::pipelines {
-
-using Eigen::Vector2d;
 
 Canvas::Canvas(int width_, int height_, Colour background)
     : width(width_),
@@ -21,58 +27,34 @@ Colour blend(const Colour& a, const Colour& b, double share) {
   return mixed;
 }
 
-void blend_pixel(Canvas& canvas, int x, int y, const Colour& over, double share) {
-  if (x >= 0 && y >= 0 && x < canvas.width && y < canvas.height && share > 0) {
-    canvas.at(x, y) = blend(canvas.at(x, y), over, std::min(share, 1.0));
-  }
-}
-
-void draw_line(Canvas& canvas, const Vector2d& from, const Vector2d& to, double width, const Colour& stroke) {
-  const double reach = width / 2 + 1;
-  const Vector2d low = from.cwiseMin(to) - Vector2d::Constant(reach);
-  const Vector2d high = from.cwiseMax(to) + Vector2d::Constant(reach);
-  const int x_end = std::min(canvas.width - 1, static_cast<int>(high.x()));
-  const int y_end = std::min(canvas.height - 1, static_cast<int>(high.y()));
-  const Vector2d along = to - from;
-  const double length_squared = std::max(along.squaredNorm(), 1e-12);
-  for (int y = std::max(0, static_cast<int>(low.y())); y <= y_end; ++y) {
-    for (int x = std::max(0, static_cast<int>(low.x())); x <= x_end; ++x) {
-      const Vector2d pixel(x + 0.5, y + 0.5);
-      const double t = std::clamp((pixel - from).dot(along) / length_squared, 0.0, 1.0);
-      const double distance = (pixel - from - t * along).norm();
-      blend_pixel(canvas, x, y, stroke, width / 2 + 0.5 - distance);
+std::string encode_png(const Canvas& canvas) {
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(canvas.width, canvas.height, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* bytes = static_cast<std::uint8_t*>(image->GetScalarPointer());
+  for (int y = canvas.height - 1; y >= 0; --y) {  // VTK's rows go upwards
+    for (int x = 0; x < canvas.width; ++x) {
+      bytes = std::ranges::copy(canvas.at(x, y), bytes).out;
     }
   }
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  writer->WriteToMemoryOn();
+  writer->Write();
+  auto* result = writer->GetResult();
+  return {reinterpret_cast<const char*>(result->GetVoidPointer(0)),
+          static_cast<std::size_t>(result->GetNumberOfValues())};
 }
 
-void draw_arrow(Canvas& canvas, const Vector2d& from, const Vector2d& to, double width, const Colour& stroke) {
-  draw_line(canvas, from, to, width, stroke);
-  const double length = (to - from).norm();
-  if (length < 1) {
-    return;
+std::string encode_base64(std::string_view bytes) {
+  const std::size_t letters = (bytes.size() + 2) / 3 * 4;
+  if (letters >= static_cast<std::size_t>(std::numeric_limits<int>::max())) {  // OpenSSL counts in int
+    throw std::length_error("a picture of " + std::to_string(bytes.size()) + " bytes is too large for the page");
   }
-  const Vector2d along = (to - from) / length;
-  const Vector2d across(-along.y(), along.x());
-  const double head = std::min(0.45 * length, 3.5 * width + 2);
-  for (const double side : {-0.5, 0.5}) {
-    draw_line(canvas, to, to - head * along + side * head * across, width, stroke);
-  }
-}
-
-void fill_rectangle(Canvas& canvas, int x, int y, int width, int height, const Colour& fill) {
-  for (int row = std::max(0, y); row < std::min(canvas.height, y + height); ++row) {
-    for (int column = std::max(0, x); column < std::min(canvas.width, x + width); ++column) {
-      canvas.at(column, row) = fill;
-    }
-  }
-}
-
-void paste(Canvas& canvas, const Canvas& picture, int x, int y) {
-  for (int row = std::max(0, -y); row < std::min(picture.height, canvas.height - y); ++row) {
-    for (int column = std::max(0, -x); column < std::min(picture.width, canvas.width - x); ++column) {
-      canvas.at(x + column, y + row) = picture.at(column, row);
-    }
-  }
+  std::string text(letters, '\0');  // OpenSSL ends its text with a null, where std::string has one too
+  EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), reinterpret_cast<const unsigned char*>(bytes.data()),
+                  static_cast<int>(bytes.size()));
+  return text;
 }
 
 }  // namespace brainshift::pipelines

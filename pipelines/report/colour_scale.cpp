@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <span>
 
 namespace brainshift::pipelines {
 
@@ -17,13 +16,17 @@ constexpr Colour diverging_nodes[] = {{150, 215, 255}, {40, 120, 220}, {8, 8, 10
 
 }  // namespace
 
+std::span<const Colour> ColourScale::nodes() const {
+  return map == ColourMap::sequential ? std::span<const Colour>(sequential_nodes)
+                                      : std::span<const Colour>(diverging_nodes);
+}
+
 Colour ColourScale::colour_of(double value) const {
-  const std::span<const Colour> nodes = map == ColourMap::sequential ? std::span<const Colour>(sequential_nodes)
-                                                                     : std::span<const Colour>(diverging_nodes);
+  const std::span<const Colour> colours = nodes();
   const double relative = std::clamp((value - low) / (high - low), 0.0, 1.0);
-  const double place = relative * static_cast<double>(nodes.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), nodes.size() - 2);
-  return blend(nodes[below], nodes[below + 1], place - static_cast<double>(below));
+  const double place = relative * static_cast<double>(colours.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), colours.size() - 2);
+  return blend(colours[below], colours[below + 1], place - static_cast<double>(below));
 }
 
 double round_up(double value) {
@@ -39,22 +42,20 @@ double round_up(double value) {
   return 10 * power;
 }
 
-void draw_colour_bar(Canvas& canvas, const ColourScale& scale, int x, int y, int height, const Colour& text) {
-  constexpr int width = 16;
-  for (int row = 0; row < height; ++row) {
-    const double value = scale.high + (scale.low - scale.high) * row / (height - 1);
-    fill_rectangle(canvas, x, y + row, width, 1, scale.colour_of(value));
-  }
+void draw_colour_bar(Svg& picture, const ColourScale& scale, const Eigen::Vector2d& corner, double height,
+                     const Colour& text) {
+  constexpr double width = 16;
+  picture.gradient(corner, {width, height}, scale.nodes());
   constexpr int intervals = 4;
   for (int tick = 0; tick <= intervals; ++tick) {
-    const double value = scale.low + (scale.high - scale.low) * tick / intervals;
-    const double row = y + (height - 1) * (1.0 - static_cast<double>(tick) / intervals);
+    const double share = static_cast<double>(tick) / intervals;
     char label[32];
-    std::snprintf(label, sizeof label, "%.3g", value);
-    fill_rectangle(canvas, x + width, static_cast<int>(row), 4, 1, text);
-    draw_text(canvas, {x + width + 8.0, row}, label, {.size = 14, .fill = text});
+    std::snprintf(label, sizeof label, "%.3g", scale.low + (scale.high - scale.low) * share);
+    const Eigen::Vector2d place = corner + Eigen::Vector2d(width, height * (1 - share));
+    picture.line(place, place + Eigen::Vector2d(4, 0), {.colour = text});
+    picture.text(place + Eigen::Vector2d(8, 0), label, {.fill = text});
   }
-  draw_text(canvas, {static_cast<double>(x), y - 16.0}, scale.title, {.size = 14, .fill = text});
+  picture.text(corner - Eigen::Vector2d(0, 16), scale.title, {.fill = text});
 }
 
 }  // namespace brainshift::pipelines

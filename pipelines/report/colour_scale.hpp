@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
-#include "pipelines/report/canvas.hpp"
+#include "pipelines/report/svg.hpp"
 
 namespace brainshift::pipelines {
 
@@ -18,8 +19,10 @@ struct ColourScale {
   ColourMap map = ColourMap::sequential;
   double low = 0;
   double high = 1;
-  std::string title;  ///< with the unit
+  std::string title = {};  ///< with the unit
 
+  /// Evenly spaced from low to high; colours between them pass into each other.
+  std::span<const Colour> nodes() const;
   Colour colour_of(double value) const;
 };
 
@@ -28,6 +31,7 @@ struct ColourScale {
 double round_up(double value);
 
 /// An upright colour bar with numbers to its right and its title above; takes 90 pixels of width.
-void draw_colour_bar(Canvas& canvas, const ColourScale& scale, int x, int y, int height, const Colour& text);
+void draw_colour_bar(Svg& picture, const ColourScale& scale, const Eigen::Vector2d& corner, double height,
+                     const Colour& text);
 
 }  // namespace brainshift::pipelines

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "pipelines/report/page_template.hpp"
 #include "pipelines/report/run_data.hpp"
 
 namespace brainshift::pipelines {
@@ -12,41 +13,60 @@ namespace {
 
 using nlohmann::json;
 
-std::string tile(const std::string& value, const std::string& name) {
-  return "<div class=\"tile\"><b>" + value + "</b><span class=\"soft\">" + name + "</span></div>\n";
-}
-
-std::string key(const std::string& hue, const std::string& name) {
-  return "<span class=\"key\" style=\"background:" + hue + "\"></span>" + name;
-}
-
-std::string header(const PageContent& content) {
-  const json& record = content.record;
-  const std::filesystem::path scene = record.value("scene", "");
-  std::string html = "<header><h1>Brain shift</h1>\n<p class=\"soft\">scene " + escape(scene.filename().string()) +
-                     ", brainshift " + escape(record.value("version", "")) + ", " +
-                     readable(record.value("threads", 1)) + " threads</p></header>\n";
-  if (record.value("options", json::object()).contains("load.simulated")) {
-    html +=
-        "<p class=\"notice\"><b>The load is simulated.</b> Nobody measured this brain: the opening and the "
-        "displacement of the cortex in it were made up, to show the method. The result says nothing of a "
-        "patient.</p>\n";
+std::string value_text(const json& value) {
+  if (value.is_number()) {
+    return readable(value.get<double>());
   }
-  const json stages = record.value("stages", json::object());
-  for (const auto& [name, entry] : stages.items()) {
-    if (entry.contains("failure")) {
-      html += "<p class=\"failure\"><b>The stage " + escape(name) + " did not finish.</b> " +
-              escape(entry.value("failure", "")) + " What is shown below is its last good state.</p>\n";
+  if (value.is_boolean()) {
+    return value.get<bool>() ? "yes" : "no";
+  }
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// The name and text of each value that is not an object itself; empty texts are left out.
+json pairs(const json& values) {
+  json list = json::array();
+  for (const auto& [name, value] : values.items()) {
+    if (!value.is_object() && !(value.is_string() && value.get_ref<const std::string&>().empty())) {
+      list.push_back({{"name", name}, {"value", value_text(value)}});
     }
   }
-  if (!content.has_image) {
-    html += "<p class=\"notice\">This run had no image to warp: the slices show the brain's outline alone.</p>\n";
-  }
-  return html;
+  return list;
 }
 
-std::string tiles(const PageContent& content, const std::vector<MeasureRow>& measures) {
-  const json stages = content.record.value("stages", json::object());
+// The values of an object, then those of each object in it under its name.
+void add_groups(json& groups, const std::string& name, const json& values) {
+  if (json list = pairs(values); !list.empty()) {
+    groups.push_back({{"name", name}, {"values", std::move(list)}});
+  }
+  for (const auto& [inner, value] : values.items()) {
+    if (value.is_object()) {
+      add_groups(groups, name.empty() ? inner : name + " " + inner, value);
+    }
+  }
+}
+
+json row_of_groups(const std::string& name, const json& values) {
+  json groups = json::array();
+  if (values.is_object()) {
+    add_groups(groups, "", values);
+  } else {
+    add_groups(groups, "", {{"", values}});
+  }
+  return {{"name", name}, {"groups", std::move(groups)}};
+}
+
+json failures(const json& stages) {
+  json list = json::array();
+  for (const auto& [name, entry] : stages.items()) {
+    if (entry.contains("failure")) {
+      list.push_back({{"stage", name}, {"failure", entry.value("failure", "")}});
+    }
+  }
+  return list;
+}
+
+json tiles(const PageContent& content, const json& stages, const std::vector<MeasureRow>& measures) {
   double seconds = 0;
   double memory = 0;
   for (const auto& entry : stages) {
@@ -57,94 +77,117 @@ std::string tiles(const PageContent& content, const std::vector<MeasureRow>& mea
     const json::json_pointer place(std::string("/solve/sizes/") + name);
     return stages.contains(place) ? readable(stages.at(place).get<double>()) : std::string("not known");
   };
+  const auto tile = [](const std::string& value, const char* name) { return json{{"value", value}, {"name", name}}; };
   const auto bounded = std::ranges::count_if(measures, [](auto& row) { return row.verdict != Verdict::no_bound; });
   const auto within = std::ranges::count_if(measures, [](auto& row) { return row.verdict == Verdict::within; });
-  return "<div class=\"tiles\">\n" + tile(readable(content.largest_displacement) + " mm", "largest displacement") +
-         tile(std::to_string(within) + " of " + std::to_string(bounded), "checks within their bounds") +
-         tile(size("nodes"), "nodes") + tile(size("integration_points"), "integration points") +
-         tile(readable(seconds) + " s", "from image to warped image") +
-         tile(readable(memory / 1000) + " GB", "peak memory") + "</div>\n";
+  return json::array({tile(readable(content.largest_displacement) + " mm", "largest displacement"),
+                      tile(std::to_string(within) + " of " + std::to_string(bounded), "checks within their bounds"),
+                      tile(size("nodes"), "nodes"), tile(size("integration_points"), "integration points"),
+                      tile(readable(seconds) + " s", "from image to warped image"),
+                      tile(readable(memory / 1000) + " GB", "peak memory")});
 }
 
-std::string comparison_section(const PageContent& content) {
-  if (content.comparisons.empty()) {
-    return {};
+json figures_of(std::span<Figure> figures) {
+  json list = json::array();
+  for (Figure& figure : figures) {
+    list.push_back({{"width", std::to_string(figure.width)}, {"svg", std::move(figure.svg)}});
   }
-  std::string html =
-      "<h2>Before, after, difference</h2>\n<p>Axial, coronal and sagittal planes of the patient (not of the "
-      "scanner's grid), 12 mm under the centre of the craniotomy. The patient's left is on the right. Lines:" +
-      key("#5ac8fa", "brain's surface before") + key("#ff963c", "after") + key("#46eb6e", "craniotomy") +
-      ". Outside the brain the field fades to nothing: between the bone and the sunken cortex the image is "
-      "only stretched, not predicted.</p>\n";
-  for (std::size_t i = 0; i + 2 < content.comparisons.size(); i += 3) {
-    html += "<div class=\"row\">";
-    for (std::size_t column = 0; column < 3; ++column) {
-      html += image_element(content.comparisons[i + column]) + "\n";
-    }
-    html += "</div>\n";
-  }
-  PageFigure before = content.comparisons[content.blink];
-  PageFigure after = content.comparisons[content.blink + 1];
-  before.name += "_fade";
-  after.name += "_fade";
-  html +=
-      "<p>Fade from before to after: <input type=\"range\" min=\"0\" max=\"100\" value=\"0\" aria-label=\"fade\" "
-      "oninput=\"document.getElementById('" +
-      after.name + "').style.opacity = this.value / 100\"/></p>\n<div class=\"blink\">" + image_element(before);
-  std::string over = image_element(after);
-  over.insert(over.find("flex-grow"), "opacity:0;");
-  return html + over + "</div>\n";
+  return list;
 }
 
-std::string displacement_section(const PageContent& content) {
+json comparison(std::vector<Figure>& figures, std::size_t blink) {
+  if (figures.empty()) {
+    return false;
+  }
+  const Figure& before = figures[blink];
+  json section = {{"depth", readable(depth_of_planes)},      {"width", std::to_string(before.width)},
+                  {"height", std::to_string(before.height)}, {"before", before.name},
+                  {"after", figures[blink + 1].name},        {"rows", json::array()}};
+  for (std::size_t i = 0; i + 2 < figures.size(); i += 3) {
+    section["rows"].push_back({{"figures", figures_of(std::span(figures).subspan(i, 3))}});
+  }
+  return section;
+}
+
+json displacement(PageContent& content) {
   if (content.displacements.empty()) {
-    return {};
+    return false;
   }
-  const std::string factor = content.arrow_factor == 1 ? std::string("true to scale")
-                                                       : "drawn " + readable(content.arrow_factor) + " times too long";
-  std::string html = "<h2>Displacement</h2>\n<p>Colours: length of the displacement. Arrows: its part in the plane, " +
-                     factor + ", from where the tissue was. Lines:" + key("#5ac8fa", "brain's surface before") +
-                     key("#46eb6e", "craniotomy") + ".</p>\n<div class=\"row\">";
-  for (const auto& figure : content.displacements) {
-    html += image_element(figure) + "\n";
-  }
-  html += "</div>\n";
-  for (const auto& figure : content.surfaces) {
-    html += "<figure>" + image_element(figure) +
-            "<figcaption>The brain's surface as it lies during the operation, coloured by displacement; blue: the rim "
-            "of the craniotomy. L, P, S: the patient's left, posterior, superior.</figcaption></figure>\n";
-  }
-  return html;
+  return {{"arrows", content.arrow_factor == 1 ? std::string("true to scale")
+                                               : "drawn " + readable(content.arrow_factor) + " times too long"},
+          {"figures", figures_of(content.displacements)},
+          {"surfaces", figures_of(content.surfaces)}};
 }
 
-std::string convergence_section(const PageContent& content) {
-  std::string html;
-  for (const auto& plot : content.plots) {
-    html += "<div>" + plot + "</div>\n";
+json measures_of(const std::vector<MeasureRow>& rows) {
+  constexpr std::array<const char*, 3> words = {"within", "OUTSIDE", ""};
+  json list = json::array();
+  for (const MeasureRow& row : rows) {
+    list.push_back({{"stage", row.stage},
+                    {"meaning", row.meaning},
+                    {"value", row.value},
+                    {"bound", row.bound},
+                    {"verdict", words[static_cast<std::size_t>(row.verdict)]}});
   }
-  if (html.empty()) {
-    return html;
+  return list;
+}
+
+json convergence(const PageContent& content) {
+  if (content.plots.empty()) {
+    return false;
   }
   const bool in_time = dynamics_of(content.record) == solve::Dynamics::transient;
-  const std::string words = in_time ? "<h2>Energies</h2>\n<p>The motion in time, with the tissue's own mass.</p>"
-                                    : "<h2>How the solver converged</h2>\n<p>The load is applied smoothly, or all of "
-                                      "it from a coarse cloud's solution on; then the motion is damped until the bound "
-                                      "of the remaining error falls below the tolerance.</p>";
-  return words + "\n<div class=\"plots\">\n" + html + "</div>\n";
+  json section = {{"in_time", in_time}, {"relaxed", !in_time}, {"plots", json::array()}};
+  for (const std::string& plot : content.plots) {
+    section["plots"].push_back({{"svg", plot}});
+  }
+  return section;
+}
+
+json stages_of(const json& stages) {
+  json list = json::array();
+  for (const char* name : {"segment", "discretise", "solve", "register"}) {
+    if (stages.contains(name)) {
+      const json& entry = stages.at(name);
+      const auto text = [&](const char* key) { return entry.contains(key) ? value_text(entry[key]) : std::string(); };
+      list.push_back({{"stage", name},
+                      {"status", entry.value("status", "")},
+                      {"seconds", text("seconds")},
+                      {"memory", text("peak_memory_mb")},
+                      {"sizes", pairs(entry.value("sizes", json::object()))}});
+    }
+  }
+  return list;
 }
 
 }  // namespace
 
-std::string make_page(const PageContent& content) {
-  const std::vector<MeasureRow> measures = quality_measures(content.record);
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n<meta name=\"viewport\" "
-         "content=\"width=device-width, initial-scale=1\"/>\n<title>Brain shift</title>\n<style>" +
-         style_sheet() + "</style></head>\n<body>\n" + header(content) + tiles(content, measures) +
-         comparison_section(content) + displacement_section(content) + "<h2>Quality</h2>\n" + measures_html(measures) +
-         convergence_section(content) + "<h2>Stages</h2>\n" + stages_html(content.record) + "<h2>Parameters</h2>\n" +
-         options_html(content.record) + "<details><summary>Every measure of run.json</summary>\n" +
-         all_measures_html(content.record) +
-         "</details>\n<footer>Made by brainshift, for research. It is no medical device.</footer>\n</body></html>\n";
+std::string make_page(PageContent content) {
+  const json& record = content.record;
+  const std::vector<MeasureRow> measures = quality_measures(record);
+  const json stages = record.value("stages", json::object());
+  json options = json::array(), all_measures = json::array();
+  const json elements = record.value("options", json::object());
+  for (const auto& [element, values] : elements.items()) {
+    options.push_back(row_of_groups(element, values));
+  }
+  for (const auto& [stage, entry] : stages.items()) {
+    all_measures.push_back(row_of_groups(stage, entry.value("measures", json::object())));
+  }
+  return fill_page(page_html(), {{"scene", std::filesystem::path(record.value("scene", "")).filename().string()},
+                                 {"version", record.value("version", "")},
+                                 {"threads", readable(record.value("threads", 1))},
+                                 {"simulated", elements.contains("load.simulated")},
+                                 {"failures", failures(stages)},
+                                 {"no_image", !content.has_image},
+                                 {"tiles", tiles(content, stages, measures)},
+                                 {"comparison", comparison(content.comparisons, content.blink)},
+                                 {"displacement", displacement(content)},
+                                 {"measures", measures_of(measures)},
+                                 {"convergence", convergence(content)},
+                                 {"stages", stages_of(stages)},
+                                 {"options", std::move(options)},
+                                 {"all_measures", std::move(all_measures)}});
 }
 
 }  // namespace brainshift::pipelines

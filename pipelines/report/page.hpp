@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/report/html.hpp"
+#include "pipelines/report/measure_table.hpp"
+#include "pipelines/report/slice_figures.hpp"
 
 namespace brainshift::pipelines {
 
@@ -12,16 +13,19 @@ namespace brainshift::pipelines {
 struct PageContent {
   nlohmann::json record;  ///< run.json
   bool has_image = false;
-  double largest_displacement = 0;        ///< mm
-  double arrow_factor = 1;                ///< arrows are drawn so many times too long
-  std::vector<PageFigure> comparisons;    ///< before, after, difference; three a plane
-  std::vector<PageFigure> displacements;  ///< one a plane
-  std::vector<PageFigure> surfaces;       ///< none or one
-  std::vector<std::string> plots;         ///< SVG elements
-  std::size_t blink = 0;                  ///< index in comparisons of the "before" that fades into "after"
+  double largest_displacement = 0;         ///< mm
+  double arrow_factor = 1;                 ///< arrows are drawn so many times too long
+  std::vector<Figure> comparisons = {};    ///< before, after, difference; three a plane
+  std::vector<Figure> displacements = {};  ///< one a plane
+  std::vector<Figure> surfaces = {};       ///< none or one
+  std::vector<std::string> plots = {};     ///< SVG text
+  std::size_t blink = 0;                   ///< index in comparisons of the "before" that fades into "after"
 };
 
 /// The whole page.
-std::string make_page(const PageContent& content);
+std::string make_page(PageContent content);
+
+/// The text of page.html, to be filled.
+const char* page_html();
 
 }  // namespace brainshift::pipelines

@@ -4,27 +4,32 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
 
-#include "pipelines/report/canvas.hpp"
+#include "pipelines/report/measure_table.hpp"
+#include "pipelines/report/svg.hpp"
 
 namespace brainshift::pipelines {
 
 namespace {
 
-constexpr int width = 900, height = 560, left = 100, right = 30, top = 60, bottom = 70;
+using Eigen::Vector2d;
+
+constexpr int width = 680, height = 440, left = 80, right = 24, bottom = 58;
+constexpr int title_height = 40, key_height = 20;
+constexpr Colour grid = {225, 225, 225}, phase_fill = {238, 242, 247}, level_stroke = {179, 38, 30};
 constexpr std::array<Colour, 6> colours = {
     {{20, 90, 170}, {210, 90, 20}, {40, 140, 60}, {150, 40, 140}, {110, 110, 110}, {190, 160, 0}}};
 
-/// One axis: from values to pixels, with round ticks.
+// One axis: from values to a share of its length, with round ticks.
 struct Axis {
+  bool logarithmic = false;
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
-  bool logarithmic = false;
 
+  bool shows(double value) const { return std::isfinite(value) && !(logarithmic && value <= 0); }
   double at(double value) const { return logarithmic ? std::log10(value) : value; }
   void include(double value) {
     low = std::min(low, at(value));
@@ -32,86 +37,134 @@ struct Axis {
   }
   double share(double value) const { return high > low ? (at(value) - low) / (high - low) : 0.5; }
 
-  std::vector<double> ticks() const {
+  std::vector<double> candidates() const {
     std::vector<double> ticks;
+    if (!(high > low)) {
+      return ticks;
+    }
     if (logarithmic) {
+      const bool decades_alone = high - low > 3;
       for (double decade = std::floor(low); decade <= high + 1; ++decade) {
         for (const double digit : {1.0, 2.0, 5.0}) {
-          ticks.push_back(digit * std::pow(10, decade));
+          if (digit == 1 || !decades_alone) {
+            ticks.push_back(digit * std::pow(10, decade));
+          }
         }
       }
-    } else {
-      const double rough = (high - low) / 5, power = std::pow(10, std::floor(std::log10(rough)));
-      const double step = power * (rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10);
-      for (double tick = std::ceil(low / step) * step; tick <= high + step / 1000; tick += step) {
-        ticks.push_back(std::abs(tick) < step / 1000 ? 0 : tick);
-      }
+      return ticks;
     }
+    const double rough = (high - low) / 5, power = std::pow(10, std::floor(std::log10(rough)));
+    const double step = power * (rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10);
+    for (double tick = std::ceil(low / step) * step; tick <= high + step / 1000; tick += step) {
+      ticks.push_back(std::abs(tick) < step / 1000 ? 0 : tick);
+    }
+    return ticks;
+  }
+
+  std::vector<double> ticks() const {
+    std::vector<double> ticks = candidates();
     std::erase_if(ticks, [this](double t) { return share(t) < -1e-9 || share(t) > 1 + 1e-9; });
     return ticks;
   }
 };
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+struct Frame {
+  Axis x, y;
+  int top;
 
-Eigen::Vector2d place(const Axis& x, const Axis& y, double a, double b) {
-  return {left + x.share(a) * (width - left - right), height - bottom - y.share(b) * (height - top - bottom)};
-}
+  double x_of(double value) const { return left + x.share(value) * (width - left - right); }
+  double y_of(double value) const { return height - bottom - y.share(value) * (height - top - bottom); }
+};
 
-void draw_axes(Canvas& canvas, const Axis& x, const Axis& y, const Plot& plot) {
-  constexpr Colour grid = {225, 225, 225};
-  for (const double tick : x.ticks()) {
-    const double px = left + x.share(tick) * (width - left - right);
-    draw_line(canvas, {px, top}, {px, height - bottom}, 1, grid);
-    draw_text(canvas, {px, height - bottom + 16}, number(tick), {.size = 14, .anchor = Anchor::centre});
+Frame frame_of(const Plot& plot) {
+  const auto rows = static_cast<int>((plot.series.size() + 1) / 2);  // the key has two columns
+  Frame frame{.x = {.logarithmic = plot.scale == Scale::log_log},
+              .y = {.logarithmic = plot.scale != Scale::linear},
+              .top = title_height + key_height * rows + (plot.y_label.empty() ? 0 : key_height)};
+  for (const Series& series : plot.series) {
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      if (frame.x.shows(series.x[i]) && frame.y.shows(series.y[i])) {
+        frame.x.include(series.x[i]);
+        frame.y.include(series.y[i]);
+      }
+    }
   }
-  for (const double tick : y.ticks()) {
-    const double py = height - bottom - y.share(tick) * (height - top - bottom);
-    draw_line(canvas, {left, py}, {width - right, py}, 1, grid);
-    draw_text(canvas, {left - 8.0, py}, number(tick), {.size = 14, .anchor = Anchor::right});
+  if (plot.level && frame.y.shows(plot.level->y)) {
+    frame.y.include(plot.level->y);
   }
-  draw_line(canvas, {left, top}, {left, height - bottom}, 1.5, colour::ink);
-  draw_line(canvas, {left, height - bottom}, {width - right, height - bottom}, 1.5, colour::ink);
-  draw_text(canvas, {width / 2.0, 22}, plot.title, {.size = 18, .anchor = Anchor::centre, .bold = true});
-  draw_text(canvas, {width / 2.0, height - 22.0}, plot.x_label, {.size = 16, .anchor = Anchor::centre});
-  draw_text(canvas, {10, 44}, plot.y_label, {.size = 16});
+  return frame;
 }
 
-void draw_series(Canvas& canvas, const Axis& x, const Axis& y, const Series& series, const Colour& colour, int row) {
+void draw_axes(Svg& svg, const Frame& frame, const Plot& plot) {
+  for (const double tick : frame.x.ticks()) {
+    const double x = frame.x_of(tick);
+    svg.line({x, frame.top}, {x, height - bottom}, {.colour = grid});
+    svg.text({x, height - bottom + 16}, readable(tick), {.size = 13, .anchor = Anchor::centre});
+  }
+  for (const double tick : frame.y.ticks()) {
+    const double y = frame.y_of(tick);
+    svg.line({left, y}, {width - right, y}, {.colour = grid});
+    svg.text({left - 8, y}, readable(tick), {.size = 13, .anchor = Anchor::right});
+  }
+  svg.line({left, frame.top}, {left, height - bottom}, {.width = 1.5});
+  svg.line({left, height - bottom}, {width - right, height - bottom}, {.width = 1.5});
+  svg.text({width / 2.0, 22}, plot.title, {.size = 16, .anchor = Anchor::centre, .bold = true});
+  svg.text({(left + width - right) / 2.0, height - 18}, plot.x_label, {.anchor = Anchor::centre});
+  svg.text({12, frame.top - 14}, plot.y_label, {});
+}
+
+void draw_series(Svg& svg, const Frame& frame, const Series& series, const Colour& colour) {
+  std::vector<Vector2d> places;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
-    const Eigen::Vector2d here = place(x, y, series.x[i], series.y[i]);
-    if (i > 0 && series.joined) {
-      draw_line(canvas, place(x, y, series.x[i - 1], series.y[i - 1]), here, 2, colour);
-    }
-    if (series.x.size() < 40 || !series.joined) {
-      draw_line(canvas, here, here, 7, colour);
+    if (frame.x.shows(series.x[i]) && frame.y.shows(series.y[i])) {
+      places.emplace_back(frame.x_of(series.x[i]), frame.y_of(series.y[i]));
     }
   }
-  const double line = top + 18.0 + 22.0 * row;
-  draw_line(canvas, {left + 20.0, line}, {left + 50.0, line}, 3, colour);
-  draw_text(canvas, {left + 58.0, line}, series.name, {.size = 15});
+  if (series.joined) {
+    svg.polyline(places, {.colour = colour, .width = 2});
+  }
+  if (!series.joined || places.size() < 40) {  // more on a line would hide it
+    for (const Vector2d& place : places) {
+      svg.dot(place, 3, colour);
+    }
+  }
+}
+
+void draw_key(Svg& svg, const Series& series, const Colour& colour, std::size_t place) {
+  const double x = left + static_cast<double>(place % 2) * 0.5 * (width - left - right);
+  const double y = title_height + 4 + key_height * static_cast<double>(place / 2);
+  svg.line({x, y}, {x + 22, y}, {.colour = colour, .width = 3});
+  svg.text({x + 30, y}, series.name, {.size = 13});
 }
 
 }  // namespace
 
-void draw(const std::filesystem::path& folder, const Plot& plot) {
-  Axis x{.logarithmic = plot.logarithmic}, y{.logarithmic = plot.logarithmic};
-  for (const Series& s : plot.series) {
-    std::for_each(s.x.begin(), s.x.end(), [&x](double v) { x.include(v); });
-    std::for_each(s.y.begin(), s.y.end(), [&y](double v) { y.include(v); });
+std::string plot_svg(const Plot& plot) {
+  const Frame frame = frame_of(plot);
+  Svg svg(plot.file, plot.title, width, height);
+  svg.rectangle({0, 0}, {width, height}, colour::white);
+  if (plot.phase) {
+    const double from = frame.x_of(plot.phase->from), to = frame.x_of(plot.phase->to);
+    svg.rectangle({from, frame.top}, {to - from, height - bottom - frame.top}, phase_fill);
+    svg.text({from + 8, height - bottom - 12}, plot.phase->name, {.size = 13});
   }
-  Canvas canvas(width, height, colour::white);
-  draw_axes(canvas, x, y, plot);
+  draw_axes(svg, frame, plot);
+  if (plot.level && frame.y.shows(plot.level->y)) {
+    const double y = frame.y_of(plot.level->y);
+    svg.line({left, y}, {width - right, y}, {.colour = level_stroke, .width = 1.2, .dashed = true});
+    svg.text({width - right, y - 10}, plot.level->name, {.size = 13, .anchor = Anchor::right});
+  }
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    draw_series(canvas, x, y, plot.series[i], colours[i % colours.size()], static_cast<int>(i));
+    draw_series(svg, frame, plot.series[i], colours[i % colours.size()]);
+    draw_key(svg, plot.series[i], colours[i % colours.size()], i);
   }
-  const std::filesystem::path file = folder / (plot.file + ".png");
+  return std::move(svg).str();
+}
+
+void draw(const std::filesystem::path& folder, const Plot& plot) {
+  const std::filesystem::path file = folder / (plot.file + ".svg");
   std::ofstream out(file, std::ios::binary);
-  out << encode_png(canvas);
+  out << plot_svg(plot);
   if (!out.flush()) {
     throw std::runtime_error(file.string() + ": cannot be written");
   }

@@ -6,6 +6,7 @@
 
 #include "pipelines/report/canvas.hpp"
 #include "pipelines/report/colour_scale.hpp"
+#include "pipelines/report/svg.hpp"
 #include "segmentation/geometry/surface.hpp"
 
 namespace brainshift::pipelines {
@@ -25,21 +26,21 @@ struct Camera {
 /// Looks at a point; `up` is the patient's superior direction, or anterior where one looks along it.
 Camera look_at(const Eigen::Vector3d& target, const Eigen::Vector3d& towards, double scale, int width, int height);
 
-/// A picture with the depth of what is drawn in each pixel.
+/// A picture with the depth of what is drawn in it.
 struct DepthCanvas {
   Canvas canvas;
-  std::vector<double> depth;  ///< mm, infinite where nothing is drawn
+  std::vector<double> depth;  ///< mm, `sampling` × `sampling` values a pixel; infinite where nothing is drawn
+  static constexpr int sampling = 2;
 };
 
-/// Draws a surface, one value a vertex as its colour, shaded by smooth normals with the light at the camera's shoulder.
-/// What is hidden is not seen (z-buffer).
+/// Draws a surface, one value a vertex as its colour, shaded by smooth normals with the light at the camera's shoulder,
+/// with soft edges. What is hidden is not seen (z-buffer). By hand because VTK's renderer needs OpenGL, thus a display
+/// or a driver, and SVG knows no depth.
 DepthCanvas draw_surface(const Camera& camera, const Surface& surface, const std::vector<double>& values,
                          const ColourScale& scale);
 
-/// Draws a line in space where the surface does not hide it; points up to 2 mm behind the surface are on it.
-void draw_line_on(DepthCanvas& picture, const Camera& camera, const Points& line, double width, const Colour& stroke);
-
-/// Half the size, every pixel the mean of four: soft edges.
-Canvas halve(const Canvas& canvas);
+/// The parts of a line in space that the surface does not hide, in the picture; points up to 2 mm behind the surface
+/// are on it.
+std::vector<Segment> visible_parts(const DepthCanvas& picture, const Camera& camera, const Points& line);
 
 }  // namespace brainshift::pipelines

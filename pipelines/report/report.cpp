@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/report/report.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <future>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -28,25 +30,6 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
   }
 }
 
-using Keeping = std::vector<std::future<PageFigure>>;
-
-// Written as a file, and kept for the page, while the next one is drawn.
-void keep(Figure drawn, const fs::path& out, Keeping& figures) {
-  figures.push_back(std::async(std::launch::async, [figure = std::move(drawn), out] {
-    PageFigure kept{figure.name, figure.alt, figure.picture.width, encode_png(figure.picture)};
-    write_bytes(out / (figure.name + ".png"), kept.png);
-    return kept;
-  }));
-}
-
-std::vector<PageFigure> kept(Keeping figures) {
-  std::vector<PageFigure> result;
-  for (std::future<PageFigure>& figure : figures) {
-    result.push_back(figure.get());
-  }
-  return result;
-}
-
 // The plane in which most of the load's direction lies shows the shift best.
 std::size_t most_telling_plane(const View& view) {
   std::size_t best = 0;
@@ -66,26 +49,29 @@ double tolerance_of(const nlohmann::json& record) {
   return value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
 }
 
-void draw_pictures(const RunData& run, const fs::path& out, PageContent& content, const Progress& progress) {
+// The pictures do not depend on each other: one is drawn while another's PNG is compressed.
+void draw_pictures(const RunData& run, PageContent& content, const Progress& progress) {
   const View view = make_view(run);
   content.arrow_factor = arrow_factor(view);
   content.largest_displacement = run.solution->displacement.rowwise().norm().maxCoeff();
-  Keeping comparisons, displacements, surfaces;
-  for (std::size_t i = 0; i < view.planes.size(); ++i) {
-    report(progress, 0.3 + 0.2 * static_cast<double>(i), "drawing the " + view.planes[i].name + " slice");
-    if (run.t1 && run.warped) {
-      for (Figure& figure : comparison_figures(run, view, view.planes[i])) {
-        keep(std::move(figure), out, comparisons);
-      }
-    }
-    keep(displacement_figure(run, view, view.planes[i]), out, displacements);
-  }
   content.blink = 3 * most_telling_plane(view);
-  report(progress, 0.9, "drawing the surface");
-  keep(surface_figure(run, view), out, surfaces);
-  content.comparisons = kept(std::move(comparisons));
-  content.displacements = kept(std::move(displacements));
-  content.surfaces = kept(std::move(surfaces));
+  std::vector<std::future<std::vector<Figure>>> comparisons;
+  std::vector<std::future<Figure>> displacements;
+  for (const SlicePlane& plane : view.planes) {
+    if (run.t1 && run.warped) {
+      comparisons.push_back(std::async(std::launch::async, [&] { return comparison_figures(run, view, plane); }));
+    }
+    displacements.push_back(std::async(std::launch::async, [&] { return displacement_figure(run, view, plane); }));
+  }
+  report(progress, 0.3, "drawing the surface");
+  content.surfaces.push_back(surface_figure(run, view));
+  report(progress, 0.6, "drawing the slices");
+  for (auto& figures : comparisons) {
+    std::ranges::move(figures.get(), std::back_inserter(content.comparisons));
+  }
+  for (auto& figure : displacements) {
+    content.displacements.push_back(figure.get());
+  }
 }
 
 }  // namespace
@@ -102,15 +88,20 @@ void write_report(const fs::path& run_folder, const fs::path& out, const Progres
   content.record = run.record;
   content.has_image = run.t1.has_value() && run.warped.has_value();
   if (run.brain && run.solution) {
-    draw_pictures(run, out, content, progress);
+    draw_pictures(run, content, progress);
   }
-  for (const std::string& plot :
-       {convergence_plot(run.history, tolerance_of(run.record)), energy_plot(run.history, dynamics_of(run.record))}) {
-    if (!plot.empty()) {
-      content.plots.push_back(plot);
+  for (const std::vector<Figure>* figures : {&content.comparisons, &content.displacements, &content.surfaces}) {
+    for (const Figure& figure : *figures) {
+      write_bytes(out / (figure.name + ".svg"), figure.svg);
     }
   }
-  write_bytes(out / "index.html", make_page(content));
+  for (const std::optional<Plot>& plot :
+       {convergence_plot(run.history, tolerance_of(run.record)), energy_plot(run.history, dynamics_of(run.record))}) {
+    if (plot) {
+      content.plots.push_back(plot_svg(*plot));
+    }
+  }
+  write_bytes(out / "index.html", make_page(std::move(content)));
   report(progress, 1, "done");
 }
 

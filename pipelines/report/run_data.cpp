@@ -6,11 +6,11 @@
 #include <fstream>
 #include <future>
 #include <map>
-#include <nanoflann.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/files/text_lines.hpp"
+#include "segmentation/geometry/point_tree.hpp"
 #include "solve/output/field_difference.hpp"
 #include "solve/output/solution_file.hpp"
 
@@ -49,15 +49,6 @@ auto read_if_there(const fs::path& file, const Read& read) {
   return !file.empty() && fs::exists(file) ? std::optional<Content>(read(file)) : std::nullopt;
 }
 
-std::vector<std::string> fields_of(const std::string& line) {
-  std::istringstream stream(line);
-  std::vector<std::string> fields;
-  for (std::string field; std::getline(stream, field, ',');) {
-    fields.push_back(field);
-  }
-  return fields;
-}
-
 // Columns that are not known are left out.
 void set_column(solve::HistoryRow& row, const std::string& name, double value) {
   static const std::map<std::string, double solve::HistoryRow::*> columns = {
@@ -77,8 +68,6 @@ void set_column(solve::HistoryRow& row, const std::string& name, double value) {
     row.step = static_cast<int>(value);
   }
 }
-
-using Tree = nanoflann::KDTreeEigenMatrixAdaptor<Points, 3, nanoflann::metric_L2_Simple>;
 
 }  // namespace
 
@@ -115,29 +104,26 @@ solve::Dynamics dynamics_of(const json& record) {
 }
 
 std::vector<solve::HistoryRow> read_history(const fs::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  const std::vector<std::string> names = fields_of(line);
+  const std::vector<std::string> lines = read_lines(file);
+  const std::vector<std::string> names = split_fields(lines[0]);
   for (const char* needed : {"step", "time"}) {
     if (std::find(names.begin(), names.end(), needed) == names.end()) {
-      throw std::invalid_argument(file.string() + ", line 1: there is no column '" + needed + "'");
+      fail_at_line(file, 1, std::string("there is no column '") + needed + "'");
     }
   }
   std::vector<solve::HistoryRow> rows;
-  for (int number = 2; std::getline(stream, line); ++number) {
-    const std::vector<std::string> fields = fields_of(line);
+  for (std::size_t number = 2; number <= lines.size(); ++number) {
+    const std::string& line = lines[number - 1];
+    const std::vector<std::string> fields = split_fields(line);
     if (fields.size() != names.size()) {
-      throw std::invalid_argument(file.string() + ", line " + std::to_string(number) + ": " +
-                                  std::to_string(names.size()) + " numbers expected, found '" + line + "'");
+      fail_at_line(file, number, std::to_string(names.size()) + " numbers expected, found '" + line + "'");
     }
     solve::HistoryRow& row = rows.emplace_back();
     for (std::size_t i = 0; i < fields.size(); ++i) {
       char* end = nullptr;
-      const double value = std::strtod(fields[i].c_str(), &end);  // reads nan too, which streams do not
+      const double value = std::strtod(fields[i].c_str(), &end);  // not parse_number(): a row may hold nan and inf
       if (end == fields[i].c_str() || *end != '\0') {
-        throw std::invalid_argument(file.string() + ", line " + std::to_string(number) + ": " + names[i] + " is '" +
-                                    fields[i] + "', but must be a number");
+        fail_at_line(file, number, names[i] + " is '" + fields[i] + "', but must be a number");
       }
       set_column(row, names[i], value);
     }
@@ -158,18 +144,18 @@ Points loaded_positions(const Solution& solution) {
 
 Points displacement_at(const Solution& solution, const Points& points) {
   constexpr std::size_t neighbours = 8;
-  const Tree tree(3, std::cref(solution.positions), 10);
+  const PointTree tree(solution.positions);
   Points result(points.rows(), 3);
 #pragma omp parallel for schedule(static)
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    std::array<Eigen::Index, neighbours> index{};
+    std::array<std::size_t, neighbours> index{};
     std::array<double, neighbours> squared{};
-    const auto found = tree.index->knnSearch(points.row(i).data(), neighbours, index.data(), squared.data());
+    const auto found = tree.nearest(points.row(i).data(), neighbours, index.data(), squared.data());
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     double weights = 0;
     for (std::size_t n = 0; n < found; ++n) {
       const double weight = 1.0 / (squared[n] + 1e-12);
-      sum += weight * solution.displacement.row(index[n]);
+      sum += weight * solution.displacement.row(static_cast<Eigen::Index>(index[n]));
       weights += weight;
     }
     result.row(i) = sum / weights;

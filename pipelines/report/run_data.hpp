@@ -39,7 +39,7 @@ std::vector<solve::HistoryRow> read_history(const std::filesystem::path& file);
 Points loaded_positions(const Solution& solution);
 
 /// The solution's displacement at points: weights 1 / distance² over the eight nearest nodes; a node's own value at a
-/// node. For pictures: the register stage has the field proper.
+/// node. For pictures, as the shape functions of the solution need not exist at vertices that lie off its cloud.
 Points displacement_at(const Solution& solution, const Points& points);
 
 }  // namespace brainshift::pipelines

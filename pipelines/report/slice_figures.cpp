@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "register/warp/warp.hpp"
 #include "solve/output/field_difference.hpp"
 
 namespace brainshift::pipelines {
@@ -19,35 +21,54 @@ constexpr Colour opening_colour = {70, 235, 110};
 constexpr int bar_width = 96;  // pixels to the right of a picture with a colour bar
 
 // Grey as radiologists see it; where the image has no value, or there is none, nearly black.
-void draw_grey(Canvas& canvas, const View& view, const SlicePlane& plane, const std::vector<float>& values,
-               double brightness) {
-  for (int y = 0; y < plane.height; ++y) {
-    for (int x = 0; x < plane.width; ++x) {
-      const double value = values[static_cast<std::size_t>(y * plane.width + x)];
-      const double relative = (value - view.darkest) / (view.brightest - view.darkest);
-      const double grey = std::isfinite(relative) ? std::clamp(relative, 0.0, 1.0) : 0.0;
-      const auto level = static_cast<std::uint8_t>(std::lround(255 * brightness * grey));
-      canvas.at(x, y) = {level, level, level};
-    }
-  }
+Canvas grey(const View& view, const SlicePlane& plane, const std::vector<float>& values, double brightness) {
+  Canvas canvas(plane.width, plane.height, colour::black);
+  std::ranges::transform(values, canvas.pixels.begin(), [&](float value) {
+    const double relative = (static_cast<double>(value) - view.darkest) / (view.brightest - view.darkest);
+    const double shade = std::isfinite(relative) ? std::clamp(relative, 0.0, 1.0) : 0.0;
+    const auto level = static_cast<std::uint8_t>(std::lround(255 * brightness * shade));
+    return Colour{level, level, level};
+  });
+  return canvas;
 }
 
-void draw_orientation(Canvas& canvas, const SlicePlane& plane) {
+// A picture that shows a plane: its pixels, to be lined and lettered, and room for a colour bar where one is wanted.
+struct Sheet {
+  const SlicePlane& plane;
+  std::string name;
+  int width;
+  Svg svg;
+
+  Sheet(const SlicePlane& plane_, const std::string& what, const std::string& label, const Canvas& pixels, int bar)
+      : plane(plane_),
+        name(plane_.name + "_" + what),
+        width(plane_.width + bar),
+        svg(name, label + ", " + plane_.name + " slice", width, plane_.height) {
+    svg.rectangle({0, 0}, {width, plane.height}, colour::black);
+    svg.image(pixels, {0, 0});
+  }
+};
+
+void draw_colours(Sheet& sheet, const ColourScale& scale) {
+  draw_colour_bar(sheet.svg, scale, {sheet.plane.width + 8, 70}, sheet.plane.height - 140, colour::white);
+}
+
+// The sides of the patient, a scale and the title: the last that is drawn.
+Figure lettered(Sheet sheet, const std::string& title) {
+  const SlicePlane& plane = sheet.plane;
   const double w = plane.width;
   const double h = plane.height;
   const Vector2d places[] = {{14, h / 2}, {w - 14, h / 2}, {w / 2, 14}, {w / 2, h - 14}};
   for (std::size_t side = 0; side < 4; ++side) {
-    draw_text(canvas, places[side], std::string(1, plane.letters[side]),
-              {.size = 19, .fill = colour::white, .anchor = Anchor::centre, .bold = true, .halo = true});
+    sheet.svg.text(places[side], std::string(1, plane.letters[side]),
+                   {.size = 19, .fill = colour::white, .anchor = Anchor::centre, .bold = true, .halo = true});
   }
   const double length = 20 * plane.scale;
-  draw_line(canvas, {w - 14 - length, h - 16}, {w - 14, h - 16}, 3, colour::white);
-  draw_text(canvas, {w - 14 - length / 2, h - 30}, "20 mm",
-            {.size = 14, .fill = colour::white, .anchor = Anchor::centre, .halo = true});
-}
-
-void draw_title(Canvas& canvas, const std::string& title) {
-  draw_text(canvas, {10, 16}, title, {.size = 17, .fill = colour::white, .bold = true, .halo = true});
+  sheet.svg.line({w - 14 - length, h - 16}, {w - 14, h - 16}, {.colour = colour::white, .width = 3});
+  sheet.svg.text({w - 14 - length / 2, h - 30}, "20 mm",
+                 {.fill = colour::white, .anchor = Anchor::centre, .halo = true});
+  sheet.svg.text({10, 16}, title, {.size = 17, .fill = colour::white, .bold = true, .halo = true});
+  return {sheet.name, sheet.width, plane.height, std::move(sheet.svg).str()};
 }
 
 bool in_opening(const View& view, const Vector3d& place) {
@@ -55,59 +76,43 @@ bool in_opening(const View& view, const Vector3d& place) {
          (view.opening.rowwise() - place.transpose()).rowwise().norm().minCoeff() < view.opening_reach;
 }
 
-void draw_outline(Canvas& canvas, const std::vector<CutSegment>& outline, const Colour& stroke) {
-  for (const auto& segment : outline) {
-    draw_line(canvas, segment.from, segment.to, 1.2, stroke);
-  }
-}
-
-void draw_opening(Canvas& canvas, const View& view, const SlicePlane& plane, const std::vector<CutSegment>& outline) {
-  for (const auto& segment : outline) {
-    if (in_opening(view, plane.world(0.5 * (segment.from + segment.to)))) {
-      draw_line(canvas, segment.from, segment.to, 4, opening_colour);
-    }
-  }
+// The brain's surface before, and the part of it that lies in the opening.
+void draw_before(Sheet& sheet, const View& view, const std::vector<Segment>& outline) {
+  std::vector<Segment> opening;
+  std::ranges::copy_if(outline, std::back_inserter(opening), [&](const Segment& segment) {
+    return in_opening(view, sheet.plane.world(0.5 * (segment.from + segment.to)));
+  });
+  sheet.svg.lines(outline, {.colour = preop_colour, .width = 1.2});
+  sheet.svg.lines(opening, {.colour = opening_colour, .width = 4});
 }
 
 Figure before_figure(const View& view, const SlicePlane& plane, const std::vector<float>& values,
-                     const std::vector<CutSegment>& outline) {
-  Canvas canvas(plane.width, plane.height, colour::black);
-  draw_grey(canvas, view, plane, values, 1);
-  draw_outline(canvas, outline, preop_colour);
-  draw_opening(canvas, view, plane, outline);
-  draw_title(canvas, "before");
-  draw_orientation(canvas, plane);
-  return {plane.name + "_before", "Preoperative image, " + plane.name + " slice", std::move(canvas)};
+                     const std::vector<Segment>& outline) {
+  Sheet sheet(plane, "before", "Preoperative image", grey(view, plane, values, 1), 0);
+  draw_before(sheet, view, outline);
+  return lettered(std::move(sheet), "before");
 }
 
 Figure after_figure(const View& view, const SlicePlane& plane, const std::vector<float>& values,
-                    const std::vector<CutSegment>& outline) {
-  Canvas canvas(plane.width, plane.height, colour::black);
-  draw_grey(canvas, view, plane, values, 1);
-  draw_outline(canvas, outline, preop_colour);
-  draw_outline(canvas, cut_surface(plane, view.deformed), intraop_colour);
-  draw_title(canvas, "after");
-  draw_orientation(canvas, plane);
-  return {plane.name + "_after", "Image warped to the intraoperative brain, " + plane.name + " slice",
-          std::move(canvas)};
+                    const std::vector<Segment>& outline) {
+  Sheet sheet(plane, "after", "Image warped to the intraoperative brain", grey(view, plane, values, 1), 0);
+  sheet.svg.lines(outline, {.colour = preop_colour, .width = 1.2});
+  sheet.svg.lines(cut_surface(plane, view.deformed), {.colour = intraop_colour, .width = 1.2});
+  return lettered(std::move(sheet), "after");
 }
 
 Figure difference_figure(const View& view, const SlicePlane& plane, const std::vector<float>& before,
                          const std::vector<float>& after) {
   const double reach = 0.5 * (view.brightest - view.darkest);
   const ColourScale scale{.map = ColourMap::diverging, .low = -100, .high = 100, .title = "% of range"};
-  Canvas canvas(plane.width + bar_width, plane.height, colour::black);
-  for (int y = 0; y < plane.height; ++y) {
-    for (int x = 0; x < plane.width; ++x) {
-      const auto i = static_cast<std::size_t>(y * plane.width + x);
-      const double change = static_cast<double>(after[i]) - static_cast<double>(before[i]);
-      canvas.at(x, y) = scale.colour_of(std::isfinite(change) ? 50 * change / reach : 0);
-    }
+  Canvas canvas(plane.width, plane.height, colour::black);
+  for (std::size_t i = 0; i < canvas.pixels.size(); ++i) {
+    const double change = static_cast<double>(after[i]) - static_cast<double>(before[i]);
+    canvas.pixels[i] = scale.colour_of(std::isfinite(change) ? 50 * change / reach : 0);
   }
-  draw_colour_bar(canvas, scale, plane.width + 8, 70, plane.height - 140, colour::white);
-  draw_title(canvas, "after - before");
-  draw_orientation(canvas, plane);
-  return {plane.name + "_difference", "Brightness after minus before, " + plane.name + " slice", std::move(canvas)};
+  Sheet sheet(plane, "difference", "Brightness after minus before", canvas, bar_width);
+  draw_colours(sheet, scale);
+  return lettered(std::move(sheet), "after - before");
 }
 
 // Displacements of the pixels that the mask selects, in its order.
@@ -121,13 +126,8 @@ Points displacement_of_pixels(const RunData& run, const SlicePlane& plane, const
       }
     }
   }
-  if (!run.forward) {
-    return displacement_at(*run.solution, places);
-  }
-  for (auto place : places.rowwise()) {
-    place = sample_field(*run.forward, place.transpose()).transpose().eval();
-  }
-  return places;
+  return run.forward ? registration::move_points(*run.forward, places) - places
+                     : displacement_at(*run.solution, places);
 }
 
 // Where nothing moves the image is seen as it is.
@@ -135,13 +135,17 @@ double opacity(const View& view, double shift, bool over_image) {
   return over_image ? 0.7 * std::min(1.0, 5 * shift / view.shift.high) : 0.9;
 }
 
-void draw_shift_arrow(Canvas& canvas, const SlicePlane& plane, const Vector2d& from, const Vector2d& in_plane) {
-  const Vector2d to = from + plane.scale * in_plane;
-  if ((to - from).norm() < 2) {
-    return;
+void draw_arrows(Svg& svg, const std::vector<Segment>& shifts) {
+  for (const Stroke& stroke :
+       {Stroke{.colour = {20, 20, 24}, .width = 2.6}, Stroke{.colour = colour::white, .width = 1.4}}) {
+    std::vector<Segment> lines;
+    for (const auto& [from, to] : shifts) {
+      if ((to - from).norm() >= 2) {
+        std::ranges::copy(arrow(from, to, stroke.width), std::back_inserter(lines));
+      }
+    }
+    svg.lines(lines, stroke);
   }
-  draw_arrow(canvas, from, to, 2.6, {20, 20, 24});
-  draw_arrow(canvas, from, to, 1.4, colour::white);
 }
 
 }  // namespace
@@ -169,14 +173,12 @@ double arrow_factor(const View& view) {
 
 Figure displacement_figure(const RunData& run, const View& view, const SlicePlane& plane) {
   constexpr int arrow_distance = 22;  // pixels
-  Canvas canvas(plane.width + bar_width, plane.height, colour::black);
-  if (run.t1) {
-    draw_grey(canvas, view, plane, sample_slice(plane, *run.t1), 0.85);
-  }
+  Canvas canvas =
+      run.t1 ? grey(view, plane, sample_slice(plane, *run.t1), 0.85) : Canvas(plane.width, plane.height, colour::black);
   const auto outline = cut_surface(plane, *run.brain);
   const auto mask = inside_mask(plane, outline);
   const Points shift = displacement_of_pixels(run, plane, mask);
-  std::vector<std::pair<Vector2d, Vector2d>> arrows;
+  std::vector<Segment> arrows;
   Eigen::Index row = 0;
   for (int y = 0; y < plane.height; ++y) {
     for (int x = 0; x < plane.width; ++x) {
@@ -187,20 +189,17 @@ Figure displacement_figure(const RunData& run, const View& view, const SlicePlan
       canvas.at(x, y) =
           blend(canvas.at(x, y), view.shift.colour_of(u.norm()), opacity(view, u.norm(), run.t1.has_value()));
       if (x % arrow_distance == arrow_distance / 2 && y % arrow_distance == arrow_distance / 2) {
-        arrows.push_back({{x + 0.5, y + 0.5}, arrow_factor(view) * Vector2d(u.dot(plane.right), u.dot(plane.down))});
+        const Vector2d from(x + 0.5, y + 0.5);
+        arrows.push_back(
+            {from, from + plane.scale * arrow_factor(view) * Vector2d(u.dot(plane.right), u.dot(plane.down))});
       }
     }
   }
-  draw_outline(canvas, outline, preop_colour);
-  draw_opening(canvas, view, plane, outline);
-  for (const auto& [from, in_plane] : arrows) {
-    draw_shift_arrow(canvas, plane, from, in_plane);
-  }
-  draw_colour_bar(canvas, view.shift, plane.width + 8, 70, plane.height - 140, colour::white);
-  draw_title(canvas, plane.name);
-  draw_orientation(canvas, plane);
-  return {plane.name + "_displacement", "Displacement as colours and arrows, " + plane.name + " slice",
-          std::move(canvas)};
+  Sheet sheet(plane, "displacement", "Displacement as colours and arrows", canvas, bar_width);
+  draw_before(sheet, view, outline);
+  draw_arrows(sheet.svg, arrows);
+  draw_colours(sheet, view.shift);
+  return lettered(std::move(sheet), plane.name);
 }
 
 }  // namespace brainshift::pipelines

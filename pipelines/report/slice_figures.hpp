@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/report/canvas.hpp"
 #include "pipelines/report/colour_scale.hpp"
 #include "pipelines/report/run_data.hpp"
 #include "pipelines/report/slice_plane.hpp"
@@ -12,10 +11,14 @@
 namespace brainshift::pipelines {
 
 struct Figure {
-  std::string name;  ///< of the file, without its ending
-  std::string alt;   ///< what it shows, for those who cannot see it
-  Canvas picture;
+  std::string name;  ///< of the file, without its ending, and the id of the picture's element
+  int width;         ///< pixels
+  int height;        ///< pixels
+  std::string svg;
 };
+
+/// How far the planes lie under the opening's centre, mm: at the surface itself a plane would only graze the brain.
+constexpr double depth_of_planes = 12;
 
 /// What all pictures of a run share.
 struct View {
@@ -23,7 +26,7 @@ struct View {
   Eigen::Vector3d opening_centre;     ///< on the surface, or the brain's centre where nothing is loaded
   Eigen::Vector3d inward;             ///< unit vector from the opening into the brain
   double opening_reach;               ///< a place nearer than this to a loaded node is in the opening, mm
-  std::array<SlicePlane, 3> planes;   ///< 12 mm under the opening's centre
+  std::array<SlicePlane, 3> planes;   ///< under the opening's centre
   double darkest = 0;                 ///< shown black
   double brightest = 1;               ///< shown white
   Surface deformed;                   ///< the brain's surface, intraop

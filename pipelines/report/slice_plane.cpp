@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+
+#include "segmentation/geometry/grid_cell.hpp"
 
 namespace brainshift::pipelines {
 
@@ -34,36 +35,6 @@ SlicePlane make_plane(const std::string& name, int right_axis, const Vector3d& d
   return plane;
 }
 
-// The eight voxels round a world position and their weights; nothing outside the outermost half voxel.
-struct Cell {
-  Eigen::Array3i base;
-  Vector3d fraction;
-};
-
-std::optional<Cell> find_cell(const ImageGeometry& geometry, const Vector3d& world) {
-  const Vector3d index = geometry.to_index(world);
-  const Vector3d last = (geometry.size - 1).cast<double>().matrix();
-  if (!((index.array() >= -0.5).all() && (index.array() <= last.array() + 0.5).all())) {
-    return std::nullopt;
-  }
-  const Vector3d inside = index.cwiseMax(0.0).cwiseMin(last);
-  const Eigen::Array3i base = inside.array().floor().cast<int>().min((geometry.size - 2).max(0));
-  return Cell{base, inside - base.cast<double>().matrix()};
-}
-
-template <class Add>
-void for_corners(const ImageGeometry& geometry, const Cell& cell, const Add& add) {
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Array3i bit(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    const Eigen::Array3i voxel = (cell.base + bit).min(geometry.size - 1);
-    double weight = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      weight *= bit[axis] == 1 ? cell.fraction[axis] : 1 - cell.fraction[axis];
-    }
-    add(geometry.offset(voxel.x(), voxel.y(), voxel.z()), weight);
-  }
-}
-
 }  // namespace
 
 std::array<SlicePlane, 3> anatomical_planes(const Vector3d& through, const Vector3d& low, const Vector3d& high,
@@ -73,9 +44,9 @@ std::array<SlicePlane, 3> anatomical_planes(const Vector3d& through, const Vecto
           make_plane("sagittal", 1, -Vector3d::UnitZ(), through, low, high, scale)};
 }
 
-std::vector<CutSegment> cut_surface(const SlicePlane& plane, const Surface& surface) {
+std::vector<Segment> cut_surface(const SlicePlane& plane, const Surface& surface) {
   const double level = plane.corner[plane.normal_axis];
-  std::vector<CutSegment> segments;
+  std::vector<Segment> segments;
   for (const auto& triangle : surface.triangles.rowwise()) {
     Vector2d crossing[3];
     int count = 0;
@@ -95,7 +66,7 @@ std::vector<CutSegment> cut_surface(const SlicePlane& plane, const Surface& surf
   return segments;
 }
 
-std::vector<std::uint8_t> inside_mask(const SlicePlane& plane, const std::vector<CutSegment>& segments) {
+std::vector<std::uint8_t> inside_mask(const SlicePlane& plane, const std::vector<Segment>& segments) {
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(plane.height));
   for (const auto& segment : segments) {
     const auto& [upper, lower] = std::minmax(segment.from, segment.to, [](auto& a, auto& b) { return a.y() < b.y(); });
@@ -118,31 +89,22 @@ std::vector<std::uint8_t> inside_mask(const SlicePlane& plane, const std::vector
 }
 
 std::vector<float> sample_slice(const SlicePlane& plane, const ScalarImage& image) {
+  const Eigen::Array3d high = image.geometry.size.cast<double>() - 0.5;
   std::vector<float> values;
   values.reserve(static_cast<std::size_t>(plane.width) * static_cast<std::size_t>(plane.height));
   for (int y = 0; y < plane.height; ++y) {
     for (int x = 0; x < plane.width; ++x) {
-      const auto cell = find_cell(image.geometry, plane.world({x + 0.5, y + 0.5}));
-      double value = cell ? 0 : std::numeric_limits<double>::quiet_NaN();
-      if (cell) {
-        for_corners(image.geometry, *cell,
-                    [&](std::size_t offset, double weight) { value += weight * image.voxels[offset]; });
+      const Vector3d index = image.geometry.to_index(plane.world({x + 0.5, y + 0.5}));
+      if ((index.array() < -0.5).any() || (index.array() > high).any()) {
+        values.push_back(std::numeric_limits<float>::quiet_NaN());
+        continue;
       }
-      values.push_back(static_cast<float>(value));
+      const GridCell cell(image.geometry.size, index);
+      values.push_back(
+          static_cast<float>(cell.interpolate([&image](std::size_t offset) { return image.voxels[offset]; })));
     }
   }
   return values;
-}
-
-Vector3d sample_field(const VectorImage& field, const Vector3d& world) {
-  Vector3d value = Vector3d::Zero();
-  if (const auto cell = find_cell(field.geometry, world)) {
-    for_corners(field.geometry, *cell, [&](std::size_t offset, double weight) {
-      const auto& u = field.voxels[offset];
-      value += weight * Vector3d(u[0], u[1], u[2]);
-    });
-  }
-  return value;
 }
 
 }  // namespace brainshift::pipelines

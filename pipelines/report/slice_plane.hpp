@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/report/svg.hpp"
 #include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
 
@@ -38,22 +39,13 @@ struct SlicePlane {
 std::array<SlicePlane, 3> anatomical_planes(const Eigen::Vector3d& through, const Eigen::Vector3d& low,
                                             const Eigen::Vector3d& high, double scale);
 
-/// A straight line in a picture, pixels.
-struct CutSegment {
-  Eigen::Vector2d from;
-  Eigen::Vector2d to;
-};
-
-/// Where a surface cuts the plane, in pixels.
-std::vector<CutSegment> cut_surface(const SlicePlane& plane, const Surface& surface);
+/// Where a surface cuts the plane, in pixels; one segment a triangle, which is all that a picture and the mask need.
+std::vector<Segment> cut_surface(const SlicePlane& plane, const Surface& surface);
 
 /// One value a pixel, row by row: 1 inside the closed surface that made the segments (even-odd rule).
-std::vector<std::uint8_t> inside_mask(const SlicePlane& plane, const std::vector<CutSegment>& segments);
+std::vector<std::uint8_t> inside_mask(const SlicePlane& plane, const std::vector<Segment>& segments);
 
 /// An image in the plane, one value a pixel, linear between voxels; NaN outside the image.
 std::vector<float> sample_slice(const SlicePlane& plane, const ScalarImage& image);
-
-/// A field at a world position, linear between voxels; zero outside the image.
-Eigen::Vector3d sample_field(const VectorImage& field, const Eigen::Vector3d& world);
 
 }  // namespace brainshift::pipelines

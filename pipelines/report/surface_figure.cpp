@@ -14,7 +14,6 @@ using Eigen::Vector3d;
 
 constexpr int half_width = 520;  // of the final picture: one of the two views
 constexpr int height = 500;
-constexpr int sampling = 2;  // drawn so many times larger, then halved
 
 // The rim of the opening on the surface: where the distance to the nearest loaded node is the opening's reach. Pairs
 // of points, one pair a triangle that it crosses.
@@ -43,8 +42,7 @@ Points opening_rim(const Surface& preop, const Surface& shown, const View& view)
 }
 
 // Where left, posterior and superior point.
-void draw_axes(Canvas& canvas, const Camera& camera) {
-  const Eigen::Vector2d middle(64, height - 70);
+void draw_axes(Svg& svg, const Camera& camera, const Eigen::Vector2d& middle) {
   const char* names[] = {"L", "P", "S"};
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d end = camera.project(camera.target + Vector3d::Unit(axis)) - camera.project(camera.target);
@@ -52,49 +50,49 @@ void draw_axes(Canvas& canvas, const Camera& camera) {
     if (direction.norm() < 0.1) {
       continue;
     }
-    draw_arrow(canvas, middle, middle + 34 * direction, 2, colour::ink);
-    draw_text(canvas, middle + (34 * direction.norm() + 12) * direction.normalized(), names[axis],
-              {.size = 15, .anchor = Anchor::centre, .bold = true});
+    svg.lines(arrow(middle, middle + 34 * direction, 2), {.width = 2});
+    svg.text(middle + (34 * direction.norm() + 12) * direction.normalized(), names[axis],
+             {.size = 15, .anchor = Anchor::centre, .bold = true});
   }
 }
 
-Canvas draw_view(const RunData& run, const View& view, const Vector3d& towards, const std::string& title) {
+void draw_view(Svg& svg, const Eigen::Vector2d& corner, const RunData& run, const View& view, const Vector3d& towards,
+               const std::string& title) {
   const Points& vertices = view.deformed.vertices;
   const Vector3d low = vertices.colwise().minCoeff();
   const Vector3d high = vertices.colwise().maxCoeff();
   const double reach = (vertices.rowwise() - (0.5 * (low + high)).transpose()).rowwise().norm().maxCoeff();
-  const double scale = sampling * 0.5 * (height - 40) / reach;
-  const Camera camera = look_at(0.5 * (low + high), towards, scale, sampling * half_width, sampling * height);
-  DepthCanvas picture = draw_surface(camera, view.deformed, view.surface_shift, view.shift);
+  const Camera camera = look_at(0.5 * (low + high), towards, 0.5 * (height - 40) / reach, half_width, height);
+  const DepthCanvas picture = draw_surface(camera, view.deformed, view.surface_shift, view.shift);
+  svg.image(picture.canvas, corner);
   if (view.opening.rows() > 0) {
     const Points rim = opening_rim(*run.brain, view.deformed, view);
+    std::vector<Segment> lines;
     for (Eigen::Index i = 0; i + 1 < rim.rows(); i += 2) {
-      draw_line_on(picture, camera, rim.middleRows(i, 2), sampling * 2.0, {20, 60, 160});
+      for (const Segment& part : visible_parts(picture, camera, rim.middleRows(i, 2))) {
+        lines.push_back({part.from + corner, part.to + corner});
+      }
     }
+    svg.lines(lines, {.colour = {20, 60, 160}, .width = 2});
   }
-  Canvas half = halve(picture.canvas);
-  draw_axes(half, {.target = camera.target,
-                   .towards = camera.towards,
-                   .up = camera.up,
-                   .scale = scale / sampling,
-                   .width = half_width,
-                   .height = height});
-  draw_text(half, {16, 20}, title, {.size = 17, .bold = true});
-  return half;
+  draw_axes(svg, camera, corner + Eigen::Vector2d(64, height - 70));
+  svg.text(corner + Eigen::Vector2d(16, 20), title, {.size = 17, .bold = true});
 }
 
 }  // namespace
 
 Figure surface_figure(const RunData& run, const View& view) {
-  constexpr int bar = 120;
-  Canvas canvas(2 * half_width + bar, height, colour::white);
+  constexpr int bar = 120, width = 2 * half_width + bar;
+  const std::string name = "surface";
+  Svg svg(name, "The brain's surface, coloured by displacement", width, height);
+  svg.rectangle({0, 0}, {width, height}, colour::white);
   const Vector3d sideways = (Vector3d::UnitZ() - view.inward.z() * view.inward).cross(view.inward);
   const Vector3d side = sideways.norm() > 0.1 ? sideways.normalized() : view.inward.unitOrthogonal();
   const bool opened = view.opening.rows() > 0;
-  paste(canvas, draw_view(run, view, view.inward, opened ? "seen through the opening" : "from above"), 0, 0);
-  paste(canvas, draw_view(run, view, (0.5 * view.inward + 0.9 * side).normalized(), "from the side"), half_width, 0);
-  draw_colour_bar(canvas, view.shift, 2 * half_width + 16, 80, height - 160, colour::ink);
-  return {"surface", "The brain's surface, coloured by displacement", std::move(canvas)};
+  draw_view(svg, {0, 0}, run, view, view.inward, opened ? "seen through the opening" : "from above");
+  draw_view(svg, {half_width, 0}, run, view, (0.5 * view.inward + 0.9 * side).normalized(), "from the side");
+  draw_colour_bar(svg, view.shift, {2 * half_width + 16, 80}, height - 160, colour::ink);
+  return {name, width, height, std::move(svg).str()};
 }
 
 }  // namespace brainshift::pipelines

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,8 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double margin = 14;           // mm, shown around the brain
-constexpr double depth_of_planes = 12;  // mm; at the surface itself a plane would only graze the brain
+constexpr double margin = 14;  // mm, shown around the brain
 constexpr double pixels_per_mm = 2.5;
 constexpr double headroom = 1.15;  // white matter is not to be shown as white as paper
 
@@ -29,12 +27,10 @@ Vector3d nearest_vertex(const Surface& surface, const Vector3d& point) {
 // Against the mean normal of the surface's triangles that lie in the opening.
 Vector3d inward_at(const Surface& surface, const Vector3d& centre, double radius) {
   Vector3d normal = Vector3d::Zero();
-  for (const auto& triangle : surface.triangles.rowwise()) {
-    const Vector3d a = surface.vertices.row(triangle[0]);
-    const Vector3d b = surface.vertices.row(triangle[1]);
-    const Vector3d c = surface.vertices.row(triangle[2]);
-    if ((a - centre).norm() < radius) {
-      normal += (b - a).cross(c - a);
+  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
+    const Triangle facet = triangle(surface, t);
+    if ((facet.a - centre).norm() < radius) {
+      normal += facet.area_vector();
     }
   }
   return -normal.normalized();

@@ -89,7 +89,7 @@ Plot plot_of(const Sweep& sweep, TradeoffTime time) {
             "seconds",
             "95th percentile of the displacement error, mm",
             {},
-            true};
+            Scale::log_log};
   std::map<std::string, Series> by_basis;
   for (const TradeoffPoint& p : sweep.points) {
     if (p.failure.empty()) {
@@ -161,7 +161,7 @@ void write_tradeoff(const fs::path& out, const Sweep& sweep) {
   for (const TradeoffTime time : {TradeoffTime::solve, TradeoffTime::whole}) {
     const Plot plot = plot_of(sweep, time);
     draw(out, plot);
-    text << "\n## " << plot.title << "\n\n![](" << plot.file << ".png)\n\n"
+    text << "\n## " << plot.title << "\n\n![](" << plot.file << ".svg)\n\n"
          << table(sweep, time) << "\n"
          << front_in_words(sweep, time);
   }

@@ -17,7 +17,7 @@ std::vector<std::size_t> front_of(const Sweep& sweep, TradeoffTime time);
 /// A sentence for each point on the front.
 std::string front_in_words(const Sweep& sweep, TradeoffTime time);
 
-/// Writes tradeoff.csv (all points), tradeoff_solve.png and tradeoff_run.png (error over seconds), and tradeoff.md (the
+/// Writes tradeoff.csv (all points), tradeoff_solve.svg and tradeoff_run.svg (error over seconds), and tradeoff.md (the
 /// fronts as table and in words). Throws std::runtime_error, naming the file, when one cannot be written.
 void write_tradeoff(const std::filesystem::path& out, const Sweep& sweep);
 

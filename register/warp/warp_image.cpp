@@ -21,7 +21,7 @@ Eigen::Vector3d displacement_of_voxel(const VectorImage& field, int i, int j, in
 }
 
 /// The image with each voxel that moves replaced by look_up(continuous index of its preop place, thread); 0 where that
-/// lies outside the image.
+/// lies outside the image. itk::WarpImageFilter would interpolate at voxels that do not move, too, which changes bits.
 template <class T, class LookUp>
 Image<T> resample(const Image<T>& image, const VectorImage& resampling, const LookUp& look_up) {
   const ImageGeometry& g = image.geometry;

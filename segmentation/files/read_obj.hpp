@@ -14,7 +14,8 @@ struct PolygonSoup {
 };
 
 /// The vertices and faces of a Wavefront .obj; texture, normals and groups are passed over. Throws
-/// std::invalid_argument with the file and line that does not parse.
+/// std::invalid_argument with the file and line that does not parse. By hand because VTK's reader rounds coordinates to
+/// float and doubles vertices along seams of a texture, and CGAL's names no line.
 PolygonSoup read_obj(const std::filesystem::path& file);
 
 }  // namespace brainshift

@@ -24,7 +24,8 @@ inline TriangleFrame frame_of(const Triangle& t) {
   return {t.a, t.b - t.a, t.c - t.a};
 }
 
-/// The point of a triangle nearest to p, by the Voronoi regions of its corners, edges and face.
+/// The point of a triangle nearest to p, by the Voronoi regions of its corners, edges and face. CGAL has the distance,
+/// but does not say which part is nearest, and the sign depends on that.
 inline NearestOnTriangle nearest_on_triangle(const TriangleFrame& t, const Eigen::Vector3d& p) {
   const Eigen::Vector3d ap = p - t.a;
   const double d1 = t.ab.dot(ap), d2 = t.ac.dot(ap);

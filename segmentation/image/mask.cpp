@@ -2,7 +2,6 @@
 #include "segmentation/image/mask.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <utility>
 
@@ -40,24 +39,6 @@ Box bounding_box(const Mask& mask) {
 // Index of the first voxel of `part` on the grid of `whole`.
 Eigen::Array3i shift_between(const ImageGeometry& whole, const ImageGeometry& part) {
   return whole.to_index(part.origin).array().round().cast<int>();
-}
-
-// The neighbours through the faces of voxel n, none beyond the image.
-template <class Visit>
-void for_each_neighbour(const Eigen::Array3i& size, std::size_t n, const Visit& visit) {
-  const auto nx = static_cast<std::size_t>(size.x());
-  const auto ny = static_cast<std::size_t>(size.y());
-  const std::array<std::size_t, 3> place = {n % nx, n / nx % ny, n / (nx * ny)};
-  const std::array<std::size_t, 3> stride = {1, nx, nx * ny};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    if (place[a] > 0) {
-      visit(n - stride[a]);
-    }
-    if (place[a] + 1 < static_cast<std::size_t>(size[axis])) {
-      visit(n + stride[a]);
-    }
-  }
 }
 
 }  // namespace
@@ -119,33 +100,6 @@ Mask uncropped(const Mask& mask, const ImageGeometry& grid) {
     whole.at(place.x(), place.y(), place.z()) = 1;
   });
   return whole;
-}
-
-Components components(const Mask& mask) {
-  Components result;
-  result.number.assign(mask.voxels.size(), 0);
-  std::vector<std::size_t> front;
-  for (std::size_t seed = 0; seed < mask.voxels.size(); ++seed) {
-    if (mask.voxels[seed] == 0 || result.number[seed] != 0) {
-      continue;
-    }
-    const auto number = static_cast<std::int32_t>(result.sizes.size() + 1);
-    result.sizes.push_back(0);
-    result.number[seed] = number;
-    front.push_back(seed);
-    while (!front.empty()) {
-      const std::size_t voxel = front.back();
-      front.pop_back();
-      ++result.sizes.back();
-      for_each_neighbour(mask.geometry.size, voxel, [&](std::size_t neighbour) {
-        if (mask.voxels[neighbour] != 0 && result.number[neighbour] == 0) {
-          result.number[neighbour] = number;
-          front.push_back(neighbour);
-        }
-      });
-    }
-  }
-  return result;
 }
 
 Mask largest_component(const Mask& mask) {

@@ -35,7 +35,8 @@ Mask cropped_to(const Mask& mask, const ImageGeometry& part);
 /// A mask cropped before, back on the grid that it was cut from.
 Mask uncropped(const Mask& mask, const ImageGeometry& grid);
 
-/// Components joined through faces. number: one a voxel, 0 outside the mask; sizes: voxels, of number 1 first.
+/// Components joined through faces, numbered from 1 in the order of their first voxels. number: one a voxel, 0 outside
+/// the mask; sizes: voxels, of number 1 first.
 struct Components {
   std::vector<std::int32_t> number;
   std::vector<std::size_t> sizes;

@@ -1,66 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/load/convex_hull.hpp"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/convex_hull_2.h>
+
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace brainshift::solve {
 namespace {
 
-double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
-}
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-double distance_to_segment(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& place) {
-  const Eigen::Vector2d along = b - a;
-  const double length_squared = along.squaredNorm();
-  const double t = length_squared > 0 ? std::clamp(along.dot(place - a) / length_squared, 0.0, 1.0) : 0.0;
-  return (a + t * along - place).norm();
-}
-
-/// Appends the chain of corners that turns left all along the places, without its last one.
-template <class Iterator>
-void append_chain(Iterator first, Iterator last, std::vector<Eigen::Vector2d>& hull) {
-  const std::size_t start = hull.size();
-  for (; first != last; ++first) {
-    while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), *first) <= 0) {
-      hull.pop_back();
-    }
-    hull.push_back(*first);
-  }
-  hull.pop_back();
+Kernel::Point_2 as_cgal(const Eigen::Vector2d& place) {
+  return {place.x(), place.y()};
 }
 
 }  // namespace
 
 std::vector<Eigen::Vector2d> convex_hull(const PlanePoints& points) {
-  std::vector<Eigen::Vector2d> places;
+  std::vector<Kernel::Point_2> places, corners;
   for (const auto& point : points.rowwise()) {
-    places.emplace_back(point);
+    places.push_back(as_cgal(point));
   }
-  const auto before = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  };
-  std::sort(places.begin(), places.end(), before);
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  if (places.size() < 2) {
-    return places;
-  }
+  CGAL::convex_hull_2(places.begin(), places.end(), std::back_inserter(corners));
   std::vector<Eigen::Vector2d> hull;
-  append_chain(places.begin(), places.end(), hull);
-  append_chain(places.rbegin(), places.rend(), hull);
+  for (const Kernel::Point_2& corner : corners) {
+    hull.emplace_back(corner.x(), corner.y());
+  }
   return hull;
 }
 
 double distance_to_hull(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& place) {
+  const Kernel::Point_2 here = as_cgal(place);
   bool inside = hull.size() > 2;
-  double distance = std::numeric_limits<double>::infinity();
+  double squared = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < hull.size(); ++n) {
-    const Eigen::Vector2d& next = hull[(n + 1) % hull.size()];
-    inside = inside && turn(hull[n], next, place) >= 0;
-    distance = std::min(distance, distance_to_segment(hull[n], next, place));
+    const Kernel::Point_2 from = as_cgal(hull[n]), to = as_cgal(hull[(n + 1) % hull.size()]);
+    inside = inside && !CGAL::right_turn(from, to, here);
+    squared = std::min(squared, CGAL::squared_distance(Kernel::Segment_2(from, to), here));
   }
-  return inside ? 0.0 : distance;
+  return inside ? 0.0 : std::sqrt(squared);
 }
 
 }  // namespace brainshift::solve

@@ -8,7 +8,7 @@
 namespace brainshift::solve {
 
 /// Corners of the convex hull of points in a plane, counter-clockwise, none repeated; two for collinear points, one for
-/// a single place (Andrew 1979).
+/// a single place (CGAL, exact predicates).
 std::vector<Eigen::Vector2d> convex_hull(const PlanePoints& points);
 
 /// Distance of a place to a convex polygon with these corners, 0 inside it.

@@ -19,7 +19,6 @@ constexpr int divisions = 30;      // of a side
 constexpr int every = 5;           // of them a line is drawn
 constexpr double off_face = 1e-3;  // mm: which face of the cut a place belongs to
 constexpr int width = 820, height = 620, bar = 110;
-constexpr int sampling = 2;  // drawn so many times larger, then halved
 
 /// A side of the block: a grid of places with vertices of its own, so that the block's edges are sharp.
 struct Side {
@@ -81,8 +80,9 @@ DeformedBlock deformed(const Solution& solution, const std::vector<Side>& sides)
   return block;
 }
 
-void draw_grid(pipelines::DepthCanvas& picture, const pipelines::Camera& camera, const Points& vertices) {
-  constexpr pipelines::Colour ink = {70, 70, 70};
+std::vector<pipelines::Segment> visible_grid(const pipelines::DepthCanvas& picture, const pipelines::Camera& camera,
+                                             const Points& vertices) {
+  std::vector<pipelines::Segment> grid;
   constexpr int across = divisions + 1;
   for (Eigen::Index side = 0; side < vertices.rows(); side += across * across) {
     for (int k = 0; k <= divisions; k += every) {
@@ -92,33 +92,35 @@ void draw_grid(pipelines::DepthCanvas& picture, const pipelines::Camera& camera,
         column.row(i) = vertices.row(side + i * across + k);
       }
       for (const Points& line : {row, column}) {
-        draw_line_on(picture, camera, line, sampling, ink);
+        const std::vector<pipelines::Segment> parts = visible_parts(picture, camera, line);
+        grid.insert(grid.end(), parts.begin(), parts.end());
       }
     }
   }
+  return grid;
 }
 
 }  // namespace
 
-pipelines::Canvas picture_of_cut_block(const Solution& solution, const Vector3d& size, double front) {
+std::string picture_of_cut_block(const Solution& solution, const Vector3d& size, double front) {
   std::vector<Side> sides = sides_of_half(size, front, false);
   const std::vector<Side> upper = sides_of_half(size, front, true);
   sides.insert(sides.end(), upper.begin(), upper.end());
   const DeformedBlock block = deformed(solution, sides);
   const Points& vertices = block.surface.vertices;
   const Vector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
-  const double scale = 1.03 * sampling * height / (high - low).norm();
+  const double scale = 1.03 * height / (high - low).norm();
   const Vector3d towards = Vector3d(1, 0.8, -0.35).normalized();
-  const pipelines::Camera camera =
-      pipelines::look_at((low + high) / 2, towards, scale, sampling * width, sampling * height);
+  const pipelines::Camera camera = pipelines::look_at((low + high) / 2, towards, scale, width, height);
   const double largest = *std::max_element(block.shift.begin(), block.shift.end());
   const pipelines::ColourScale colours{.high = pipelines::round_up(largest), .title = "shift, mm"};
-  pipelines::DepthCanvas picture = draw_surface(camera, block.surface, block.shift, colours);
-  draw_grid(picture, camera, vertices);
-  pipelines::Canvas canvas(width + bar, height, pipelines::colour::white);
-  paste(canvas, halve(picture.canvas), 0, 0);
-  draw_colour_bar(canvas, colours, width + 8, 80, height - 160, pipelines::colour::ink);
-  return canvas;
+  const pipelines::DepthCanvas picture = draw_surface(camera, block.surface, block.shift, colours);
+  pipelines::Svg svg("cut_block", "A block that is cut in its middle, coloured by displacement", width + bar, height);
+  svg.rectangle({0, 0}, {width + bar, height}, pipelines::colour::white);
+  svg.image(picture.canvas, {0, 0});
+  svg.lines(visible_grid(picture, camera, vertices), {.colour = {70, 70, 70}, .width = 1});
+  draw_colour_bar(svg, colours, {width + 8, 80}, height - 160, pipelines::colour::ink);
+  return std::move(svg).str();
 }
 
 }  // namespace brainshift::verification

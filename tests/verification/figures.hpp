@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/report/canvas.hpp"
 #include "pipelines/report/plot.hpp"
 
 namespace brainshift::verification {
@@ -14,7 +13,7 @@ namespace brainshift::verification {
 /// One row of the table: what was measured, beside what was published and the bound it must keep.
 struct Figure {
   std::string quantity;
-  std::string published;  ///< as the source has it; empty: nothing
+  std::string published;  ///< as Wittek et al. have it; empty: nothing
   double ours = 0;
   std::string unit;
   std::optional<double> most = {};   ///< bound from above
@@ -29,8 +28,8 @@ using pipelines::Plot;
 using pipelines::Series;
 
 struct Picture {
-  std::string file;  ///< without .png
-  pipelines::Canvas canvas;
+  std::string file;  ///< without .svg
+  std::string svg;
 };
 
 struct Outcome {

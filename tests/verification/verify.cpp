@@ -81,7 +81,7 @@ int run(const Arguments& arguments) {
         draw(arguments.out, plot);
       }
       for (const Picture& picture : outcome.pictures) {
-        write_text(arguments.out / (picture.file + ".png"), encode_png(picture.canvas));
+        write_text(arguments.out / (picture.file + ".svg"), picture.svg);
       }
       write_text(arguments.out / "verification.md", markdown_table(rows));
       write_text(arguments.out / "verification.csv", csv_table(rows));

@@ -2,11 +2,8 @@
 #include "pipelines/report/measure_table.hpp"
 
 #include <gtest/gtest.h>
-#include <tinyxml2.h>
 
 #include <cmath>
-
-#include "pipelines/report/canvas.hpp"
 
 namespace brainshift::pipelines::measure_table_test {
 
@@ -18,6 +15,25 @@ TEST(MeasureTable, JudgesByTheBound) {
   EXPECT_EQ(verdict_of(0.05), Verdict::within);
   EXPECT_EQ(verdict_of(0.051), Verdict::outside);
   EXPECT_EQ(verdict_of(std::nan("")), Verdict::outside);
+}
+
+TEST(MeasureTable, ComparesVolumesAndFlagsAndLeavesOutWhatIsNotThere) {
+  const nlohmann::json record = nlohmann::json::parse(R"({"stages": {"segment": {"measures": {"brain":
+      {"closed": true, "self_intersecting": true, "volume_mm3": 98, "label_volume_mm3": 100}}}}})");
+  const auto rows = quality_measures(record);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].verdict, Verdict::within);
+  EXPECT_EQ(rows[1].verdict, Verdict::outside) << "the surface cuts itself";
+  EXPECT_EQ(rows[2].verdict, Verdict::outside) << "2 % where 1 % is allowed";
+  EXPECT_EQ(rows[2].value, "-2 %");
+}
+
+TEST(MeasureTable, NumbersHaveThreeFiguresAndWholeOnesAll) {
+  EXPECT_EQ(readable(0.012345), "0.0123");
+  EXPECT_EQ(readable(12), "12");
+  EXPECT_EQ(readable(-1234567), "-1,234,567");
+  EXPECT_EQ(readable(1234.6), "1,235");
+  EXPECT_EQ(readable(std::nan("")), "not known");
 }
 
 }  // namespace brainshift::pipelines::measure_table_test

@@ -7,36 +7,14 @@
 #include <fstream>
 
 #include "pipelines/runner/stage_folder.hpp"
+#include "tests/unit/pipelines/run_folder.hpp"
 
 namespace brainshift::pipelines::run_data_test {
 
-namespace fs = std::filesystem;
-
-class Runner : public testing::Test {
- protected:
-  Runner() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("brainshift_runner_" + std::string(info->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Runner() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  static std::string read(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-
-  fs::path folder_;
-  Interruption interruption_{[](int) {}};
+class RunData : public RunFolder {};
 };
 
-TEST_F(Runner, AHistoryIsReadByTheNamesOfItsColumns) {
+TEST_F(RunData, AHistoryIsReadByTheNamesOfItsColumns) {
   const auto rows = read_history(write("h.csv", "time,step,mine,reaction_z_N,error_bound_mm\n0.5,20,7,-3,inf\n"));
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].time, 0.5);

@@ -2,11 +2,10 @@
 #include "pipelines/report/slice_plane.hpp"
 
 #include <gtest/gtest.h>
-#include <tinyxml2.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "pipelines/report/canvas.hpp"
 #include "segmentation/geometry/surface.hpp"
 
 namespace brainshift::pipelines::slice_plane_test {
@@ -33,6 +32,20 @@ TEST(SlicePlane, ShowsThePatientsLeftOnTheRightWhateverTheImagesAxes) {
   }
   EXPECT_EQ(axial.letters[1], 'L');
   EXPECT_GT(axial.right.x(), 0);  // LPS: x grows towards the patient's left
+}
+
+TEST(SlicePlane, AnImageEndsHalfAVoxelBeyondItsOutermostCentres) {
+  ScalarImage image;
+  image.geometry.size = {3, 3, 3};
+  image.voxels.assign(27, 4);
+  const SlicePlane axial = anatomical_planes({1, 1, 1}, {-2, -2, -2}, {4, 4, 4}, 10)[0];
+  const auto values = sample_slice(axial, image);
+  for (int x = 0; x < axial.width; ++x) {
+    const double place = axial.world({x + 0.5, 30.5}).x();
+    const float value = values[static_cast<std::size_t>(30 * axial.width + x)];
+    EXPECT_EQ(std::isnan(value), place < -0.5 || place > 2.5) << place;
+    EXPECT_TRUE(std::isnan(value) || value == 4) << place;
+  }
 }
 
 TEST(SlicePlane, MaskOfACutCubeHasTheCubesArea) {

@@ -4,41 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include "tests/unit/pipelines/run_folder.hpp"
 
 namespace brainshift::pipelines::stage_folder_test {
 
-namespace fs = std::filesystem;
-
-class Runner : public testing::Test {
- protected:
-  Runner() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("brainshift_runner_" + std::string(info->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Runner() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  static std::string read(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-
-  fs::path folder_;
-  Interruption interruption_{[](int) {}};
+class StageFolder : public RunFolder {};
 };
 
-TEST_F(Runner, AnUnfinishedStageLeavesNothingBehind) {
+TEST_F(StageFolder, AnUnfinishedStageLeavesNothingBehind) {
   { StageFolder unfinished(folder_ / "stage", interruption_); }
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-TEST_F(Runner, AFinishedStageTakesThePlaceOfTheOneBefore) {
+TEST_F(StageFolder, AFinishedStageTakesThePlaceOfTheOneBefore) {
   write("stage/old", "old");
   StageFolder finished(folder_ / "stage", interruption_);
   std::ofstream(finished.path() / "new") << "new";
@@ -47,7 +25,7 @@ TEST_F(Runner, AFinishedStageTakesThePlaceOfTheOneBefore) {
   EXPECT_FALSE(fs::exists(folder_ / "stage/old"));
 }
 
-TEST_F(Runner, ASingleStageKeepsOtherFilesOfItsFolder) {
+TEST_F(StageFolder, ASingleStageKeepsOtherFilesOfItsFolder) {
   write("stage/mine", "mine");
   write("stage/made", "old");
   StageFolder finished(folder_ / "stage", interruption_);

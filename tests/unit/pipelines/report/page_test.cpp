@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/report/page.hpp"
+
+#include <gtest/gtest.h>
+#include <tinyxml2.h>
+
+namespace brainshift::pipelines::page_test {
+
+using nlohmann::json;
+
+bool has(const std::string& page, const std::string& text) {
+  return page.find(text) != std::string::npos;
+}
+
+Figure figure(const std::string& name) {
+  Svg svg(name, name, 30, 20);
+  return {name, 30, 20, std::move(svg).str()};
+}
+
+PageContent full_content() {
+  PageContent content;
+  content.record = {{"scene", "/somewhere/<a & b>.xml"},
+                    {"version", "9.8"},
+                    {"threads", 3},
+                    {"options", {{"solve", {{"basis", "linear"}, {"shape", ""}}}}},
+                    {"stages",
+                     {{"solve",
+                       {{"status", "done"},
+                        {"seconds", 12.5},
+                        {"peak_memory_mb", 2500.0},
+                        {"sizes", {{"nodes", 12000}, {"integration_points", 34000}}},
+                        {"measures", {{"converged", false}, {"brain", {{"closed", true}}}}}}}}}};
+  content.has_image = true;
+  content.comparisons = {figure("b"), figure("a"), figure("d")};
+  content.displacements = {figure("u")};
+  content.surfaces = {figure("surface")};
+  content.plots = {figure("convergence").svg};
+  return content;
+}
+
+TEST(Page, IsWellFormedAndHasNothingLeftToFill) {
+  const std::string page = make_page(full_content());
+  tinyxml2::XMLDocument document;
+  EXPECT_EQ(document.Parse(page.c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  for (const char* left : {"{{", "}}", "each=", "<picture", "<!-- "}) {
+    EXPECT_FALSE(has(page, left)) << left;
+  }
+}
+
+TEST(Page, AsksForNothingFromOutside) {
+  const std::string page = make_page(full_content());
+  for (const char* link : {"src=", "@import", "<link", "<script"}) {
+    EXPECT_FALSE(has(page, link)) << link;
+  }
+}
+
+TEST(Page, ShowsWhatTheRunMeasured) {
+  const std::string page = make_page(full_content());
+  for (const char* text : {"scene &lt;a &amp; b&gt;.xml, brainshift 9.8, 3 threads", "12,000", "34,000", "12.5 s",
+                           "2.5 GB", "0 of 1", ">OUTSIDE<", "12 mm under the centre", "true to scale", "linear"}) {
+    EXPECT_TRUE(has(page, text)) << text;
+  }
+  EXPECT_FALSE(has(page, ">shape ")) << "an option without a value";
+}
+
+TEST(Page, FadesOnePictureIntoTheNext) {
+  PageContent content = full_content();
+  for (const char* name : {"b2", "a2", "d2"}) {
+    content.comparisons.push_back(figure(name));
+  }
+  content.blink = 3;
+  const std::string page = make_page(content);
+  EXPECT_TRUE(has(page, "<use href=\"#b2\">"));
+  EXPECT_TRUE(has(page, "<use id=\"fade\" href=\"#a2\">"));
+  EXPECT_TRUE(has(page, "<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"a2\""));
+}
+
+TEST(Page, LeavesOutWhatThereIsNot) {
+  const std::string page = make_page({.record = json::object()});
+  for (const char* heading : {"Before, after", "<h2>Displacement", "converged", "simulated", "did not finish"}) {
+    EXPECT_FALSE(has(page, heading)) << heading;
+  }
+  EXPECT_TRUE(has(page, "no image to warp"));
+  EXPECT_TRUE(has(page, "not known")) << "the number of nodes";
+}
+
+TEST(Page, SaysThatAStageFailedAndThatALoadIsSimulated) {
+  PageContent content = full_content();
+  content.record["stages"]["solve"]["failure"] = "It <burst>.";
+  content.record["options"]["load.simulated"] = {{"depth", 8}};
+  content.record["options"]["solve"]["dynamics"] = "transient";
+  const std::string page = make_page(content);
+  EXPECT_TRUE(has(page, "The stage solve did not finish.</b> It &lt;burst&gt;. What is shown"));
+  EXPECT_TRUE(has(page, "The load is simulated."));
+  EXPECT_TRUE(has(page, "<h2>Energies</h2>"));
+  EXPECT_FALSE(has(page, "How the solver converged"));
+}
+
+}  // namespace brainshift::pipelines::page_test

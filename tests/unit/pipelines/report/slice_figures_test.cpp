@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/report/slice_figures.hpp"
+
+#include <gtest/gtest.h>
+#include <tinyxml2.h>
+
+#include "tests/unit/pipelines/report/small_run.hpp"
+
+namespace brainshift::pipelines::slice_figures_test {
+
+// Strokes of the colours that lines have, by the name of what they show.
+std::size_t strokes(const Figure& figure, const std::string& colour) {
+  tinyxml2::XMLDocument document;
+  EXPECT_EQ(document.Parse(figure.svg.c_str()), tinyxml2::XML_SUCCESS);
+  std::size_t count = 0;
+  for (const auto* e = document.RootElement()->FirstChildElement("path"); e != nullptr;
+       e = e->NextSiblingElement("path")) {
+    count += colour == e->Attribute("stroke") ? 1 : 0;
+  }
+  return count;
+}
+
+const char* const before_colour = "#5ac8fa";
+const char* const after_colour = "#ff963c";
+const char* const opening_colour = "#46eb6e";
+
+TEST(SliceFigures, ShowBeforeAfterAndDifferenceInTheOrderOfThePage) {
+  const RunData run = test::small_run();
+  const View view = make_view(run);
+  const SlicePlane& coronal = view.planes[1];
+  const auto figures = comparison_figures(run, view, coronal);
+  ASSERT_EQ(figures.size(), 3U);
+  EXPECT_EQ(figures[0].name, "coronal_before");
+  EXPECT_EQ(figures[1].name, "coronal_after");
+  EXPECT_EQ(figures[2].name, "coronal_difference");
+  EXPECT_EQ(figures[0].width, coronal.width);
+  EXPECT_GT(figures[2].width, coronal.width) << "room for the colour bar";
+  EXPECT_EQ(strokes(figures[0], before_colour), 1U);
+  EXPECT_EQ(strokes(figures[0], opening_colour), 1U);
+  EXPECT_EQ(strokes(figures[0], after_colour), 0U);
+  EXPECT_EQ(strokes(figures[1], after_colour), 1U);
+}
+
+TEST(SliceFigures, ThePlaneUnderTheOpeningDoesNotCutIt) {
+  const RunData run = test::small_run();
+  const View view = make_view(run);
+  EXPECT_EQ(strokes(comparison_figures(run, view, view.planes[0])[0], opening_colour), 0U);
+}
+
+TEST(SliceFigures, TheDisplacementIsDrawnWithAndWithoutAnImageAndAField) {
+  RunData run = test::small_run();
+  const View view = make_view(run);
+  const Figure over_image = displacement_figure(run, view, view.planes[1]);
+  EXPECT_EQ(strokes(over_image, "#ffffff"), 7U) << "arrows, the scale and five ticks of the colour bar";
+  run.forward = VectorImage{run.t1->geometry, {}};
+  run.forward->voxels.assign(run.t1->voxels.size(), {0, 0, 0});
+  run.t1.reset();
+  EXPECT_EQ(strokes(displacement_figure(run, view, view.planes[1]), "#ffffff"), 6U) << "a field that moves nothing";
+}
+
+TEST(SliceFigures, ArrowsAreLengthenedUntilTheyAreSeen) {
+  View view{};
+  for (const auto& [largest, factor] : {std::pair{30.0, 1.0}, {8.0, 2.0}, {2.0, 5.0}, {0.0, 10.0}}) {
+    view.shift.high = largest;
+    EXPECT_EQ(arrow_factor(view), factor) << largest;
+  }
+}
+
+}  // namespace brainshift::pipelines::slice_figures_test
