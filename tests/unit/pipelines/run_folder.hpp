@@ -20,9 +20,9 @@ class RunFolder : public testing::Test {
     fs::create_directories((folder_ / name).parent_path());
     return scratch_.write(name, text);
   }
-  static std::string read(const fs::path& file) { return test::bytes_of(file); }
+  static std::string read(const fs::path& file) { return brainshift::test::bytes_of(file); }
 
-  test::ScratchFolder scratch_;
+  brainshift::test::ScratchFolder scratch_;
   fs::path folder_ = scratch_.path();
   Interruption interruption_{[](int) {}};
 };

@@ -39,7 +39,7 @@ class SceneFile : public testing::Test {
     return {};
   }
 
-  test::ScratchFolder scratch_;
+  brainshift::test::ScratchFolder scratch_;
   std::filesystem::path folder_ = scratch_.path();
 };
 

@@ -12,7 +12,6 @@
 namespace brainshift::pipelines::run_data_test {
 
 class RunData : public RunFolder {};
-};
 
 TEST_F(RunData, AHistoryIsReadByTheNamesOfItsColumns) {
   const auto rows = read_history(write("h.csv", "time,step,mine,reaction_z_N,error_bound_mm\n0.5,20,7,-3,inf\n"));

@@ -11,7 +11,6 @@
 namespace brainshift::pipelines::external_command_test {
 
 class ExternalCommand : public RunFolder {};
-};
 
 TEST_F(ExternalCommand, ACommandSeesItsFoldersWhateverTheirNames) {
   const fs::path out = folder_ / "it's out";

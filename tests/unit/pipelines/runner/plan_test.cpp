@@ -9,7 +9,7 @@
 #include "pipelines/runner/stage_folder.hpp"
 #include "tests/unit/pipelines/run_folder.hpp"
 
-namespace brainshift::pipelines::plan_test {};
+namespace brainshift::pipelines::plan_test {
 
 /// The files of a run whose stages before solve are done, and its scene.
 class Stamps : public RunFolder {

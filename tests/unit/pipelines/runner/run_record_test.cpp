@@ -12,7 +12,6 @@
 namespace brainshift::pipelines::run_record_test {
 
 class RunRecord : public RunFolder {};
-};
 
 TEST_F(RunRecord, AStageRecordReadsBackAndADamagedOneIsNone) {
   write_stage_record(folder_, {"stamp", "failure", {{"status", "failed"}}});

@@ -12,7 +12,6 @@
 namespace brainshift::pipelines::sha256_test {
 
 class Sha256 : public RunFolder {};
-};
 
 TEST_F(Sha256, Sha256GivesThePublishedDigests) {
   EXPECT_EQ(sha256_of_text(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");

@@ -9,7 +9,6 @@
 namespace brainshift::pipelines::stage_folder_test {
 
 class StageFolder : public RunFolder {};
-};
 
 TEST_F(StageFolder, AnUnfinishedStageLeavesNothingBehind) {
   { StageFolder unfinished(folder_ / "stage", interruption_); }
