@@ -87,7 +87,7 @@ std::string refusal(const Option<T>& option, const std::string& value) {
   return detail::refusal(option.name, value, option.allowed, option.unit);
 }
 
-/// Reads a value that may be one. False, and the target spoilt, when the option does not take it.
+/// Sets the option from text. False when it does not take the text; the target may then hold a value out of range.
 template <class T>
 bool set_option(const Option<T>& option, T& target, const std::string& text) {
   return option.read(target, text) && option.holds(target);
