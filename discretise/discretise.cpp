@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <numeric>
-#include <sstream>
 #include <stdexcept>
 
 #include "discretise/body/check_surface.hpp"
@@ -12,47 +11,10 @@
 #include "discretise/cloud/interior_nodes.hpp"
 #include "discretise/cloud/make_cloud.hpp"
 #include "discretise/cloud/node_demand.hpp"
+#include "discretise/interface/option_table.hpp"
 
 namespace brainshift::discretise {
 namespace {
-
-/// A finer spacing than this fraction of the uniform one is not graded well by cells split three times.
-constexpr double smallest_factor = 0.1;
-
-/// Refuses a value outside [low, high]; NaN too.
-void check_range(const char* option, double value, double low, double high) {
-  if (!(value >= low && value <= high)) {
-    std::ostringstream sentence;
-    sentence << option << " is " << value << "; a number from " << low << " to " << high << " is expected.";
-    throw std::invalid_argument(sentence.str());
-  }
-}
-
-void check_options(const DiscretiseOptions& options) {
-  if (options.spacing && options.nodes) {
-    throw std::invalid_argument("both spacing and nodes are given; give one of them.");
-  }
-  if (options.spacing) {
-    check_range("spacing", *options.spacing, 1e-6, 1e6);
-  }
-  if (options.nodes) {
-    check_range("nodes", static_cast<double>(*options.nodes), 30, 20e6);
-  }
-  check_range("minimum_distance", options.minimum_distance, 0, 0.7);
-  check_range("tumour_factor", options.tumour_factor, smallest_factor, 1);
-  check_range("tissue_boundary_factor", options.tissue_boundary_factor, smallest_factor, 1);
-  check_range("cells_per_node", options.cells_per_node, 0.05, 100);
-  if (is_planar(options.cells)) {
-    throw std::invalid_argument("a body is filled with hexahedra or tetrahedra, not with planar cells.");
-  }
-  if (options.craniotomy) {
-    check_range("the craniotomy's refinement factor", options.craniotomy->factor, smallest_factor, 1);
-    check_range("the craniotomy's refinement radius", options.craniotomy->radius, 1e-3, 1e6);
-    if (!options.craniotomy->centres.allFinite()) {
-      throw std::invalid_argument("a centre of the craniotomy's refinement is not finite.");
-    }
-  }
-}
 
 /// Labels in another frame than the surface would silently give every node the tissue of the nearest rim.
 void check_labels_overlap(const NodeCloud& cloud, const TissueLookup& tissue) {

@@ -9,6 +9,7 @@
 #include "register/field/jacobian.hpp"
 #include "register/field/measures.hpp"
 #include "register/field/resampling_field.hpp"
+#include "register/interface/option_table.hpp"
 #include "register/warp/warp.hpp"
 #include "segmentation/progress/stopwatch.hpp"
 
@@ -30,6 +31,7 @@ std::string described(const ImageGeometry& g) {
 }
 
 void check(const RegisterInput& input, const RegisterOptions& options) {
+  check_options(options);
   check_image(input.t1, "the T1");
   if (input.labels) {
     check_image(*input.labels, "the label map");
@@ -38,9 +40,6 @@ void check(const RegisterInput& input, const RegisterOptions& options) {
                                   described(input.labels->geometry) + ", the T1 " + described(input.t1.geometry) +
                                   ", or their directions differ; resample the labels to the T1");
     }
-  }
-  if (!(options.inverse_tolerance > 0)) {
-    throw std::invalid_argument("the tolerance of the inversion must be above 0 mm");
   }
   if (!input.solution.displacement.allFinite() || !input.solution.positions.allFinite()) {
     throw std::invalid_argument("the solution holds a number that is not finite; solve again");

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/solve.hpp"
 
+#include "solve/interface/option_table.hpp"
 #include "solve/region/region.hpp"
 #include "solve/run/whole_body.hpp"
 
 namespace brainshift::solve {
 
 SolveResult solve(const Model& model, const SolveOptions& options, const Progress& progress) {
+  check_options(options);
   return options.region > 0 ? solve_region(model, options, progress) : solve_whole_body(model, options, progress);
 }
 

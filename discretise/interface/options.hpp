@@ -18,12 +18,14 @@ struct Refinement {
   double factor = 0.5;
 };
 
+/// What each may be stands in option_table.cpp.
 struct DiscretiseOptions {
-  std::optional<double> spacing;     ///< mm; give this or nodes, not both
-  std::optional<std::size_t> nodes;  ///< wanted number of nodes, met within 5 %; default 12,000 when neither is given
-  double minimum_distance = 0.5;     ///< no node nearer to another than this fraction of its spacing; 0 to 0.7
-  std::optional<Refinement> craniotomy;  ///< finer towards the opening
-  double tumour_factor = 1.0;            ///< spacing inside and at a tumour / uniform spacing
+  std::optional<double> spacing = {};  ///< mm; give this or nodes, not both
+  /// Wanted number of nodes, met within 5 %; 12,000 when neither is given.
+  std::optional<std::size_t> nodes = {};
+  double minimum_distance = 0.5;              ///< no node nearer to another than this fraction of its spacing
+  std::optional<Refinement> craniotomy = {};  ///< finer towards the opening
+  double tumour_factor = 1.0;                 ///< spacing inside and at a tumour / uniform spacing
   std::int32_t tumour_label = 3;
   double tissue_boundary_factor = 1.0;    ///< spacing at boundaries between tissues / uniform spacing
   CellKind cells = CellKind::hexahedron;  ///< or tetrahedron; a body has no planar cells

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
+#include "discretise/interface/option_table.hpp"
 #include "pipelines/commands/commands.hpp"
 
 namespace brainshift::pipelines {
@@ -19,9 +20,7 @@ void discretise(const DiscretiseArguments& arguments, const Settings& settings) 
   job.options = arguments.scene.discretise;
   job.options.brain_labels = brain_labels;
   job.refinement = arguments.scene.refinement;
-  if (job.options.nodes && job.options.spacing) {
-    throw std::invalid_argument("--nodes and --spacing are both given; give one of them");
-  }
+  discretise::check_options(job.options);
   if (!arguments.craniotomy.empty()) {
     job.load = Load{};
     job.load->craniotomy = arguments.craniotomy;
@@ -41,7 +40,7 @@ void add_discretise_command(CLI::App& program, const Settings& settings) {
   command->add_option("--surface", arguments->job.surface, "the brain's closed surface")->required()->type_name("FILE");
   command->add_option("--labels", arguments->job.labels, "label map; without it all is tissue 1")->type_name("FILE");
   command->add_option("--brain-labels", arguments->job.options.brain_labels, "labels that are tissue of the brain")
-      ->check(CLI::Range(1, 32767))
+      ->check(CLI::Range(static_cast<int>(label_numbers.low), static_cast<int>(label_numbers.high)))
       ->capture_default_str();
   command->add_option("--craniotomy", arguments->craniotomy, "craniotomy.csv, for --craniotomy-factor")
       ->type_name("FILE");

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "pipelines/commands/commands.hpp"
+#include "pipelines/commands/table_option.hpp"
 #include "pipelines/phantom/cylinder.hpp"
 #include "pipelines/phantom/phantom.hpp"
 #include "pipelines/runner/stage_folder.hpp"
@@ -26,9 +27,10 @@ void add_phantom_command(CLI::App& program, const Settings& settings) {
       ->check(CLI::IsMember({"head", "cylinder"}))
       ->type_name("head | cylinder")
       ->capture_default_str();
-  command->add_option("--size", arguments->options.size, "voxels along each axis")->capture_default_str();
-  command->add_option("--spacing", arguments->options.spacing, "of the voxels, mm")->capture_default_str();
-  command->add_option("--seed", arguments->options.seed, "of the texture")->capture_default_str();
+  for (const char* name : {"size", "spacing", "seed"}) {
+    add_table_option<PhantomOptions>(*command, std::string("--") + name, *find_option(phantom_options(), name),
+                                     [options = &arguments->options]() -> PhantomOptions& { return *options; });
+  }
   command->add_option("--out", arguments->out, "folder for the head")->required()->type_name("DIR");
   command->callback([arguments, &settings] {
     StageFolder folder(arguments->out, *settings.interruption);

@@ -7,6 +7,7 @@
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/explain_scene.hpp"
+#include "pipelines/scene/options_page.hpp"
 #include "pipelines/scene/parse_scene.hpp"
 
 namespace brainshift::pipelines {
@@ -16,6 +17,7 @@ struct SceneArguments {
   std::filesystem::path check;
   std::filesystem::path explain;
   bool defaults = false;
+  bool options = false;
   std::filesystem::path after;
   std::optional<double> within;
   std::vector<std::string> overrides;
@@ -30,6 +32,8 @@ Scene checked(const std::filesystem::path& file, const std::vector<std::string>&
 void look_at_scene(const SceneArguments& arguments, const Settings& settings) {
   if (arguments.defaults) {
     std::cout << default_scene();
+  } else if (arguments.options) {
+    std::cout << options_page();
   } else if (!arguments.check.empty()) {
     checked(arguments.check, arguments.overrides);
     if (!settings.quiet) {
@@ -64,6 +68,7 @@ void add_scene_command(CLI::App& program, const Settings& settings) {
   CLI::Option* explain =
       what->add_option("--explain", arguments->explain, "which parts are active and what they cost")->type_name("FILE");
   what->add_flag("--defaults", arguments->defaults, "a commented scene with every option");
+  what->add_flag("--options", arguments->options, "every option with its range, unit and default, as a page");
   CLI::Option* after =
       command
           ->add_option("--after", arguments->after,

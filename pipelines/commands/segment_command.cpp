@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "pipelines/commands/commands.hpp"
+#include "segmentation/options/values.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -33,7 +34,7 @@ void add_segment_command(CLI::App& program, const Settings& settings) {
     add_scene_option(*command, arguments->scene, "segment", name);
   }
   command->add_option("--brain-labels", arguments->brain_labels, "labels that are tissue of the brain")
-      ->check(CLI::Range(1, 32767))
+      ->check(CLI::Range(static_cast<int>(label_numbers.low), static_cast<int>(label_numbers.high)))
       ->capture_default_str();
   command->add_option("--out", arguments->out, "folder for the artefacts")->required()->type_name("DIR");
   command->callback([arguments, &settings] { segment(*arguments, settings); });

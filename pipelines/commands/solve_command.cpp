@@ -27,9 +27,8 @@ struct SolveArguments {
 
 void set_material(Tissue& tissue, const std::string& name, const std::string& value, const std::string& text) {
   const Option<Tissue>* option = find_option(tissue_options(), name);
-  if (!option->set(tissue, value)) {
-    throw std::invalid_argument("--material '" + text + "': " + name + " is '" + value + "', but must be " +
-                                option->allowed + (option->unit.empty() ? "" : " (" + option->unit + ")"));
+  if (!set_option(*option, tissue, value)) {
+    throw std::invalid_argument("--material '" + text + "': " + refusal(*option, value));
   }
 }
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "pipelines/scene/option.hpp"
+#include "segmentation/options/option.hpp"
 
 namespace brainshift::pipelines {
 
@@ -15,9 +15,8 @@ template <class T>
 CLI::Option* add_table_option(CLI::App& command, const std::string& flag, const Option<T>& option,
                               const std::function<T&()>& target, const T& defaults = {}) {
   const auto set = [&option, target, flag](const std::string& value) {
-    if (!option.set(target(), value)) {
-      throw CLI::ValidationError(flag, "is '" + value + "', but must be " + option.allowed +
-                                           (option.unit.empty() ? "" : " (" + option.unit + ")"));
+    if (!set_option(option, target(), value)) {
+      throw CLI::ValidationError(flag, refusal(option, value));
     }
   };
   return command.add_option_function<std::string>(flag, set, option.help)

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 install(TARGETS brainshift RUNTIME COMPONENT program)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
 
-set(libraries geometry image files segmentation discretise solve registration)
+set(libraries options geometry image files segmentation discretise solve registration)
 foreach(library ${libraries})
   set_target_properties(brainshift_${library} PROPERTIES EXPORT_NAME ${library})
   add_library(brainshift::${library} ALIAS brainshift_${library})

@@ -4,8 +4,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
 
 namespace brainshift::pipelines {
 
@@ -14,20 +12,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double natural_extent = 192;  // mm, of the image of a head of scale 1
-
-void check(const PhantomOptions& options) {
-  std::ostringstream fault;
-  if (options.size < 24 || options.size > 1024) {
-    fault << "the phantom's size is " << options.size << " voxels: give 24 to 1024";
-  } else if (!(options.spacing > 0.1 && options.spacing <= 10)) {
-    fault << "the phantom's spacing is " << options.spacing << " mm: give more than 0.1 and at most 10";
-  } else if (!(options.csf_gap >= 0 && options.csf_gap <= 4)) {
-    fault << "the phantom's gap between brain and skull is " << options.csf_gap << " mm: give 0 to 4";
-  }
-  if (!fault.str().empty()) {
-    throw std::invalid_argument(fault.str());
-  }
-}
 
 Eigen::Matrix3d direction_of(PhantomFrame frame) {
   if (frame == PhantomFrame::oblique) {
@@ -75,8 +59,20 @@ void for_each_voxel(const ImageGeometry& geometry, const Set& set) {
 
 }  // namespace
 
+const OptionTable<PhantomOptions>& phantom_options() {
+  using Options = PhantomOptions;
+  static const OptionTable<Options> table = {
+      number_option<Options>("size", &Options::size, {.low = 24, .high = 1024}, "", "voxels along each axis"),
+      number_option<Options>("spacing", &Options::spacing, {.low = 0.1, .high = 10, .low_allowed = false}, "mm",
+                             "of the voxels"),
+      number_option<Options>("csf_gap", &Options::csf_gap, {.low = 0, .high = 4}, "mm",
+                             "fluid between brain and skull"),
+      number_option<Options>("seed", &Options::seed, not_negative, "", "of the texture")};
+  return table;
+}
+
 Phantom make_phantom(const PhantomOptions& options) {
-  check(options);
+  check_table(phantom_options(), options);
   const Vector3d centre(-11, 23, 37);  // away from the origin, as scanners have it
   const Head head = make_head(centre, options.size * options.spacing / natural_extent, options.csf_gap);
   const Opening opening = make_opening(head);

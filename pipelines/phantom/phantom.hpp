@@ -9,6 +9,7 @@
 #include "pipelines/phantom/head.hpp"
 #include "pipelines/phantom/opening.hpp"
 #include "segmentation/image/image.hpp"
+#include "segmentation/options/option.hpp"
 
 namespace brainshift::pipelines {
 
@@ -19,12 +20,15 @@ enum class PhantomFrame : std::uint8_t {
 };
 
 struct PhantomOptions {
-  int size = 96;         ///< voxels along each axis, at least 24
+  int size = 96;         ///< voxels along each axis
   double spacing = 2.0;  ///< of the voxels, mm; the head grows with size · spacing and is natural at 192 mm
   PhantomFrame frame = PhantomFrame::oblique;
   double csf_gap = 0;      ///< fluid between brain and skull in a head of natural size, mm; 0: they touch
   std::uint64_t seed = 1;  ///< of the texture
 };
+
+/// Name, range, unit and help of each, the frame aside.
+const OptionTable<PhantomOptions>& phantom_options();
 
 struct Landmark {
   std::string name;

@@ -91,7 +91,8 @@ StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progres
   const std::optional<LabelMap> labels = labels_if(job.labels);
   discretise::DiscretiseOptions options = job.options;
   if (job.refinement.factor < 1 && job.load) {
-    options.craniotomy = {read_load(*job.load, job.surface).positions, job.refinement.radius, job.refinement.factor};
+    options.craniotomy = job.refinement;
+    options.craniotomy->centres = read_load(*job.load, job.surface).positions;
   }
   const auto result = discretise::discretise(brain, labels ? &*labels : nullptr, options, progress);
   discretise::write_discretisation(out, result);

@@ -22,8 +22,8 @@ struct DiscretiseJob {
   std::filesystem::path surface;
   std::filesystem::path labels;
   discretise::DiscretiseOptions options;
-  std::optional<Load> load;  ///< where the craniotomy is, for the refinement
-  CraniotomyRefinement refinement;
+  std::optional<Load> load;           ///< where the craniotomy is, for the refinement
+  discretise::Refinement refinement;  ///< without its centres; none where the factor is 1
 };
 
 struct SolveJob {

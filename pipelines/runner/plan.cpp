@@ -91,19 +91,29 @@ StagePlan plan_segment(const Scene& scene) {
   SegmentJob job{scene.image, scene.segment};
   job.options.brain_labels = tissue_labels(scene);
   job.options.skull_label = scene.image.skull_label;
-  StagePlan plan{
-      StageId::segment, files_of(scene, {"image"}), options_of(scene, {"image", "segment"}), {"brain.vtp"}, {}};
+  StagePlan plan{.stage = StageId::segment,
+                 .inputs = files_of(scene, {"image"}),
+                 .options = options_of(scene, {"image", "segment"}),
+                 .artefacts = {"brain.vtp"},
+                 .work = {}};
   plan.options["brain_labels"] = job.options.brain_labels;
   plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
   return plan;
 }
 
 StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
-  DiscretiseJob job{folder / "segment" / "brain.vtp", if_there(folder / "segment" / "labels.nii.gz"), scene.discretise,
-                    std::nullopt, scene.refinement};
+  DiscretiseJob job{.surface = folder / "segment" / "brain.vtp",
+                    .labels = if_there(folder / "segment" / "labels.nii.gz"),
+                    .options = scene.discretise,
+                    .load = {},
+                    .refinement = scene.refinement};
   const auto labels = tissue_labels(scene);
   job.options.brain_labels.assign(labels.begin(), labels.end());
-  StagePlan plan{StageId::discretise, {}, options_of(scene, {"discretise"}), {"nodes.vtu", "cells.vtu"}, {}};
+  StagePlan plan{.stage = StageId::discretise,
+                 .inputs = {},
+                 .options = options_of(scene, {"discretise"}),
+                 .artefacts = {"nodes.vtu", "cells.vtu"},
+                 .work = {}};
   if (job.refinement.factor < 1) {
     job.load = scene.load;
     const auto load = load_elements(scene);
@@ -120,7 +130,11 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
   const SolveJob job = solve_job(scene, folder);
   std::vector<std::string> elements = load_elements(scene);
   elements.insert(elements.end(), {"contact", "tissues", "cuts", "resection", "solve"});
-  StagePlan plan{StageId::solve, files_of(scene, elements), options_of(scene, elements), {"solution.vtu"}, {}};
+  StagePlan plan{.stage = StageId::solve,
+                 .inputs = files_of(scene, elements),
+                 .options = options_of(scene, elements),
+                 .artefacts = {"solution.vtu"},
+                 .work = {}};
   add_artefacts(plan, folder, {"discretise/nodes.vtu", "discretise/cells.vtu", "segment/labels.nii.gz"});
   if (scene.load && scene.load->simulated) {
     add_artefacts(plan, folder, {"segment/brain.vtp"});
@@ -133,15 +147,19 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
 }
 
 StagePlan plan_register(const Scene& scene, const fs::path& folder) {
-  const RegisterJob job{folder / "solve" / "solution.vtu",
-                        folder / "segment" / "brain.vtp",
-                        scene.image.t1,
-                        if_there(folder / "segment" / "labels.nii.gz"),
-                        scene.landmarks.value_or(fs::path()),
-                        {},
-                        {},
-                        scene.registration};
-  StagePlan plan{StageId::registration, {}, options_of(scene, {"register"}), {"warped.nii.gz"}, {}};
+  const RegisterJob job{.solution = folder / "solve" / "solution.vtu",
+                        .surface = folder / "segment" / "brain.vtp",
+                        .t1 = scene.image.t1,
+                        .labels = if_there(folder / "segment" / "labels.nii.gz"),
+                        .landmarks = scene.landmarks.value_or(fs::path()),
+                        .warp = {},
+                        .warp_labels = {},
+                        .options = scene.registration};
+  StagePlan plan{.stage = StageId::registration,
+                 .inputs = {},
+                 .options = options_of(scene, {"register"}),
+                 .artefacts = {"warped.nii.gz"},
+                 .work = {}};
   for (const InputFile& file : scene_files(scene)) {
     if (file.role == "image.t1" || file.role == "landmarks.file") {
       plan.inputs.push_back(file);
@@ -154,7 +172,11 @@ StagePlan plan_register(const Scene& scene, const fs::path& folder) {
 
 /// The report shows everything: the options, and all that the other stages left, their times too.
 StagePlan plan_report(const Scene& scene, const fs::path& folder) {
-  StagePlan plan{StageId::report, scene_files(scene), effective_options(scene), {"index.html"}, {}};
+  StagePlan plan{.stage = StageId::report,
+                 .inputs = scene_files(scene),
+                 .options = effective_options(scene),
+                 .artefacts = {"index.html"},
+                 .work = {}};
   for (const StageId stage : {StageId::segment, StageId::discretise, StageId::solve, StageId::registration}) {
     const fs::path stage_folder = folder / stage_name(stage);
     if (fs::is_directory(stage_folder)) {
@@ -230,7 +252,7 @@ void make_external(StagePlan& plan, const Scene& scene, const fs::path& folder, 
   const fs::path in = folder;
   StagePlan expected = plan;
   plan.work = [command, in, directory, expected, &interruption](const fs::path& out, const Progress&) {
-    run_command_stage({command, in, out, directory}, expected, interruption);
+    run_command_stage({.command = command, .in = in, .out = out, .directory = directory}, expected, interruption);
     return StageReport{};
   };
 }
@@ -238,21 +260,20 @@ void make_external(StagePlan& plan, const Scene& scene, const fs::path& folder, 
 }  // namespace
 
 SolveJob solve_job(const Scene& scene, const fs::path& folder) {
-  SolveJob job{folder / "discretise" / "nodes.vtu",
-               folder / "discretise" / "cells.vtu",
-               if_there(folder / "segment" / "labels.nii.gz"),
-               {},
-               if_there(folder / "segment" / "brain.vtp"),
-               scene.load,
-               {},
-               scene.solve,
-               scene.loading,
-               solve::Plane::none};
+  SolveJob job{.nodes = folder / "discretise" / "nodes.vtu",
+               .cells = folder / "discretise" / "cells.vtu",
+               .labels = if_there(folder / "segment" / "labels.nii.gz"),
+               .skull = {},
+               .surface = if_there(folder / "segment" / "brain.vtp"),
+               .load = scene.load,
+               .materials = {},
+               .options = scene.solve,
+               .loading = scene.loading,
+               .cuts = scene.cuts,
+               .resection = scene.resection};
   if (scene.contact) {
     job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;
   }
-  job.cuts = scene.cuts;
-  job.resection = scene.resection;
   for (const Tissue& tissue : scene.tissues) {
     job.materials[tissue.label] = tissue.material;
   }

@@ -5,8 +5,14 @@
 #include <set>
 #include <stdexcept>
 
+#include "discretise/interface/option_table.hpp"
 #include "pipelines/scene/scene_table.hpp"
+#include "register/interface/option_table.hpp"
+#include "segmentation/interface/option_table.hpp"
+#include "solve/interface/option_table.hpp"
 #include "solve/material/check_material.hpp"
+#include "solve/quadrature/cell_points.hpp"
+#include "solve/region/region.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -14,6 +20,16 @@ namespace {
 /// Without a scene's file the options are those of a command.
 [[noreturn]] void fail(const Scene& scene, const std::string& path, const std::string& what) {
   throw std::invalid_argument(scene.source.file.empty() ? what : place(scene.source, path) + ": " + what);
+}
+
+/// Runs a check of the library; the place in the scene comes before its message.
+template <class Check>
+void check_at(const Scene& scene, const std::string& path, const Check& check) {
+  try {
+    check();
+  } catch (const std::invalid_argument& error) {
+    fail(scene, path, error.what());
+  }
 }
 
 void check_files(const Scene& scene) {
@@ -80,29 +96,30 @@ void check_cuts(const Scene& scene) {
     fail(scene, "cuts", "<cuts> names no cut; name one, as <cut file=\"sheet.vtp\"/>, or leave <cuts> out");
   }
   for (std::size_t i = 0; i < scene.cuts->files.size(); ++i) {
-    try {
-      read_cut(scene.cuts->files[i], solve::Plane::none);
-    } catch (const std::invalid_argument& error) {
-      fail(scene, "cuts." + std::to_string(i + 1), error.what());
-    }
+    check_at(scene, "cuts." + std::to_string(i + 1), [&] { read_cut(scene.cuts->files[i], solve::Plane::none); });
   }
 }
 
 void check_options(const Scene& scene) {
-  if (scene.discretise.nodes && scene.discretise.spacing) {
-    fail(scene, "discretise", "stage discretise has both nodes and spacing; give one of them");
-  }
+  check_at(scene, "segment", [&] { segmentation::check_options(scene.segment); });
+  check_at(scene, "discretise", [&] { discretise::check_options(scene.discretise); });
+  check_at(scene, "register", [&] { registration::check_options(scene.registration); });
   if (scene.refinement.factor < 1 && !scene.load) {
     fail(scene, "discretise.craniotomy_factor", "discretise.craniotomy_factor needs a <load> to refine towards");
   }
-  if (is_ours(scene, StageId::discretise) && scene.solve.points_per_cell.value_or(1) != 1) {
-    const bool hexahedra = scene.discretise.cells == CellKind::hexahedron;
-    if (*scene.solve.points_per_cell != (hexahedra ? 8 : 4)) {
-      fail(scene, "solve.points_per_cell",
-           "solve.points_per_cell is " + std::to_string(*scene.solve.points_per_cell) + ", but " +
-               (hexahedra ? "hexahedra take 1 or 8" : "tetrahedra take 1 or 4"));
-    }
+  if (is_ours(scene, StageId::discretise) && scene.solve.points_per_cell) {
+    check_at(scene, "solve.points_per_cell",
+             [&] { solve::check_points_per_cell(scene.discretise.cells, *scene.solve.points_per_cell); });
   }
+}
+
+/// What of the scene a region of the body cannot do.
+void check_region(const Scene& scene) {
+  solve::Model model;
+  model.gravity = scene.loading.gravity;
+  model.resection = scene.resection;
+  model.cuts.resize(scene.cuts ? 1 : 0);
+  check_at(scene, "solve.region", [&] { solve::check_region(model, scene.solve); });
 }
 
 std::set<std::int16_t> labels_in(const LabelMap& map) {
@@ -143,11 +160,7 @@ void check_tissues(const Scene& scene) {
     fail(scene, "tissues", "the scene has no <tissues>; name a tissue with its material for each label of the brain");
   }
   for (const Tissue& tissue : scene.tissues) {
-    try {
-      check_material(tissue);
-    } catch (const std::invalid_argument& error) {
-      fail(scene, "tissues." + std::to_string(tissue.label), error.what());
-    }
+    check_at(scene, "tissues." + std::to_string(tissue.label), [&] { check_material(tissue); });
   }
   if (!is_ours(scene, StageId::segment)) {
     return;
@@ -192,6 +205,7 @@ void check_scene(const Scene& scene) {
 }
 
 void check_solve_options(const Scene& scene) {
+  check_at(scene, "solve", [&] { solve::check_options(scene.solve); });
   const Loading& loading = scene.loading;
   if (!loading.curve.empty() && loading.duration) {
     fail(scene, "solve.duration",
@@ -215,17 +229,7 @@ void check_solve_options(const Scene& scene) {
     }
   }
   if (scene.solve.region > 0) {
-    const std::pair<const char*, bool> whole_body_only[] = {
-        {"dynamics=\"transient\"", scene.solve.dynamics == solve::Dynamics::transient},
-        {"gravity", !loading.gravity.isZero()},
-        {"cuts", scene.cuts.has_value()},
-        {"a resection", scene.resection.has_value()},
-        {"integration_tolerance", scene.solve.integration_tolerance > 0}};
-    for (const auto& [name, given] : whole_body_only) {
-      if (given) {
-        fail(scene, "solve.region", std::string("a region does not go with ") + name + "; set region to 0");
-      }
-    }
+    check_region(scene);
   }
   load_curve(loading);
 }

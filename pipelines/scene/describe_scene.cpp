@@ -10,7 +10,7 @@ namespace brainshift::pipelines {
 namespace {
 
 template <class T>
-std::string help_lines(const std::vector<Option<T>>& options, const std::string& indent) {
+std::string help_lines(const OptionTable<T>& options, const std::string& indent) {
   std::string text;
   for (const auto& option : options) {
     text += indent + option.name + ": " + option.help + " [" + option.allowed +
@@ -20,7 +20,7 @@ std::string help_lines(const std::vector<Option<T>>& options, const std::string&
 }
 
 template <class T>
-std::string attributes(const std::vector<Option<T>>& options, const T& target) {
+std::string attributes(const OptionTable<T>& options, const T& target) {
   std::string text;
   for (const auto& option : options) {
     text += " " + option.name + "=\"" + option.get(target) + "\"";
@@ -55,7 +55,7 @@ std::string tissues_part() {
   Tissue tissue;
   tissue.label = 1;
   // Constants beside a named material override it, so the example of all constants names none.
-  std::vector<Option<Tissue>> constants = tissue_options();
+  OptionTable<Tissue> constants = tissue_options();
   std::erase_if(constants, [](const auto& option) { return option.name == "material"; });
   const std::string example = "<tissues><tissue" + attributes(constants, tissue) + "/></tissues>";
   return comment("The brain's tissues: one element a label.",

@@ -25,19 +25,18 @@ struct Where {
 };
 
 template <class T>
-void set_option(const Option<T>& option, T& target, const std::string& value, const Where& where) {
+void set_value(const Option<T>& option, T& target, const std::string& value, const Where& where) {
   std::string stored = value;
   if (option.is_path && !value.empty()) {
     stored = (where.source.file.parent_path() / value).lexically_normal().string();
   }
-  if (!option.set(target, stored)) {
-    where.fail(where.element + " " + option.name + " is '" + value + "', but must be " + option.allowed +
-               (option.unit.empty() ? "" : " (" + option.unit + ")"));
+  if (!set_option(option, target, stored)) {
+    where.fail(where.element + " " + refusal(option, value));
   }
 }
 
 template <class T>
-const Option<T>& known_option(const std::vector<Option<T>>& options, const std::string& name, const Where& where) {
+const Option<T>& known_option(const OptionTable<T>& options, const std::string& name, const Where& where) {
   const Option<T>* option = find_option(options, name);
   if (option == nullptr) {
     where.fail(where.element + " has no attribute '" + name + "'; allowed: " + option_names(options));
@@ -48,8 +47,8 @@ const Option<T>& known_option(const std::vector<Option<T>>& options, const std::
 /// Reads the attributes of an element into the target, and where they were written into the source. They are applied
 /// in the order of the options, so that a named material comes before the constants that differ from it.
 template <class T>
-void read_attributes(const tinyxml2::XMLElement& xml, const std::vector<Option<T>>& options, T& target,
-                     const std::string& path, SceneSource& source) {
+void read_attributes(const tinyxml2::XMLElement& xml, const OptionTable<T>& options, T& target, const std::string& path,
+                     SceneSource& source) {
   const std::string name = "<" + std::string(xml.Name()) + ">";
   std::map<std::string, const tinyxml2::XMLAttribute*> given;
   for (const auto* attribute = xml.FirstAttribute(); attribute != nullptr; attribute = attribute->Next()) {
@@ -66,7 +65,7 @@ void read_attributes(const tinyxml2::XMLElement& xml, const std::vector<Option<T
   }
   for (const auto& option : options) {
     if (const auto found = given.find(option.name); found != given.end()) {
-      set_option(option, target, found->second->Value(), {source, found->second->GetLineNum(), name});
+      set_value(option, target, found->second->Value(), {source, found->second->GetLineNum(), name});
     } else if (option.required) {
       Where{source, xml.GetLineNum(), name}.fail(name + " needs the attribute '" + option.name + "' (" + option.help +
                                                  ")");
@@ -198,7 +197,7 @@ void set_tissue_option(Scene& scene, const std::string& label, const std::string
       if (option.required) {
         where.fail("the label of a tissue cannot be changed; change the scene's file");
       }
-      set_option(option, tissue, value, where);
+      set_value(option, tissue, value, where);
       scene.source.lines["tissues." + label + "." + name] = 0;
       return;
     }
@@ -228,7 +227,7 @@ void apply_override(Scene& scene, const std::string& text) {
     where.fail("there is no element '" + where.element + "'; allowed: " + names);
   }
   element->add(scene);
-  set_option(known_option(element->options, path.substr(dot + 1), where), scene, value, where);
+  set_value(known_option(element->options, path.substr(dot + 1), where), scene, value, where);
   scene.source.lines[path] = 0;
 }
 

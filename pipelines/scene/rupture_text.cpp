@@ -1,36 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/scene/rupture_text.hpp"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
-#include "pipelines/scene/option.hpp"
-#include "pipelines/scene/scene_table.hpp"
+#include "segmentation/options/option.hpp"
 
 namespace brainshift::pipelines {
 namespace {
 
-std::vector<Option<solve::Rupture>> rupture_options() {
-  const auto strength = [](auto& rupture) -> auto& {
-    return rupture.strength;
-  };
-  return {number<solve::Rupture>("stretch", strength, {.low = 1, .low_allowed = false}, "", ""),
-          number<solve::Rupture>("stress", strength, above_zero, "Pa", ""),
-          number<solve::Rupture>(
-              "distance", [](auto& rupture) -> auto& { return rupture.distance; }, {.low = 0}, "mm", ""),
-          number<solve::Rupture>(
-              "scatter", [](auto& rupture) -> auto& { return rupture.scatter; },
-              {.low = 0, .high = 1, .high_allowed = false}, "", ""),
-          number<solve::Rupture>(
-              "seed", [](auto& rupture) -> auto& { return rupture.seed; }, {.low = 0}, "", "")};
+OptionTable<solve::Rupture> rupture_options() {
+  using solve::Rupture;
+  return {number_option<Rupture>("stretch", &Rupture::strength, {.low = 1, .low_allowed = false}, "", ""),
+          number_option<Rupture>("stress", &Rupture::strength, above_zero, "Pa", ""),
+          number_option<Rupture>("distance", &Rupture::distance, not_negative, "mm", ""),
+          number_option<Rupture>("scatter", &Rupture::scatter, {.low = 0, .high = 1, .high_allowed = false}, "", ""),
+          number_option<Rupture>("seed", &Rupture::seed, not_negative, "", "")};
 }
 
 }  // namespace
 
 solve::Rupture rupture_from_text(const std::string& text) {
   const auto fail = [&](const std::string& what) { throw std::invalid_argument("--rupture '" + text + "' " + what); };
-  const std::vector<Option<solve::Rupture>> options = rupture_options();
+  const OptionTable<solve::Rupture> options = rupture_options();
   solve::Rupture rupture;
   std::set<std::string> given;
   for (const std::string& word : split_words(text)) {
@@ -42,9 +36,8 @@ solve::Rupture rupture_from_text(const std::string& text) {
            ", as stretch=1.4,distance=2 is");
     }
     const std::string value = word.substr(equals + 1);
-    if (!option->set(rupture, value)) {
-      fail("gives " + name + " as '" + value + "', but it must be " + option->allowed +
-           (option->unit.empty() ? "" : " (" + option->unit + ")"));
+    if (!set_option(*option, rupture, value)) {
+      fail("is refused: " + refusal(*option, value));
     }
     if (!given.insert(name).second) {
       fail("names " + name + " twice");
@@ -60,13 +53,15 @@ solve::Rupture rupture_from_text(const std::string& text) {
 
 solve::WeakSpot weak_spot_from_text(const std::string& text) {
   constexpr Range share{.low = 0, .high = 1, .low_allowed = false, .high_allowed = false};
-  const auto numbers = read_numbers<double>(text, {});
-  if (!numbers || numbers->size() != 4 || !above_zero.holds((*numbers)[2]) || !share.holds((*numbers)[3])) {
+  const auto numbers = read_numbers<double>(text);
+  const auto finite = [](double number) { return any_number.holds(number); };
+  if (!numbers || numbers->size() != 4 || !std::all_of(numbers->begin(), numbers->end(), finite) ||
+      !above_zero.holds((*numbers)[2]) || !share.holds((*numbers)[3])) {
     throw std::invalid_argument("--weak-spot is '" + text +
                                 "', but must be x,y,radius,factor, as 30,20,5,0.5 is: mm, the radius above 0, the "
                                 "factor of the strength between 0 and 1");
   }
-  return {{(*numbers)[0], (*numbers)[1]}, (*numbers)[2], (*numbers)[3]};
+  return {.place = {(*numbers)[0], (*numbers)[1]}, .radius = (*numbers)[2], .factor = (*numbers)[3]};
 }
 
 }  // namespace brainshift::pipelines

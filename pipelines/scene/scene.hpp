@@ -86,12 +86,6 @@ struct Cuts {
 /// sheet of a plane problem.
 solve::Cut read_cut(const CutFile& cut, solve::Plane plane);
 
-/// Finer nodes towards the load.
-struct CraniotomyRefinement {
-  double factor = 1;   ///< spacing at the load / uniform spacing; 1: no refinement
-  double radius = 20;  ///< mm
-};
-
 /// How the load and all forces come over time, and the weight.
 struct Loading {
   std::optional<double> duration;  ///< of the 3-4-5 curve in a transient run, s; absent: 1
@@ -136,7 +130,8 @@ struct Scene {
   std::optional<TradeoffLists> tradeoff;
   segmentation::SegmentOptions segment;  ///< brain_labels and skull_label are filled in from tissues and image
   discretise::DiscretiseOptions discretise;
-  CraniotomyRefinement refinement;
+  discretise::Refinement refinement = {.centres = {},
+                                       .factor = 1};  ///< towards the load, which gives the centres; 1: none
   solve::SolveOptions solve = quickest();
   Loading loading;
   registration::RegisterOptions registration;

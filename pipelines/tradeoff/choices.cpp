@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "pipelines/scene/values.hpp"
+#include "segmentation/options/values.hpp"
 
 namespace brainshift::pipelines {
 
@@ -23,7 +23,7 @@ std::vector<Choice> all_choices(const TradeoffLists& lists) {
 }
 
 Choice reference_choice(const TradeoffLists& lists) {
-  const std::vector<double> stops = read_numbers<double>(lists.tolerance, {}).value();
+  const std::vector<double> stops = read_numbers<double>(lists.tolerance).value();
   const double stop = *std::min_element(stops.begin(), stops.end()) / 10;
   return {write_number(lists.reference_nodes), "auto", "0", "modified_quadratic", "full", "double", write_number(stop)};
 }

@@ -14,7 +14,7 @@
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
-#include "pipelines/scene/values.hpp"
+#include "segmentation/options/values.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/output/field_difference.hpp"
 #include "solve/output/solution_file.hpp"
@@ -176,7 +176,7 @@ class Sweeper {
 };
 
 void check_lists(const Scene& scene, const TradeoffLists& lists) {
-  const std::vector<double> nodes = read_numbers<double>(lists.nodes, {}).value();
+  const std::vector<double> nodes = read_numbers<double>(lists.nodes).value();
   const double most = *std::max_element(nodes.begin(), nodes.end());
   if (lists.reference_nodes < 2 * most) {
     throw std::invalid_argument(place(scene.source, "tradeoff.reference_nodes") + ": the reference has " +

@@ -10,10 +10,10 @@ namespace brainshift::registration {
 namespace {
 
 void check_fade(double fade, double shell) {
-  if (!(fade > shell && fade < 1e3)) {
+  if (!(fade > shell)) {
     std::ostringstream text;
     text << "the fade is " << fade << " mm, but must be wider than two voxel diagonals (" << shell
-         << " mm) and below 1000 mm; the default is 20 mm";
+         << " mm); the default is 20 mm";
     throw std::invalid_argument(text.str());
   }
 }

@@ -7,6 +7,7 @@ namespace brainshift::registration {
 
 enum class Interpolation : std::uint8_t { linear, bspline };
 
+/// What each may be stands in option_table.cpp.
 struct RegisterOptions {
   double fade = 20.0;  ///< distance outside the brain over which the field goes to zero, mm; it does not fold while
                        ///< displacements away from the brain stay below about 0.7 of it

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/interface/check_input.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
+
+#include "segmentation/interface/option_table.hpp"
 
 namespace brainshift::segmentation {
 namespace {
@@ -23,20 +23,6 @@ void check_same_geometry(const Image<A>& a, const char* name_a, const std::optio
     throw std::invalid_argument(std::string(name_a) + " and " + name_b + " lie on different grids (" +
                                 described(a.geometry) + " against " + described(b->geometry) +
                                 ", or another direction); resample one onto the other's grid");
-  }
-}
-
-void check_options(const SegmentOptions& options) {
-  if (!(options.edge_length > 0) || !std::isfinite(options.edge_length)) {
-    throw std::invalid_argument("the edge length must be positive, found " + std::to_string(options.edge_length) +
-                                " mm");
-  }
-  if (options.classes < 2) {
-    throw std::invalid_argument("at least 2 classes are needed, found " + std::to_string(options.classes));
-  }
-  if (!(options.ventricle_depth >= 0)) {
-    throw std::invalid_argument("the ventricle depth must not be negative, found " +
-                                std::to_string(options.ventricle_depth) + " mm");
   }
 }
 

@@ -18,9 +18,10 @@ inline constexpr std::int16_t skull = 5;
 inline constexpr std::int16_t skin = 6;
 }  // namespace default_label
 
+/// What each may be stands in option_table.cpp.
 struct SegmentOptions {
   double edge_length = 5.0;       ///< target edge of the remeshed surfaces, mm
-  int classes = 3;                ///< fuzzy c-means classes (CSF, grey, white), at least 2
+  int classes = 3;                ///< fuzzy c-means classes (CSF, grey, white)
   double ventricle_depth = 15.0;  ///< CSF is ventricle where most of its body lies this deep in the brain, mm
   std::vector<std::int16_t> brain_labels = {default_label::parenchyma, default_label::ventricles,
                                             default_label::tumour};

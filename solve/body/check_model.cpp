@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "segmentation/geometry/neighbour_distance.hpp"
+#include "solve/interface/option_table.hpp"
 
 namespace brainshift::solve {
 
@@ -107,6 +108,9 @@ std::vector<std::int32_t> parts_of(std::size_t nodes, const ShapeRows& rows) {
 }  // namespace
 
 void check_model(const Model& model) {
+  if (model.resection) {
+    check_table(resection_options(), *model.resection);
+  }
   check_plane(model);
   check_apart(model.cloud);
 }

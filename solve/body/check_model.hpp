@@ -7,7 +7,8 @@
 
 namespace brainshift::solve {
 
-/// Throws std::invalid_argument when plane, cells and materials do not go together, or nodes lie in one place.
+/// Throws std::invalid_argument when plane, cells and materials do not go together, the resection is out of range, or
+/// nodes lie in one place.
 void check_model(const Model& model);
 
 /// Throws std::invalid_argument when the conditions leave the body free to move as a whole.

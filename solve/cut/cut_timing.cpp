@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/cut/cut_timing.hpp"
 
-#include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 namespace brainshift::solve {
 namespace {
 
-void check_number(const std::optional<double>& number, bool in_range, const char* what, const std::string& name) {
-  if (number && !(std::isfinite(*number) && in_range)) {
-    std::ostringstream text;
-    text << name << ": the cut's " << what << ", found " << *number;
-    throw std::invalid_argument(text.str());
-  }
-}
-
 void check_timing(const CutTiming& timing, const std::string& name) {
-  check_number(timing.start, timing.start.value_or(0) >= 0, "start must be a time of the load's curve, 0 or later",
-               name);
-  check_number(timing.speed, timing.speed.value_or(1) > 0, "speed must be above 0 mm in a unit of time", name);
-  if (!timing.direction.allFinite()) {
-    throw std::invalid_argument(name + ": the cut's direction must be three finite numbers");
+  for (const Option<CutTiming>& option : cut_timing_options()) {
+    if (!option.holds(timing)) {
+      throw std::invalid_argument(name + ": the cut's " + refusal(option, option.get(timing)));
+    }
   }
   if (!timing.direction.isZero(0) && !timing.speed) {
     throw std::invalid_argument(name + ": the cut has a direction but no speed; give the speed in it, or neither");
@@ -29,6 +18,17 @@ void check_timing(const CutTiming& timing, const std::string& name) {
 }
 
 }  // namespace
+
+const OptionTable<CutTiming>& cut_timing_options() {
+  static const OptionTable<CutTiming> table = {
+      number_option<CutTiming>("start", &CutTiming::start, not_negative, "time of the load's curve",
+                               "when it begins; without it and a speed the body is cut from the start"),
+      number_option<CutTiming>("speed", &CutTiming::speed, above_zero, "mm in a unit of that time",
+                               "at which it goes on; without it the whole cut is there at its start"),
+      vector_option<CutTiming>("direction", &CutTiming::direction, "any length",
+                               "in which a sheet is cut at that speed; 0 0 0: none")};
+  return table;
+}
 
 std::vector<double> times_along(const std::vector<double>& distance, const CutTiming& timing, const std::string& name) {
   check_timing(timing, name);

@@ -40,6 +40,7 @@ enum class Start : std::uint8_t {
   coarse,  ///< under the full load, as a coarse cloud's solution lies: fewer steps to the same end, no way there
 };
 
+/// What each may be stands in option_table.cpp.
 struct SolveOptions {
   ShapeOptions shape;  ///< planar is set from the model
   Volumetric volumetric = Volumetric::mean_dilatation;

@@ -48,10 +48,11 @@ struct SimulatedCraniotomy {
 
 /// What might be measured in such an opening: the brain surface's vertices under it, displaced along the opening's mean
 /// inward normal by `depth` at the centre, falling smoothly to a twentieth of it at the rim (measured shifts are
-/// largest amid the opening and 0-1 mm at its rim). Throws std::invalid_argument on a radius or depth that is not
-/// positive and finite, and when fewer than three vertices lie under the opening.
+/// largest amid the opening and 0-1 mm at its rim). Throws std::invalid_argument on a number that load_options.cpp does
+/// not allow, and when fewer than three vertices lie under the opening.
 CraniotomyLoad simulated_craniotomy(const Surface& brain, const SimulatedCraniotomy& opening);
 
+/// What each may be stands in load_options.cpp.
 struct OpeningOptions {
   /// How far past the outermost measured points the opening reaches, mm. Negative: half the median distance from a
   /// point to its nearest neighbour, 5 mm at most (a single point: the spacing of the nearest node).
@@ -63,9 +64,10 @@ struct OpeningOptions {
 /// Extends the measured displacements to the surface nodes under the opening: those whose projection on the best-fit
 /// plane of the measured points lies in their convex hull widened by the margin, and that are near them in depth too.
 /// All other components stay free (NaN). Between the points by thin-plate splines of the nearest ones, kept within the
-/// measured values by a tenth of their range. Returns (n × 3) mm, one row a node. Throws std::invalid_argument on no
-/// measured point or one that is not finite; with the distance and the point, on one too far from the surface (a wrong
-/// frame, most often: says so if flipping x and y would bring it near); and when no node is loaded.
+/// measured values by a tenth of their range. Returns (n × 3) mm, one row a node. Throws std::invalid_argument on an
+/// option out of range; on no measured point or one that is not finite; with the distance and the point, on one too far
+/// from the surface (a wrong frame, most often: says so if flipping x and y would bring it near); and when no node is
+/// loaded.
 Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load,
                                    const OpeningOptions& options = {});
 

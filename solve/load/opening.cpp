@@ -10,6 +10,7 @@
 #include "solve/load/convex_hull.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/load/extension.hpp"
+#include "solve/load/load_options.hpp"
 
 namespace brainshift::solve {
 namespace {
@@ -139,6 +140,7 @@ double default_margin(const Points& measured, const NodeCloud& cloud, const std:
 }  // namespace
 
 Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options) {
+  check_table(opening_options(), options);
   check_load(load);
   const std::vector<Eigen::Index> nodes = surface_nodes(cloud);
   const Points surface = cloud.positions(nodes, Eigen::all);

@@ -8,6 +8,7 @@
 
 #include "segmentation/geometry/surface_tree.hpp"
 #include "solve/load/craniotomy_load.hpp"
+#include "solve/load/load_options.hpp"
 
 namespace brainshift::solve {
 namespace {
@@ -15,10 +16,7 @@ namespace {
 constexpr double rim_share = 0.05;  ///< displacement at the rim / at the centre
 
 void check(const Surface& brain, const SimulatedCraniotomy& opening) {
-  if (!(opening.radius > 0) || !(opening.depth > 0) || !std::isfinite(opening.radius + opening.depth) ||
-      !opening.centre.allFinite()) {
-    throw std::invalid_argument("craniotomy: radius and depth must be positive, and the centre finite");
-  }
+  check_table(simulated_craniotomy_options(), opening);
   if (brain.triangles.rows() == 0) {
     throw std::invalid_argument("craniotomy: the brain's surface has no triangle");
   }

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "solve/material/material_options.hpp"
 #include "solve/material/ogden.hpp"
 #include "solve/material/own_elasticity.hpp"
 
@@ -23,6 +24,11 @@ void require(bool holds, const Parts&... parts) {
 
 bool is_positive(double value) {
   return value > 0 && std::isfinite(value);
+}
+
+void check_constant(const std::string& name, const Material& material, const char* constant) {
+  const Option<Material>& option = *find_option(material_options(), constant);
+  require(option.holds(material), name, ": ", refusal(option, option.get(material)));
 }
 
 void check_ogden(const std::string& name, const Material& material) {
@@ -66,14 +72,11 @@ void check_material(const std::string& name, const Material& material) {
   } else if (material.law == Law::ogden) {
     check_ogden(name, material);
   } else {
-    require(is_positive(material.youngs_modulus), name, " has E = ", material.youngs_modulus,
-            " Pa; it must be positive");
+    check_constant(name, material, "law");
+    check_constant(name, material, "youngs_modulus");
   }
-  require(material.poisson_ratio != 0.5, name,
-          " has nu = 0.5, which is incompressible; take a value slightly below, for brain 0.49");
-  require(material.poisson_ratio > -1 && material.poisson_ratio < 0.5, name, " has nu = ", material.poisson_ratio,
-          "; it must lie between -1 and 0.5, both excluded");
-  require(is_positive(material.density), name, " has the density ", material.density, " kg/m3; it must be positive");
+  check_constant(name, material, "poisson_ratio");
+  check_constant(name, material, "density");
   check_prony(name, material);
 }
 

@@ -27,8 +27,8 @@ struct PronyTerm {
 
 struct OwnElasticity;
 
-/// A tissue as the user describes it. check_material says what is allowed, named_materials has some from the
-/// literature.
+/// A tissue as the user describes it. material_options.cpp says what each constant may be, check_material what they
+/// must be together; named_materials has some from the literature.
 struct Material {
   double youngs_modulus = 3000;  ///< E at rest, Pa; the laws ogden and own say their shear modulus instead
   double poisson_ratio = 0.49;   ///< ν at rest

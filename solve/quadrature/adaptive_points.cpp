@@ -302,22 +302,11 @@ ShapeRows gather(std::vector<ShapeRows> batches, const std::vector<MergedPoint>&
   return rows;
 }
 
-void check(CellKind kind, const AdaptiveRule& rule) {
-  if (!(rule.tolerance > 0)) {
-    throw std::invalid_argument("the integration tolerance is " + std::to_string(rule.tolerance) +
-                                ", but must be above 0");
-  }
-  if (rule.depth < 1 || rule.depth > 6) {
-    throw std::invalid_argument("the integration depth is " + std::to_string(rule.depth) + ", but must be 1 to 6");
-  }
-  check_points_per_cell(kind, rule.points_per_part);
-}
-
 }  // namespace
 
 AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunctions& shape, const AdaptiveRule& rule,
                                const LabelMap* labels, const std::vector<std::int32_t>& tissues) {
-  check(cells.kind, rule);
+  check_points_per_cell(cells.kind, rule.points_per_part);
   check_affordable(fewest_points(cells, rule), rule);
   constexpr std::size_t cells_per_batch = 256;  // of which the rows of all levels are in memory
   AdaptivePoints result;

@@ -16,7 +16,7 @@ struct AdaptivePoints {
 /// How cells are split.
 struct AdaptiveRule {
   double tolerance = 0.1;   ///< τ
-  int depth = 3;            ///< times a cell is split at most, 1 to 6
+  int depth = 3;            ///< times a cell is split at most
   int points_per_part = 1;  ///< as of a cell, integration_points()
 };
 
@@ -24,7 +24,7 @@ struct AdaptiveRule {
 /// derivatives of its shape functions, Q = Σ w ∂φ_a/∂X over all its nodes a, changes little, |Q_parts − Q| ≤ τ
 /// |Q_parts|, at most `depth` times. The parts that were compared are the result, so little is evaluated in vain. Of a
 /// cut hexahedron the octants that are not whole stay as they are, with one point. Tissues as of integration_points().
-/// Throws std::invalid_argument when the rule makes no sense or takes over 3 million points.
+/// Throws std::invalid_argument when the cells do not take so many points a part, or over 3 million are needed.
 AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunctions& shape, const AdaptiveRule& rule,
                                const LabelMap* labels, const std::vector<std::int32_t>& tissues);
 

@@ -2,6 +2,7 @@
 #include "solve/quadrature/cell_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -55,8 +56,9 @@ int points_per_cell(std::optional<int> asked, CellKind kind, bool adaptive) {
 void check_points_per_cell(CellKind kind, int points) {
   const int many = most_points_per_cell(kind);
   if (points != 1 && points != many) {
-    throw std::invalid_argument("points per cell is " + std::to_string(points) + ", but these cells take 1 or " +
-                                std::to_string(many));
+    constexpr std::array<const char*, 4> names = {"hexahedra", "tetrahedra", "quadrilaterals", "triangles"};
+    throw std::invalid_argument("points_per_cell is " + std::to_string(points) + ", but " +
+                                names[static_cast<std::size_t>(kind)] + " take 1 or " + std::to_string(many));
   }
 }
 

@@ -31,23 +31,6 @@ constexpr double next_to_rim = 2;
 /// may be a little more wrong than where that can be seen.
 constexpr double trusted = 0.75;
 
-void check(const Model& model, const SolveOptions& options) {
-  const std::pair<bool, const char*> refused[] = {
-      {options.dynamics == Dynamics::transient, "transient dynamics: waves run through the whole body"},
-      {!model.gravity.isZero(), "gravity: it moves the whole body"},
-      {model.conditions.force.rows() > 0 || model.body_force, "forces: take prescribed displacements alone"},
-      {options.integration_tolerance > 0, "adaptive integration"},
-      {!model.cuts.empty() || model.rupture, "cuts or rupture"},
-      {model.resection.has_value(), "a resection: the rest of the body relaxes"},
-      {model.plane != Plane::none, "a plane problem"}};
-  for (const auto& [given, what] : refused) {
-    if (given) {
-      throw std::invalid_argument("a region does not go with " + std::string(what) +
-                                  "; solve the whole body, with region 0");
-    }
-  }
-}
-
 struct Region {
   std::vector<std::int32_t> nodes;  ///< kept, ascending
   std::vector<std::uint8_t> rim;    ///< one a kept node
@@ -170,8 +153,25 @@ SolveResult solve_whole(const Model& model, SolveOptions options, double seconds
 
 }  // namespace
 
+void check_region(const Model& model, const SolveOptions& options) {
+  const std::pair<bool, const char*> refused[] = {
+      {options.dynamics == Dynamics::transient, "transient dynamics: waves run through the whole body"},
+      {!model.gravity.isZero(), "gravity: it moves the whole body"},
+      {model.conditions.force.rows() > 0 || model.body_force, "forces: take prescribed displacements alone"},
+      {options.integration_tolerance > 0, "adaptive integration"},
+      {!model.cuts.empty() || model.rupture, "cuts or rupture"},
+      {model.resection.has_value(), "a resection: the rest of the body relaxes"},
+      {model.plane != Plane::none, "a plane problem"}};
+  for (const auto& [given, what] : refused) {
+    if (given) {
+      throw std::invalid_argument("a region does not go with " + std::string(what) +
+                                  "; solve the whole body, with region 0");
+    }
+  }
+}
+
 SolveResult solve_region(const Model& model, const SolveOptions& given, const Progress& progress) {
-  check(model, given);
+  check_region(model, given);
   const SolveOptions options = completed(given, model);
   const Stopwatch start;
   report(progress, 0, "solving a coarse cloud");

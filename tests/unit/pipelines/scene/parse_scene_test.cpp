@@ -2,6 +2,7 @@
 #include "pipelines/scene/parse_scene.hpp"
 
 #include <gtest/gtest.h>
+
 #include <nlohmann/json.hpp>
 
 #include "pipelines/scene/describe_scene.hpp"
@@ -17,7 +18,7 @@ TEST_F(SceneFile, EveryOptionReadsBackWhatItWrites) {
     element.add(scene);
     for (const auto& option : element.options) {
       const std::string value = option.get(scene);
-      EXPECT_TRUE(option.set(scene, value)) << element.path << "." << option.name << " = '" << value << "'";
+      EXPECT_TRUE(set_option(option, scene, value)) << element.path << "." << option.name << " = '" << value << "'";
       EXPECT_EQ(option.get(scene), value);
     }
   }
@@ -77,7 +78,7 @@ TEST_F(SceneFile, EveryTissueOptionReadsBackWhatItWrites) {
     Tissue tissue{1, "a name", name, *solve::named_material(name)};
     Tissue copy;
     for (const auto& option : tissue_options()) {
-      EXPECT_TRUE(option.set(copy, option.get(tissue))) << option.name;
+      EXPECT_TRUE(set_option(option, copy, option.get(tissue))) << option.name;
     }
     for (const auto& option : tissue_options()) {
       EXPECT_EQ(option.get(copy), option.get(tissue));

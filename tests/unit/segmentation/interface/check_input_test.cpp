@@ -87,7 +87,8 @@ TEST(Segment, InputThatDoesNotFitIsRefusedInASentence) {
   EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment({}, two_labels()); }, {"give labels"}));
   SegmentOptions bad = two_labels();
   bad.edge_length = std::nan("");
-  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(lacking, bad); }, {"edge length"}));
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(lacking, bad); },
+                                                   {"edge_length is 'nan', but must be a number > 0 (mm)"}));
 }
 
 TEST(Segment, RefusesABrainWhoseLengthsAreInMetres) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipelines/scene/values.hpp"
+#include "segmentation/options/values.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace brainshift::pipelines {
+namespace brainshift {
 
 bool Range::holds(double value) const {
   const bool above = low_allowed ? value >= low : value > low;
@@ -31,7 +31,7 @@ std::optional<std::vector<std::pair<double, double>>> read_number_pairs(std::str
   }
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(';', begin), text.size());
-    const auto numbers = read_numbers<double>(text.substr(begin, end - begin), {});
+    const auto numbers = read_numbers<double>(text.substr(begin, end - begin));
     if (!numbers || numbers->size() != 2) {
       return std::nullopt;
     }
@@ -41,21 +41,29 @@ std::optional<std::vector<std::pair<double, double>>> read_number_pairs(std::str
   return pairs;
 }
 
-std::string describe(const Range& range, bool whole) {
-  const std::string kind = whole ? "a whole number" : "a number";
+namespace {
+
+/// Whole numbers are written as such: 20000000 where a double would be 2e+07.
+std::string write_end(double end) {
+  return end == std::trunc(end) && std::abs(end) < 1e15 ? write_number(static_cast<long long>(end)) : write_number(end);
+}
+
+}  // namespace
+
+std::string allowed_numbers(const std::string& kind, const Range& range) {
   const bool has_low = std::isfinite(range.low);
   const bool has_high = std::isfinite(range.high);
   if (has_low && has_high && range.low_allowed && range.high_allowed) {
-    return kind + " from " + write_number(range.low) + " to " + write_number(range.high);
+    return kind + " from " + write_end(range.low) + " to " + write_end(range.high);
   }
   std::string text = kind;
   if (has_low) {
-    text += (range.low_allowed ? " >= " : " > ") + write_number(range.low);
+    text += (range.low_allowed ? " >= " : " > ") + write_end(range.low);
   }
   if (has_high) {
-    text += std::string(has_low ? " and" : "") + (range.high_allowed ? " <= " : " < ") + write_number(range.high);
+    text += std::string(has_low ? " and" : "") + (range.high_allowed ? " <= " : " < ") + write_end(range.high);
   }
   return text;
 }
 
-}  // namespace brainshift::pipelines
+}  // namespace brainshift

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <charconv>
-#include <concepts>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -12,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace brainshift::pipelines {
+namespace brainshift {
 
 /// The numbers that an option may take.
 struct Range {
@@ -21,19 +18,22 @@ struct Range {
   bool low_allowed = true;
   bool high_allowed = true;
 
-  bool holds(double value) const;  ///< false for NaN
+  bool holds(double value) const;  ///< false for NaN and infinity
 };
+inline constexpr Range any_number{};
 inline constexpr Range above_zero{.low = 0, .low_allowed = false};
+inline constexpr Range not_negative{.low = 0};
+inline constexpr Range label_numbers{.low = 1, .high = 32767};  ///< of tissues in label maps
 
-/// "a number > 0", "a whole number from 1 to 8".
-std::string describe(const Range& range, bool whole);
+/// "a number > 0", "a whole number from 1 to 8": the kind, then the range.
+std::string allowed_numbers(const std::string& kind, const Range& range);
 
-/// Reads the whole of the text as a number in the range; nothing may follow it. Empty on failure.
+/// Reads the whole of the text as a number; nothing may follow it. Empty on failure.
 template <class T>
-std::optional<T> read_number(std::string_view text, const Range& range) {
+std::optional<T> read_number(std::string_view text) {
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !range.holds(static_cast<double>(value))) {
+  if (error != std::errc{} || end != text.data() + text.size()) {
     return std::nullopt;
   }
   return value;
@@ -52,10 +52,10 @@ std::vector<std::string> split_words(std::string_view text);
 
 /// Numbers separated by blanks or commas; empty on failure.
 template <class T>
-std::optional<std::vector<T>> read_numbers(std::string_view text, const Range& range) {
+std::optional<std::vector<T>> read_numbers(std::string_view text) {
   std::vector<T> values;
   for (const std::string& word : split_words(text)) {
-    const auto value = read_number<T>(word, range);
+    const auto value = read_number<T>(word);
     if (!value) {
       return std::nullopt;
     }
@@ -77,4 +77,4 @@ std::string write_numbers(const Numbers& values) {
   return text;
 }
 
-}  // namespace brainshift::pipelines
+}  // namespace brainshift

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "register/interface/option_table.hpp"
+
+namespace brainshift::registration {
+
+const OptionTable<RegisterOptions>& register_options() {
+  using Options = RegisterOptions;
+  static const OptionTable<Options> table = {
+      number_option<Options>("fade", &Options::fade,
+                             {.low = 0, .high = 1000, .low_allowed = false, .high_allowed = false}, "mm",
+                             "outside the brain the field goes to zero over this distance"),
+      choice_option<Options>("interpolation", &Options::interpolation,
+                             {{"linear", Interpolation::linear}, {"bspline", Interpolation::bspline}},
+                             "of the warped image"),
+      number_option<Options>("inverse_tolerance", &Options::inverse_tolerance, above_zero, "mm",
+                             "of the inversion of the field")};
+  return table;
+}
+
+void check_options(const RegisterOptions& options) {
+  check_table(register_options(), options);
+}
+
+}  // namespace brainshift::registration

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/interface/option_table.hpp"
+
+namespace brainshift::segmentation {
+
+const OptionTable<SegmentOptions>& segment_options() {
+  using Options = SegmentOptions;
+  static const OptionTable<Options> table = {
+      number_option<Options>("edge_length", &Options::edge_length, above_zero, "mm",
+                             "target edge of the remeshed surfaces"),
+      number_option<Options>("classes", &Options::classes, {.low = 2, .high = 10}, "",
+                             "fuzzy c-means classes (CSF, grey, white) when there are no labels"),
+      number_option<Options>("ventricle_depth", &Options::ventricle_depth, not_negative, "mm",
+                             "CSF is ventricle where most of its body lies this deep in the brain")};
+  return table;
+}
+
+void check_options(const SegmentOptions& options) {
+  check_table(segment_options(), options);
+}
+
+}  // namespace brainshift::segmentation

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/material/material_options.hpp"
+
+namespace brainshift::solve {
+namespace {
+
+Option<Material> poisson_ratio_option() {
+  auto option = number_option<Material>("poisson_ratio", &Material::poisson_ratio,
+                                        {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false}, "",
+                                        "how little the volume changes");
+  option.allowed += ", which is incompressible; for brain 0.49";
+  return option;
+}
+
+}  // namespace
+
+const OptionTable<Material>& material_options() {
+  static const OptionTable<Material> table = {
+      choice_option<Material>("law", &Material::law,
+                              {{"neo_hookean", Law::neo_hookean},
+                               {"ogden", Law::ogden},
+                               {"saint_venant_kirchhoff", Law::saint_venant_kirchhoff},
+                               {"linear_elastic", Law::linear_elastic}},
+                              "material law"),
+      number_option<Material>("youngs_modulus", &Material::youngs_modulus, above_zero, "Pa",
+                              "stiffness at rest; the law ogden takes its terms instead"),
+      poisson_ratio_option(),
+      number_option<Material>("density", &Material::density, above_zero, "kg/m3", "mass"),
+      pairs_option<Material>("ogden", &Material::ogden, "pairs mu,alpha separated by semicolons, or nothing",
+                             "Pa and 1", "terms of the law ogden, as 842,-4.7"),
+      pairs_option<Material>("prony", &Material::prony, "pairs share,time separated by semicolons, or nothing",
+                             "1 and s", "how the isochoric stress relaxes, as 0.450,0.50; 0.365,50")};
+  return table;
+}
+
+}  // namespace brainshift::solve
