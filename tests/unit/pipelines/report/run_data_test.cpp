@@ -22,8 +22,8 @@ TEST_F(RunDataTest, AHistoryIsReadByTheNamesOfItsColumns) {
   EXPECT_TRUE(std::isinf(rows[0].error_bound));
   EXPECT_EQ(rows[0].dissipated_energy, 0) << "a column that is not there";
   const std::pair<const char*, const char*> faults[] = {{"step\n1\n", "no column 'time'"},
-                                                        {"step,time\n1\n", "line 2: 2 numbers"},
-                                                        {"step,time\n1,2\n3,x\n", "line 3: time is 'x'"}};
+                                                        {"step,time\n1\n", ":2: 2 numbers"},
+                                                        {"step,time\n1,2\n3,x\n", ":3: time is 'x'"}};
   for (const auto& [text, said] : faults) {
     try {
       read_history(write("h.csv", text));
