@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
