@@ -69,8 +69,7 @@ Points pick_apart(const Surface& surface, const std::vector<Sample>& samples, do
   std::vector<std::size_t> order(samples.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   random.shuffle(order);
-  DartGrid darts(surface.vertices.colwise().minCoeff(), surface.vertices.colwise().maxCoeff(),
-                 first_share * spacing);
+  DartGrid darts(surface.vertices.colwise().minCoeff(), surface.vertices.colwise().maxCoeff(), first_share * spacing);
   std::vector<Eigen::Vector3d> picked;
   for (double fraction = first_share; fraction > 0.4 && picked.size() < count; fraction *= 0.96) {
     for (std::size_t i = 0; i < order.size() && picked.size() < count; ++i) {

@@ -6,7 +6,7 @@
 
 namespace brainshift::pipelines {
 
-/// What a stage says of itself, for run.json (README.md lists the fields).
+/// What a stage says of itself, for run.json (FILES.md lists the fields).
 struct StageReport {
   nlohmann::ordered_json sizes = nlohmann::ordered_json::object();
   nlohmann::ordered_json measures = nlohmann::ordered_json::object();

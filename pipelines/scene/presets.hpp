@@ -6,7 +6,7 @@
 
 namespace brainshift::pipelines {
 
-/// The "path=value" overrides of a preset, points of the measured front of speed and accuracy (pipelines/README.md). No
+/// The "path=value" overrides of a preset, points of the measured front of speed and accuracy (tradeoff/README.md). No
 /// name: none. Throws std::invalid_argument, listing the names, on another name.
 std::vector<std::string> preset_overrides(const std::string& name);
 

@@ -231,7 +231,8 @@ Eigen::Vector3d SignedDistance::gradient(const Eigen::Vector3d& position) const 
     const Eigen::Vector3d half = 0.5 * spacing_ * Eigen::Vector3d::Unit(axis);
     difference[axis] = value(position + half) - value(position - half);
   }
-  return difference.normalized();
+  // Beyond the horizon the distance is the same everywhere, but for rounding: it has no direction there.
+  return difference.norm() > 1e-6 * spacing_ ? difference.normalized() : Eigen::Vector3d::Zero();
 }
 
 }  // namespace brainshift

@@ -15,17 +15,18 @@ namespace brainshift::solve {
 /// geometric part), and per patch and pressure mode ψ_k for that of volume with b_a = Σ_I w ψ_k (∂θ/∂F) B_a:
 ///   w C |Σ_a B_a ⊗ u_a|² ≤ w C ‖Σ_b B_b ⊗ B_b / |B_b|‖ Σ_a |B_a| |u_a|²,
 ///   K |Σ_a b_a · u_a|²   ≤ K (Σ_b |b_b|) Σ_a |b_a| |u_a|².
-/// Over a patch derivatives of opposite sign cancel in b; a bound point by point, as eq 23, does not see that.
+/// Over a patch derivatives of opposite sign cancel in b; a bound point by point, as Wittek et al., eq. 23, does not
+/// see that.
 std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch);
 
-/// The physical mass of the nodes (g): each point's is shared evenly by the nodes of its support, as eq 23 has it.
-/// density: g/mm³, one a row of the material table.
+/// The physical mass of the nodes (g): each point's is shared evenly by the nodes of its support, as Wittek et al., eq.
+/// 21, have it. density: g/mm³, one a row of the material table.
 std::vector<double> physical_mass(const PointBlocks& points, std::span<const double> density);
 
 /// 2 / sqrt(max D_a/m_a), s.
 double critical_step(std::span<const double> stiffness_bound, std::span<const double> mass);
 
-/// The critical step as the source prints it, eq 25 with (λ + 2µ)/ρ: min over points of 2 / (c_d sqrt(N Σ|B|²)), s.
+/// The critical step as Wittek et al. print it, eq. 25, with (λ + 2µ)/ρ: min over points of 2 / (c_d sqrt(N Σ|B|²)), s.
 /// wave_speed: c_d, mm/s, one a row of the material table.
 double chapter_critical_step(const PointBlocks& points, std::span<const double> wave_speed);
 

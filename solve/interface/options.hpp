@@ -62,7 +62,7 @@ struct SolveOptions {
   /// solved or its solution does not hold.
   Start start = Start::rest;
   double time_step = 0;  ///< transient: s; 0: nine tenths of the critical one
-  double damping = 0;    ///< transient: c of eq 26, 1/s
+  double damping = 0;    ///< transient: c of METHOD.md (20), 1/s
   int max_steps = 50000;
   double region = 0;       ///< mm; only what a coarse solution moves by more is solved, region.hpp; 0: the whole body
   int snapshot_every = 0;  ///< steps between displacements kept for steps.pvd, each 20th at the most; 0: none

@@ -8,7 +8,7 @@ namespace brainshift {
 enum class Basis : std::uint8_t {
   linear,              ///< MLS, 1 x y z
   quadratic,           ///< MLS, all ten (planar: six) monomials up to order two; singular on some clouds
-  modified_quadratic,  ///< MMLS: quadratic, its six (three) highest coefficients held by a small penalty (eqs 11-15)
+  modified_quadratic,  ///< MMLS: quadratic, its six (three) highest coefficients held by a small penalty, METHOD.md (3)
 };
 
 enum class Derivatives : std::uint8_t {

@@ -20,11 +20,11 @@ struct AdaptiveRule {
   int points_per_part = 1;  ///< as of a cell, integration_points()
 };
 
-/// Adaptive integration (section 3 of the source): a cell is split until the integral of the derivatives of its shape
-/// functions, Q = Σ w ∂φ_a/∂X over all its nodes a, changes little, |Q_parts − Q| ≤ τ |Q_parts|, at most `depth` times.
-/// The parts that were compared are the result, so little is evaluated in vain. Of a cut hexahedron the octants that
-/// are not whole stay as they are, with one point. Tissues as of integration_points(). Throws std::invalid_argument
-/// when the rule makes no sense or takes over 3 million points.
+/// Adaptive integration (Wittek et al., section 3; METHOD.md (17)): a cell is split until the integral of the
+/// derivatives of its shape functions, Q = Σ w ∂φ_a/∂X over all its nodes a, changes little, |Q_parts − Q| ≤ τ
+/// |Q_parts|, at most `depth` times. The parts that were compared are the result, so little is evaluated in vain. Of a
+/// cut hexahedron the octants that are not whole stay as they are, with one point. Tissues as of integration_points().
+/// Throws std::invalid_argument when the rule makes no sense or takes over 3 million points.
 AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunctions& shape, const AdaptiveRule& rule,
                                const LabelMap* labels, const std::vector<std::int32_t>& tissues);
 

@@ -8,9 +8,9 @@ namespace brainshift::solve {
 
 namespace {
 
-/// The monomials at ξ: 1 x y z √2xy √2xz √2yz x² y² z² (eq 2), in the plane 1 x y √2xy x² y². With the factor √2 a
-/// rotation of the frame turns the quadratic ones among themselves, so neither the penalty nor what counts as
-/// admissible depends on the frame.
+/// The monomials at ξ: 1 x y z √2xy √2xz √2yz x² y² z² (Wittek et al., eq. 2), in the plane 1 x y √2xy x² y². With the
+/// factor √2 a rotation of the frame turns the quadratic ones among themselves, so neither the penalty nor what counts
+/// as admissible depends on the frame.
 template <int dimensions, int order>
 BRAINSHIFT_INLINE void monomials(const Neighbour& s, const Lane& inverse_length,
                                  Lane (&p)[monomial_count(dimensions, order)]) {

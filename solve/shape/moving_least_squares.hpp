@@ -79,9 +79,9 @@ struct Fit {
 /// there are. scale: of the radii.
 std::size_t find_neighbours(const Candidates& candidates, double scale, const PointLanes& places, Neighbour* out);
 
-/// (Modified) moving least squares at eight points, eqs 1-15, in local scaled coordinates ξ = (X_a − x)/r: there p(x)
-/// is the first unit vector, and the moment matrix is well conditioned in any unit and at any offset. Fills weights and
-/// values of the neighbours.
+/// (Modified) moving least squares at eight points, METHOD.md (2) and (3), in local scaled coordinates ξ = (X_a − x)/r:
+/// there p(x) is the first unit vector, and the moment matrix is well conditioned in any unit and at any offset. Fills
+/// weights and values of the neighbours.
 void fit_shape(std::span<Neighbour> neighbours, const FitOptions& options, Fit& fit);
 
 /// Derivatives of what fit_shape() gave; in the plane those by z are 0. distance_gradients: one a sight, or none where

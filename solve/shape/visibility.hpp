@@ -12,8 +12,8 @@
 
 namespace brainshift::solve {
 
-/// A place about the end of a segment by its level sets (section 4 of the source, figure 9): ψ from the line of the
-/// segment, positive on the right of its direction V; φ along V from the end on. Their signs tell the four regions.
+/// A place about the end of a segment by its level sets (Wittek et al., figure 9; METHOD.md (30)): ψ from the line of
+/// the segment, positive on the right of its direction V; φ along V from the end on. Their signs tell the four regions.
 struct LevelSets {
   double psi, phi;  ///< mm
 };

@@ -89,7 +89,7 @@ TEST_F(BadInput, ResectionsThatMakeNoSense) {
 }
 
 TEST_F(BadInput, CutsOfASceneThatCannotBe) {
-  const std::string scene = read_text(at("scene.xml"));
+  const std::string scene = contents_of(at("scene.xml"));
   const auto with = [&](const std::string& cuts) {
     std::string text = scene;
     text.insert(text.find("<contact/>"), cuts + "\n");

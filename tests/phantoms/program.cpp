@@ -18,7 +18,7 @@ ProgramResult run_shell(const std::string& command) {
                            (scratch / "err").string();
   const int status = std::system(line.c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, read_text(scratch / "out"), read_text(scratch / "err")};
+  return {code, contents_of(scratch / "out"), contents_of(scratch / "err")};
 }
 
 ScratchFolder::ScratchFolder(const std::string& name)
@@ -32,7 +32,7 @@ ScratchFolder::~ScratchFolder() {
   fs::remove_all(path_, ignored);
 }
 
-std::string read_text(const fs::path& file) {
+std::string contents_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }

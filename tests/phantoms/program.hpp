@@ -31,7 +31,7 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-std::string read_text(const std::filesystem::path& file);
+std::string contents_of(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 /// Names ending in .partial or .old anywhere under the folder, and beside it: what a stopped program must not leave.

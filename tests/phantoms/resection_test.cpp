@@ -21,7 +21,7 @@ TEST(ResectedHead, IsSolvedAndRegistered) {
       run_shell("brainshift run " + scene + " --quiet --out " + folder +
                 " --set resection.labels=3 --set discretise.tumour_factor=0.4 --set solve.gravity='0 4 0'");
   ASSERT_EQ(result.code, 0) << result.err;
-  const auto stages = nlohmann::json::parse(read_text(folder + "/run.json"))["stages"];
+  const auto stages = nlohmann::json::parse(contents_of(folder + "/run.json"))["stages"];
   const auto& resection = stages["solve"]["measures"]["resection"];
   EXPECT_EQ(stages["solve"]["sizes"]["nodes"].get<int>() + resection["removed_nodes"].get<int>(),
             stages["discretise"]["sizes"]["nodes"]);

@@ -39,7 +39,7 @@ class Run : public testing::Test {
     fs::copy(finished(), *scratch / name, fs::copy_options::recursive);
     return *scratch / name;
   }
-  static json record(const fs::path& out) { return json::parse(read_text(out / "run.json")); }
+  static json record(const fs::path& out) { return json::parse(contents_of(out / "run.json")); }
   /// The status of each stage, in order: "done done kept ...".
   static std::string statuses(const fs::path& out) {
     const json stages = record(out)["stages"];
@@ -51,7 +51,7 @@ class Run : public testing::Test {
   }
   /// The head's scene with a stage added, under another name.
   static std::string scene_with(const std::string& name, const std::string& from, const std::string& to) {
-    std::string text = read_text(head_folder() + "/scene.xml");
+    std::string text = contents_of(head_folder() + "/scene.xml");
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos);
     text.replace(at, text.find("/>", at) + 2 - at, to);
@@ -115,10 +115,10 @@ TEST_F(Run, ExplainsWhatEachPartChanged) {
 
 TEST_F(Run, RunsNothingAgainThatHasNotChanged) {
   const fs::path out = copy_of_finished("unchanged");
-  const std::string before = read_text(out / "solve/stage.json");
+  const std::string before = contents_of(out / "solve/stage.json");
   ASSERT_EQ(run(out).code, 0);
   EXPECT_EQ(statuses(out), "kept kept kept kept kept");
-  EXPECT_EQ(read_text(out / "solve/stage.json"), before);
+  EXPECT_EQ(contents_of(out / "solve/stage.json"), before);
   ASSERT_EQ(run(out, "--threads 1").code, 0);
   EXPECT_EQ(statuses(out), "kept kept kept kept kept") << "results do not depend on the threads";
 }
@@ -141,7 +141,7 @@ TEST_F(Run, SolvesWithThePhysicsThatTheSceneNames) {
   EXPECT_EQ(statuses(out), "kept kept done done done");
   EXPECT_FALSE(record(out)["stages"]["solve"]["measures"].contains("error_bound_mm"));
   EXPECT_EQ(record(out)["options"]["tissues"]["1"]["ogden"], "842,-4.7");
-  EXPECT_NE(read_text(out / "report/index.html").find("energies over time"), std::string::npos);
+  EXPECT_NE(contents_of(out / "report/index.html").find("energies over time"), std::string::npos);
 }
 
 TEST_F(Run, UntilStopsAndTellsWhatIsOutdated) {
@@ -161,7 +161,7 @@ TEST_F(Run, ForceRunsEverythingAndGivesTheSameFiles) {
   ASSERT_EQ(run(out, "--force --until solve").code, 0);
   EXPECT_EQ(statuses(out).substr(0, 14), "done done done");
   for (const char* file : {"segment/brain.vtp", "discretise/nodes.vtu", "discretise/cells.vtu", "solve/solution.vtu"}) {
-    EXPECT_EQ(read_text(out / file), read_text(finished() / file)) << file;
+    EXPECT_EQ(contents_of(out / file), contents_of(finished() / file)) << file;
   }
 }
 
@@ -215,8 +215,8 @@ TEST_F(Run, AStageMayBeAnExternalCommand) {
   setenv("PROGRAM", BRAINSHIFT_PROGRAM, 1);
   const ProgramResult external = run(out, more, scene);
   ASSERT_EQ(external.code, 0) << external.err;
-  EXPECT_EQ(read_text(out / "discretise/nodes.vtu"), read_text(finished() / "discretise/nodes.vtu"));
-  EXPECT_EQ(read_text(out / "solve/solution.vtu"), read_text(finished() / "solve/solution.vtu"));
+  EXPECT_EQ(contents_of(out / "discretise/nodes.vtu"), contents_of(finished() / "discretise/nodes.vtu"));
+  EXPECT_EQ(contents_of(out / "solve/solution.vtu"), contents_of(finished() / "solve/solution.vtu"));
   ASSERT_EQ(run(out, more, scene).code, 0);
   EXPECT_EQ(statuses(out), "kept kept kept - -");
 }
@@ -266,7 +266,7 @@ TEST_F(Run, StagesAloneGiveWhatTheRunGave) {
       "/register");
   ASSERT_EQ(result.code, 0) << result.err;
   for (const char* file : {"/segment/brain.vtp", "/discretise/cells.vtu", "/solve/solution.vtu"}) {
-    EXPECT_EQ(read_text(out + file), read_text(r + file)) << file;
+    EXPECT_EQ(contents_of(out + file), contents_of(r + file)) << file;
   }
   EXPECT_TRUE(fs::exists(out + "/register/warped_brain.vtp"));
 }
@@ -278,7 +278,7 @@ TEST_F(Run, AFolderThatIsNotOursIsNotOverwritten) {
   const ProgramResult result = run(out, "--quiet");
   EXPECT_EQ(result.code, 2);
   EXPECT_NE(result.err.find("not made by brainshift"), std::string::npos) << result.err;
-  EXPECT_EQ(read_text(out / "segment/precious"), "mine");
+  EXPECT_EQ(contents_of(out / "segment/precious"), "mine");
 }
 
 TEST_F(Run, ReportCanBeMadeAgain) {

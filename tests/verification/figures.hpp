@@ -13,7 +13,7 @@ namespace brainshift::verification {
 /// One row of the table: what was measured, beside what was published and the bound it must keep.
 struct Figure {
   std::string quantity;
-  std::string published;  ///< as the source has it; empty: nothing
+  std::string published;  ///< as Wittek et al. have it; empty: nothing
   double ours = 0;
   std::string unit;
   std::optional<double> most = {};   ///< bound from above

@@ -25,7 +25,7 @@ HeadRun make_run(const std::string& name, PhantomFrame frame, const std::string&
   if (result.code != 0) {
     throw std::runtime_error("the run ended with " + std::to_string(result.code) + ": " + result.err);
   }
-  return {folder, pipelines::make_phantom(options), nlohmann::json::parse(read_text(folder / "run.json"))};
+  return {folder, pipelines::make_phantom(options), nlohmann::json::parse(contents_of(folder / "run.json"))};
 }
 
 }  // namespace

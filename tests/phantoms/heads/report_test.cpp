@@ -69,7 +69,7 @@ ReadPicture read_png(const fs::path& file) {
 
 // The page is written as XML too, so an XML parser tells whether every tag is closed.
 std::vector<std::string> images_of_page(const fs::path& page) {
-  const std::string text = read_text(page);
+  const std::string text = contents_of(page);
   tinyxml2::XMLDocument document;
   EXPECT_EQ(document.Parse(text.c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
   std::vector<std::string> sources;
@@ -101,15 +101,15 @@ TEST(Report, WorksWithoutAnImage) {
   write_text(scratch / "run/run.json", record.dump());
   write_report(scratch / "run", scratch / "page");
   EXPECT_EQ(images_of_page(scratch / "page/index.html").size(), 5U);
-  EXPECT_NE(read_text(scratch / "page/index.html").find("no image to warp"), std::string::npos);
+  EXPECT_NE(contents_of(scratch / "page/index.html").find("no image to warp"), std::string::npos);
 }
 
 TEST(Report, SaysSoWhenTheLoadIsSimulated) {
   const ScratchFolder scratch("simulated");
   write_text(scratch / "run.json", R"({"options": {"load": {}, "load.simulated": {"depth": "8"}}, "stages": {}})");
   write_report(scratch.path(), scratch / "page");
-  EXPECT_NE(read_text(scratch / "page/index.html").find("The load is simulated"), std::string::npos);
-  EXPECT_EQ(read_text(oblique_run().folder / "report/index.html").find("The load is simulated"), std::string::npos);
+  EXPECT_NE(contents_of(scratch / "page/index.html").find("The load is simulated"), std::string::npos);
+  EXPECT_EQ(contents_of(oblique_run().folder / "report/index.html").find("The load is simulated"), std::string::npos);
 }
 
 TEST(Report, RefusesAFolderThatIsNoRun) {

@@ -11,20 +11,13 @@
 
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
+#include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::pipelines {
 
 /// A folder of its own for each test, with a scene in it.
 class SceneFile : public testing::Test {
  protected:
-  SceneFile() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() / ("brainshift_scene_" + std::string(info->name()));
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~SceneFile() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path write(const std::string& text) const {
     std::ofstream(folder_ / "scene.xml") << text;
     return folder_ / "scene.xml";
@@ -46,7 +39,8 @@ class SceneFile : public testing::Test {
     return {};
   }
 
-  std::filesystem::path folder_;
+  brainshift::test::ScratchFolder scratch_;
+  std::filesystem::path folder_ = scratch_.path();
 };
 
 inline void expect_parts(const std::string& message, const std::vector<std::string>& parts) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Figure 8 of the source: brain shift in the plane, triangles whose corners are the nodes, three Gauss points each; how
-// far the displacements lie from those of τ = 0.001.
+// Wittek et al., figure 8: brain shift in the plane, triangles whose corners are the nodes, three Gauss points each;
+// how far the displacements lie from those of τ = 0.001.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -156,7 +156,7 @@ Outcome adaptive_integration(bool small) {
   const solve::Model model = slice_model(5);
   Table table;
   std::vector<Series> series;
-  const Method published = {"the source's method (linear MLS, pointwise, plain)", Basis::linear,
+  const Method published = {"the method of Wittek et al. (linear MLS, pointwise, plain)", Basis::linear,
                             solve::Volumetric::pointwise, solve::Integration::plain};
   const Method ours = {"the default (MMLS, patches, consistent)", Basis::modified_quadratic,
                        solve::Volumetric::mean_dilatation, solve::Integration::consistent};

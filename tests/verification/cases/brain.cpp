@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Figure 4 of the source: brain shift on the brain of the demo, MLS and MMLS on two kinds of cells, against finite
+// Wittek et al., figure 4: brain shift on the brain of the demo, MLS and MMLS on two kinds of cells, against finite
 // elements on the same geometry, load and material.
 #include <algorithm>
 #include <cmath>

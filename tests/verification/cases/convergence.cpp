@@ -250,14 +250,14 @@ Outcome step_estimate(bool small) {
             {},
             reference},
            {"rigorous bound without power iteration: median", "", median(bound), "", {}, {}, reference},
-           {"eq 25 as in the source: largest",
+           {"Wittek et al., eq. 25: largest",
             "conservative",
             *std::max_element(chapter.begin(), chapter.end()),
             "",
             1,
             {},
             reference},
-           {"eq 25 as in the source: median", "", median(chapter), "", {}, {}, reference}},
+           {"Wittek et al., eq. 25: median", "", median(chapter), "", {}, {}, reference}},
           {}};
 }
 

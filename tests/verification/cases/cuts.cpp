@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Section 6.3 of the source: a square with a kinked cut lengthened by 20 %, cut before and while it is stretched; and a
-// half-cut block in space.
+// Wittek et al., section 6.3: a square with a kinked cut lengthened by 20 %, cut before and while it is stretched; and
+// a half-cut block in space.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Section 6.1 of the source: 20 % compression and shear of a soft cylinder between bonded faces.
+// Wittek et al., section 6.1: 20 % compression and shear of a soft cylinder between bonded faces.
 #include <cmath>
 #include <stdexcept>
 
@@ -104,7 +104,7 @@ Outcome cylinder_nearly_incompressible(bool small) {
                  small ? Bounds{5, 9, 4, 1} : Bounds{1.5, 3.5, 1.5, 0.4}, small);
 }
 
-/// What each treatment of the volumetric term leaves, for the README: no bounds.
+/// What each treatment of the volumetric term leaves, for the README beside: no bounds.
 Outcome locking(bool small) {
   const Reference reference = read_reference("cylinder_compression", "cylinder_compression_force");
   struct Variant {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Section 6.2 of the source: a rectangle of 100 × 40 mm with 57 nodes, held at one end, lengthened by 30 %.
+// Wittek et al., section 6.2: a rectangle of 100 × 40 mm with 57 nodes, held at one end, lengthened by 30 %.
 #include <cmath>
 
 #include "segmentation/geometry/neighbour_distance.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Section 6.1 of the source, where finite elements give up: a cylinder to 20 % of its height and back, and a punch
+// Wittek et al., section 6.1, where finite elements give up: a cylinder to 20 % of its height and back, and a punch
 // pressed into a soft cylinder.
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Figure 11 of the source: a specimen of pia-arachnoid is lengthened until it tears.
+// Wittek et al., figure 11: a specimen of pia-arachnoid is lengthened until it tears.
 #include <algorithm>
 #include <cmath>
 

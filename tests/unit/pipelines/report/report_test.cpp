@@ -16,7 +16,7 @@ using brainshift::test::refusal;
 using brainshift::test::ScratchFolder;
 
 void write_run(const ScratchFolder& folder) {
-  const RunData run = test::small_run();
+  const RunData run = small_run();
   for (const char* stage : {"segment", "solve", "register"}) {
     fs::create_directory(folder / stage);
   }

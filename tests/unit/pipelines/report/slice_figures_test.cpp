@@ -25,7 +25,7 @@ const char* const after_colour = "#ff963c";
 const char* const opening_colour = "#46eb6e";
 
 TEST(SliceFigures, ShowBeforeAfterAndDifferenceInTheOrderOfThePage) {
-  const RunData run = test::small_run();
+  const RunData run = small_run();
   const View view = make_view(run);
   const SlicePlane& coronal = view.planes[1];
   const auto figures = comparison_figures(run, view, coronal);
@@ -42,13 +42,13 @@ TEST(SliceFigures, ShowBeforeAfterAndDifferenceInTheOrderOfThePage) {
 }
 
 TEST(SliceFigures, ThePlaneUnderTheOpeningDoesNotCutIt) {
-  const RunData run = test::small_run();
+  const RunData run = small_run();
   const View view = make_view(run);
   EXPECT_EQ(strokes(comparison_figures(run, view, view.planes[0])[0], opening_colour), 0U);
 }
 
 TEST(SliceFigures, TheDisplacementIsDrawnWithAndWithoutAnImageAndAField) {
-  RunData run = test::small_run();
+  RunData run = small_run();
   const View view = make_view(run);
   const Figure over_image = displacement_figure(run, view, view.planes[1]);
   EXPECT_EQ(strokes(over_image, "#ffffff"), 7U) << "arrows, the scale and five ticks of the colour bar";

@@ -5,7 +5,7 @@
 
 #include "pipelines/report/run_data.hpp"
 
-namespace brainshift::pipelines::test {
+namespace brainshift::pipelines {
 
 /// A brain that is a cube of 40 mm about the origin, as triangles of a grid on its sides.
 inline Surface cube_surface() {
@@ -67,4 +67,4 @@ inline RunData small_run() {
   return run;
 }
 
-}  // namespace brainshift::pipelines::test
+}  // namespace brainshift::pipelines

@@ -12,7 +12,7 @@ bool has(const Figure& figure, const std::string& text) {
 }
 
 TEST(SurfaceFigure, ShowsTheOpeningWithItsRimAndFromTheSide) {
-  const RunData run = test::small_run();
+  const RunData run = small_run();
   const Figure figure = surface_figure(run, make_view(run));
   for (const char* text : {"seen through the opening", "from the side", "shift, mm", ">P<", "stroke=\"#143ca0\""}) {
     EXPECT_TRUE(has(figure, text)) << text;
@@ -20,7 +20,7 @@ TEST(SurfaceFigure, ShowsTheOpeningWithItsRimAndFromTheSide) {
 }
 
 TEST(SurfaceFigure, HasNoRimWhereNothingIsLoaded) {
-  RunData run = test::small_run();
+  RunData run = small_run();
   run.solution->reaction_force.setZero();
   const Figure figure = surface_figure(run, make_view(run));
   EXPECT_TRUE(has(figure, "from above"));

@@ -9,7 +9,7 @@ namespace brainshift::pipelines::view_test {
 using Eigen::Vector3d;
 
 TEST(View, LooksThroughTheOpening) {
-  const View view = make_view(test::small_run());
+  const View view = make_view(small_run());
   EXPECT_EQ(view.opening.rows(), 13);
   EXPECT_TRUE(view.opening_centre.isApprox(Vector3d(0, 0, 20)));
   EXPECT_TRUE(view.inward.isApprox(-Vector3d::UnitZ(), 1e-9));
@@ -18,21 +18,21 @@ TEST(View, LooksThroughTheOpening) {
 }
 
 TEST(View, MovesTheSurfaceAndScalesTheColoursToIt) {
-  const View view = make_view(test::small_run());
+  const View view = make_view(small_run());
   EXPECT_NEAR(view.deformed.vertices.col(2).maxCoeff(), 20, 1e-9);
   EXPECT_NEAR(*std::ranges::max_element(view.surface_shift), 4, 1e-6);
   EXPECT_EQ(view.shift.high, 4);
 }
 
 TEST(View, TheBrainSetsTheGreys) {
-  const View view = make_view(test::small_run());
+  const View view = make_view(small_run());
   EXPECT_EQ(view.darkest, 0) << "black is zero where nothing is below";
   EXPECT_GT(view.brightest, 20);
   EXPECT_LT(view.brightest, 1.15 * 30);
 }
 
 TEST(View, WithoutALoadThePlanesCutTheMiddle) {
-  RunData run = test::small_run();
+  RunData run = small_run();
   run.solution->reaction_force.setZero();
   run.t1.reset();
   const View view = make_view(run);

@@ -7,43 +7,20 @@
 #include <fstream>
 
 #include "pipelines/runner/stage_folder.hpp"
+#include "tests/unit/pipelines/run_folder.hpp"
 
 namespace brainshift::pipelines::sha256_test {
 
-namespace fs = std::filesystem;
+class Sha256 : public RunFolder {};
 
-class Sha256Test : public testing::Test {
- protected:
-  Sha256Test() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("brainshift_runner_" + std::string(info->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Sha256Test() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  static std::string read(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-
-  fs::path folder_;
-  Interruption interruption_{[](int) {}};
-};
-
-TEST_F(Sha256Test, Sha256GivesThePublishedDigests) {
+TEST_F(Sha256, Sha256GivesThePublishedDigests) {
   EXPECT_EQ(sha256_of_text(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(sha256_of_text("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256_of_text("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
             "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
 }
 
-TEST_F(Sha256Test, Sha256AgreesWithSha256sumAtEveryPadding) {
+TEST_F(Sha256, Sha256AgreesWithSha256sumAtEveryPadding) {
   for (const std::size_t size : {1U, 55U, 56U, 63U, 64U, 65U, 119U, 120U, 1000000U}) {
     const fs::path file = write("data", std::string(size, 'q'));
     FILE* pipe = popen(("sha256sum " + file.string()).c_str(), "r");

@@ -4,41 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include "tests/unit/pipelines/run_folder.hpp"
 
 namespace brainshift::pipelines::stage_folder_test {
 
-namespace fs = std::filesystem;
+class StageFolder : public RunFolder {};
 
-class StageFolderTest : public testing::Test {
- protected:
-  StageFolderTest() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / ("brainshift_runner_" + std::string(info->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~StageFolderTest() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  static std::string read(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-
-  fs::path folder_;
-  Interruption interruption_{[](int) {}};
-};
-
-TEST_F(StageFolderTest, AnUnfinishedStageLeavesNothingBehind) {
+TEST_F(StageFolder, AnUnfinishedStageLeavesNothingBehind) {
   { StageFolder unfinished(folder_ / "stage", interruption_); }
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-TEST_F(StageFolderTest, AFinishedStageTakesThePlaceOfTheOneBefore) {
+TEST_F(StageFolder, AFinishedStageTakesThePlaceOfTheOneBefore) {
   write("stage/old", "old");
   StageFolder finished(folder_ / "stage", interruption_);
   std::ofstream(finished.path() / "new") << "new";
@@ -47,7 +24,7 @@ TEST_F(StageFolderTest, AFinishedStageTakesThePlaceOfTheOneBefore) {
   EXPECT_FALSE(fs::exists(folder_ / "stage/old"));
 }
 
-TEST_F(StageFolderTest, ASingleStageKeepsOtherFilesOfItsFolder) {
+TEST_F(StageFolder, ASingleStageKeepsOtherFilesOfItsFolder) {
   write("stage/mine", "mine");
   write("stage/made", "old");
   StageFolder finished(folder_ / "stage", interruption_);
