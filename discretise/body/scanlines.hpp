@@ -11,7 +11,8 @@ namespace brainshift::discretise {
 
 /// Where lines along x pass through a closed surface: the inside test of this stage. Triangles are found by buckets in
 /// the y-z plane; an edge or a vertex that a line meets exactly belongs to one side consistently, so that the parity
-/// holds for any line. Const calls may run on many threads.
+/// holds for any line. By hand because CGAL's Side_of_triangle_mesh answers for one point, not for all of a line. Const
+/// calls may run on many threads.
 class Scanlines {
  public:
   /// A closed surface, mm.

@@ -76,8 +76,15 @@ struct Frame {
   double y_of(double value) const { return height - bottom - y.share(value) * (height - top - bottom); }
 };
 
+// Of the key, above the curves: it hides none.
+std::size_t key_columns(const Plot& plot) {
+  constexpr std::size_t longest = 36;  // letters that fit half the width
+  return std::ranges::any_of(plot.series, [](const Series& s) { return s.name.size() > longest; }) ? 1 : 2;
+}
+
 Frame frame_of(const Plot& plot) {
-  const auto rows = static_cast<int>((plot.series.size() + 1) / 2);  // the key has two columns
+  const std::size_t columns = key_columns(plot);
+  const auto rows = static_cast<int>((plot.series.size() + columns - 1) / columns);
   Frame frame{.x = {.logarithmic = plot.scale == Scale::log_log},
               .y = {.logarithmic = plot.scale != Scale::linear},
               .top = title_height + key_height * rows + (plot.y_label.empty() ? 0 : key_height)};
@@ -130,9 +137,9 @@ void draw_series(Svg& svg, const Frame& frame, const Series& series, const Colou
   }
 }
 
-void draw_key(Svg& svg, const Series& series, const Colour& colour, std::size_t place) {
-  const double x = left + static_cast<double>(place % 2) * 0.5 * (width - left - right);
-  const double y = title_height + 4 + key_height * static_cast<double>(place / 2);
+void draw_key(Svg& svg, const Series& series, const Colour& colour, std::size_t place, std::size_t columns) {
+  const double x = left + static_cast<double>(place % columns) * 0.5 * (width - left - right);
+  const double y = title_height + 4 + key_height * static_cast<double>(place / columns);
   svg.line({x, y}, {x + 22, y}, {.colour = colour, .width = 3});
   svg.text({x + 30, y}, series.name, {.size = 13});
 }
@@ -156,7 +163,7 @@ std::string plot_svg(const Plot& plot) {
   }
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     draw_series(svg, frame, plot.series[i], colours[i % colours.size()]);
-    draw_key(svg, plot.series[i], colours[i % colours.size()], i);
+    draw_key(svg, plot.series[i], colours[i % colours.size()], i, key_columns(plot));
   }
   return std::move(svg).str();
 }

@@ -135,17 +135,17 @@ double opacity(const View& view, double shift, bool over_image) {
   return over_image ? 0.7 * std::min(1.0, 5 * shift / view.shift.high) : 0.9;
 }
 
+// White on a dark seam.
 void draw_arrows(Svg& svg, const std::vector<Segment>& shifts) {
-  for (const Stroke& stroke :
-       {Stroke{.colour = {20, 20, 24}, .width = 2.6}, Stroke{.colour = colour::white, .width = 1.4}}) {
-    std::vector<Segment> lines;
-    for (const auto& [from, to] : shifts) {
-      if ((to - from).norm() >= 2) {
-        std::ranges::copy(arrow(from, to, stroke.width), std::back_inserter(lines));
-      }
+  const Stroke white{.colour = colour::white, .width = 1.4};
+  std::vector<Segment> lines;
+  for (const auto& [from, to] : shifts) {
+    if ((to - from).norm() >= 2) {
+      std::ranges::copy(arrow(from, to, white.width), std::back_inserter(lines));
     }
-    svg.lines(lines, stroke);
   }
+  svg.lines(lines, {.colour = {20, 20, 24}, .width = white.width + 1.2});
+  svg.lines(lines, white);
 }
 
 }  // namespace

@@ -169,7 +169,7 @@ Outcome adaptive_integration(bool small) {
   table.outcome.plots.push_back(
       {"adaptive_integration",
        "Slice of a brain, " + std::to_string(model.cloud.size()) + " nodes: difference from the finest solution",
-       "integration tolerance", "difference, mm", series, true});
+       "integration tolerance", "difference, mm", series, pipelines::Scale::log_log});
   return table.outcome;
 }
 
