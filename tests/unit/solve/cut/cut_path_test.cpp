@@ -91,9 +91,9 @@ TEST(CutPath, RefusesATimingThatCannotBe) {
   expect_parts(refusal([&] { read_cut(timed, {.start = 2}); }), {"timed.csv", "holds the times"});
   const std::vector<std::pair<double, double>> line = {{0, 0}, {1, 1}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_parts(refusal([&] { cut_path(line, {.start = -1}, "cut 1"); }), {"cut 1", "start", "-1", "0 or later"});
+  expect_parts(refusal([&] { cut_path(line, {.start = -1}, "cut 1"); }), {"cut 1", "start", "-1", ">= 0"});
   expect_parts(refusal([&] { cut_path(line, {.start = nan}, "cut 1"); }), {"cut 1", "start", "nan"});
-  expect_parts(refusal([&] { cut_path(line, {.speed = 0}, "cut 1"); }), {"cut 1", "speed", "above 0"});
+  expect_parts(refusal([&] { cut_path(line, {.speed = 0}, "cut 1"); }), {"cut 1", "speed", "> 0"});
   expect_parts(refusal([&] { cut_path(line, {.speed = nan}, "cut 1"); }), {"cut 1", "speed"});
   expect_parts(refusal([&] {
                  cut_path(line, {.speed = 1, .direction = {0, 1, 0}}, "cut 1");

@@ -166,7 +166,7 @@ TEST(CutSheet, RefusesATimingThatCannotBe) {
   const auto plain = [&](const CutTiming& timing) { return refusal([&] { read_cut(folder / "plain.vtp", timing); }); };
   expect_parts(plain({.speed = 2}), {"plain.vtp", "direction", "point array time"});
   expect_parts(plain({.direction = {0, 0, 1}}), {"plain.vtp", "direction but no speed"});
-  expect_parts(plain({.speed = 1, .direction = {0, 0, NAN}}), {"plain.vtp", "direction", "finite"});
+  expect_parts(plain({.speed = 1, .direction = {0, 0, NAN}}), {"plain.vtp", "direction", "'0 0 nan'", "three numbers"});
   write_with_times(folder / "timed.vtp", square(2), {0, 1, 2, 3});
   expect_parts(refusal([&] {
                  read_cut(folder / "timed.vtp", {.speed = 1, .direction = {0, 0, 1}});
