@@ -70,6 +70,17 @@ const std::string& field_in(const PointTable& table, const std::vector<std::stri
   return fields[column];
 }
 
+/// A row of a CSV has as many fields as its header: one more may be a decimal comma. Versions of 3D Slicer differ in
+/// theirs.
+void check_width(std::string_view text, std::size_t line, const PointTable& table) {
+  const std::size_t fields = split_fields(text).size();
+  if (table.file.extension() == ".csv" && fields != table.columns.size()) {
+    fail_at_line(table.file, line,
+                 std::to_string(table.columns.size()) + " columns are expected as in the header, found \"" +
+                     std::string(text) + "\"");
+  }
+}
+
 }  // namespace
 
 std::optional<std::size_t> PointTable::find_column(std::string_view name) const {
@@ -90,6 +101,7 @@ PointTable read_point_table(const std::filesystem::path& file) {
     } else if (!text.empty() && table.columns.empty()) {
       read_columns(text, i + 1, table);
     } else if (!text.empty()) {
+      check_width(text, i + 1, table);
       table.rows.push_back(i);
     }
   }

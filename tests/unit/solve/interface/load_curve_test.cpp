@@ -114,9 +114,9 @@ TEST_F(LoadCurveFile, IsReadWithItsCommentsAside) {
 
 TEST_F(LoadCurveFile, IsRefusedWithFileAndLine) {
   const std::pair<std::string, std::string> cases[] = {
-      {"t,f\n0,0\n1,1\n", "line 1"},           {"# a\ntime,factor\n0,0\n1\n", "line 4"},
-      {"time,factor\n0,0\n1,one\n", "line 3"}, {"time,factor\n0,0\n# b\n2,1\n1,2\n", "line 5"},
-      {"time,factor\n0,0.1\n1,1\n", "line 2"}, {"time,factor\n0,0\n1,inf\n", "line 3"},
+      {"t,f\n0,0\n1,1\n", ":1:"},           {"# a\ntime,factor\n0,0\n1\n", ":4:"},
+      {"time,factor\n0,0\n1,one\n", ":3:"}, {"time,factor\n0,0\n# b\n2,1\n1,2\n", ":5:"},
+      {"time,factor\n0,0.1\n1,1\n", ":2:"}, {"time,factor\n0,0\n1,inf\n", ":3:"},
   };
   for (const auto& [text, line] : cases) {
     const std::string message = refusal_of(text);
