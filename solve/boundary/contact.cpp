@@ -10,9 +10,9 @@ namespace brainshift::solve {
 Contact::Contact(SignedDistance skull, const Points& positions, std::vector<std::int32_t> nodes, const ShapeRows& rows)
     : skull_(std::move(skull)), positions_(static_cast<Eigen::Index>(nodes.size()), 3), begin_{0} {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto node = static_cast<std::size_t>(nodes[i]);
-    node_.insert(node_.end(), rows.node.begin() + rows.begin[node], rows.node.begin() + rows.begin[node + 1]);
-    shape_.insert(shape_.end(), rows.value.begin() + rows.begin[node], rows.value.begin() + rows.begin[node + 1]);
+    const ShapeRow row = rows[static_cast<std::size_t>(nodes[i])];
+    node_.insert(node_.end(), row.node.begin(), row.node.end());
+    shape_.insert(shape_.end(), row.value.begin(), row.value.end());
     begin_.push_back(static_cast<std::int64_t>(node_.size()));
     positions_.row(static_cast<Eigen::Index>(i)) = positions.row(nodes[i]);
     allowed_.push_back(std::max(0.0, skull_.value(positions.row(nodes[i]))));

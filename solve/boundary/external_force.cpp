@@ -8,8 +8,9 @@ namespace {
 constexpr double micronewton = 1e6;  // N to µN
 
 void spread(const Eigen::Vector3d& force, const ShapeRows& rows, std::size_t row, NodalVectors& total) {
-  for (auto k = static_cast<std::size_t>(rows.begin[row]); k < static_cast<std::size_t>(rows.begin[row + 1]); ++k) {
-    at(total, static_cast<std::size_t>(rows.node[k])).head<3>() += micronewton * rows.value[k] * force;
+  const ShapeRow shape = rows[row];
+  for (std::size_t k = 0; k < shape.size(); ++k) {
+    at(total, static_cast<std::size_t>(shape.node[k])).head<3>() += micronewton * shape.value[k] * force;
   }
 }
 

@@ -10,10 +10,11 @@ Points cavity_force(const IntegrationPoints& points, std::span<const std::uint8_
   Points of_cavity = Points::Zero(nodes, 3), of_body = Points::Zero(nodes, 3);  // Σ w ∂φ/∂X, mm²
   Eigen::VectorXd seen_in_cavity = Eigen::VectorXd::Zero(nodes), seen = Eigen::VectorXd::Zero(nodes);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    for (auto k = static_cast<std::size_t>(rows.begin[i]); k < static_cast<std::size_t>(rows.begin[i + 1]); ++k) {
-      const std::int32_t a = rows.node[k];
-      const double weight = points.volume[i] * std::abs(rows.value[k]);
-      const Eigen::RowVector3d area = points.volume[i] * Eigen::Map<const Eigen::RowVector3d>(&rows.derivative[3 * k]);
+    const ShapeRow row = rows[i];
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const std::int32_t a = row.node[k];
+      const double weight = points.volume[i] * std::abs(row.value[k]);
+      const Eigen::RowVector3d area = points.volume[i] * row.gradient(k).transpose();
       seen[a] += weight;
       of_body.row(a) += area;
       if (removed[i] != 0) {

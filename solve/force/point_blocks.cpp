@@ -19,7 +19,7 @@ std::int64_t pairs_of(const Patch& patch, const ShapeRows& rows, const std::vect
   std::int64_t pairs = 0;
   for (std::int32_t k = patch.first_point; k < patch.last_point; ++k) {
     const auto p = static_cast<std::size_t>(order[static_cast<std::size_t>(k)]);
-    pairs += rows.begin[p + 1] - rows.begin[p];
+    pairs += static_cast<std::int64_t>(rows[p].size());
   }
   return pairs;
 }
@@ -27,16 +27,16 @@ std::int64_t pairs_of(const Patch& patch, const ShapeRows& rows, const std::vect
 /// Copies the shape functions of a point, with zeros up to a whole quad.
 void append_row(PointBlocks& out, const ShapeRows& rows, std::size_t point, Precision precision,
                 const std::vector<std::int32_t>& slot_of_node) {
-  const auto begin = static_cast<std::size_t>(rows.begin[point]), end = static_cast<std::size_t>(rows.begin[point + 1]);
-  const std::size_t size = end - begin, padded = (size + quad - 1) / quad * quad;
+  const ShapeRow row = rows[point];
+  const std::size_t size = row.size(), padded = (size + quad - 1) / quad * quad;
   for (std::size_t pair = 0; pair < padded; ++pair) {
-    const auto node = static_cast<std::size_t>(rows.node[begin + (pair < size ? pair : 0)]);
+    const auto node = static_cast<std::size_t>(row.node[pair < size ? pair : 0]);
     out.pair_slot.push_back(static_cast<std::uint16_t>(slot_of_node[node]));
   }
   const auto copy = [&](auto& derivative) {
     using Scalar = typename std::remove_reference_t<decltype(derivative)>::value_type;
-    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
-      derivative.push_back(static_cast<Scalar>(rows.derivative[i]));
+    for (const double component : row.derivative) {
+      derivative.push_back(static_cast<Scalar>(component));
     }
     derivative.resize(derivative.size() + 3 * (padded - size));
   };
@@ -53,7 +53,8 @@ void append_block(PointBlocks& out, const ShapeRows& rows, const std::vector<std
   std::vector<std::int32_t> nodes;
   for (std::int32_t k = first; k < last; ++k) {
     const auto p = static_cast<std::size_t>(order[static_cast<std::size_t>(k)]);
-    nodes.insert(nodes.end(), rows.node.begin() + rows.begin[p], rows.node.begin() + rows.begin[p + 1]);
+    const std::span<const std::int32_t> support = rows[p].node;
+    nodes.insert(nodes.end(), support.begin(), support.end());
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

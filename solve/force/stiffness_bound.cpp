@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "solve/force/internal_force.hpp"
 #include "solve/force/patch_dilatation.hpp"
@@ -152,18 +151,6 @@ double critical_step(std::span<const double> stiffness_bound, std::span<const do
     largest = std::max(largest, stiffness_bound[a] / mass[a]);
   }
   return 2 / std::sqrt(largest);
-}
-
-double chapter_critical_step(const PointBlocks& points, std::span<const double> wave_speed) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Patch& patch : points.patches) {
-    const double c = wave_speed[static_cast<std::size_t>(patch.material)];
-    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-      const auto n = static_cast<double>(points.support_size(p));
-      smallest = std::min(smallest, 2 / (c * std::sqrt(n * derivatives(points, p).squaredNorm())));
-    }
-  }
-  return smallest;
 }
 
 }  // namespace brainshift::solve

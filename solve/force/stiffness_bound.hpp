@@ -26,8 +26,4 @@ std::vector<double> physical_mass(const PointBlocks& points, std::span<const dou
 /// 2 / sqrt(max D_a/m_a), s.
 double critical_step(std::span<const double> stiffness_bound, std::span<const double> mass);
 
-/// The critical step as Wittek et al. print it, eq. 25, with (λ + 2µ)/ρ: min over points of 2 / (c_d sqrt(N Σ|B|²)), s.
-/// wave_speed: c_d, mm/s, one a row of the material table.
-double chapter_critical_step(const PointBlocks& points, std::span<const double> wave_speed);
-
 }  // namespace brainshift::solve

@@ -104,12 +104,11 @@ class Integral {
   explicit Integral(std::size_t nodes) : sum_(Points::Zero(static_cast<Eigen::Index>(nodes), 3)) {}
 
   void add(const Level& level, const CellPart& region, double sign) {
-    const ShapeRows& rows = level.rows;
     for (std::size_t i = region.first; i < region.last; ++i) {
-      for (auto k = static_cast<std::size_t>(rows.begin[i]); k < static_cast<std::size_t>(rows.begin[i + 1]); ++k) {
-        sum_.row(rows.node[k]) +=
-            sign * level.points[i].volume * Eigen::Map<const Eigen::RowVector3d>(&rows.derivative[3 * k]);
-        touched_.push_back(rows.node[k]);
+      const ShapeRow row = level.rows[i];
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        sum_.row(row.node[k]) += sign * level.points[i].volume * row.gradient(k).transpose();
+        touched_.push_back(row.node[k]);
       }
     }
   }
@@ -151,16 +150,6 @@ std::vector<std::uint8_t> compare(const Level& whole, const Level& parts, std::s
     }
   }
   return good;
-}
-
-void append_row(const ShapeRows& from, std::size_t row, ShapeRows& rows) {
-  const auto first = static_cast<std::ptrdiff_t>(from.begin[row]),
-             last = static_cast<std::ptrdiff_t>(from.begin[row + 1]);
-  rows.node.insert(rows.node.end(), from.node.begin() + first, from.node.begin() + last);
-  rows.value.insert(rows.value.end(), from.value.begin() + first, from.value.begin() + last);
-  rows.derivative.insert(rows.derivative.end(), from.derivative.begin() + 3 * first,
-                         from.derivative.begin() + 3 * last);
-  rows.begin.push_back(rows.begin.back() + last - first);
 }
 
 void reserve(std::size_t points, std::size_t pairs, ShapeRows& rows) {
@@ -260,8 +249,7 @@ Placed collect(Refined refined) {
   std::stable_sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) { return a.cell < b.cell; });
   std::size_t pairs = 0;
   for (const Source& s : sources) {
-    const ShapeRows& rows = levels[s.level].rows;
-    pairs += static_cast<std::size_t>(rows.begin[s.point + 1] - rows.begin[s.point]);
+    pairs += levels[s.level].rows[s.point].size();
   }
   reserve(sources.size(), pairs, placed.rows);
   for (const Level& level : levels) {
@@ -272,7 +260,7 @@ Placed collect(Refined refined) {
     placed.points.push_back(level.points[s.point]);
     placed.full.push_back(level.full[s.point]);
     placed.cell.push_back(s.cell);
-    append_row(level.rows, s.point, placed.rows);
+    placed.rows.append(level.rows[s.point]);
   }
   return placed;
 }
@@ -294,9 +282,9 @@ ShapeRows gather(std::vector<ShapeRows> batches, const std::vector<MergedPoint>&
       batches[batch++] = {};
     }
     if (m.moved) {
-      append_row(moved, next_moved++, rows);
+      rows.append(moved[next_moved++]);
     } else {
-      append_row(batches[batch], static_cast<std::size_t>(m.from) - before, rows);
+      rows.append(batches[batch][static_cast<std::size_t>(m.from) - before]);
     }
   }
   return rows;

@@ -96,8 +96,7 @@ class FitResidual {
   }
 
   std::span<const std::int32_t> support(std::size_t point) const {
-    const auto begin = static_cast<std::size_t>(rows_.begin[point]);
-    return std::span(rows_.node).subspan(begin, static_cast<std::size_t>(rows_.begin[point + 1]) - begin);
+    return rows_[point].node;
   }
 
   /// Centre of the support and the inverse of its second moments: in the plane the z terms drop out.
@@ -188,9 +187,9 @@ class Unbalanced {
 Points integrated_derivatives(std::span<const double> volume, const ShapeRows& rows, Eigen::Index nodes) {
   Points sum = Points::Zero(nodes, 3);
   for (std::size_t point = 0; point < rows.size(); ++point) {
-    for (auto k = static_cast<std::size_t>(rows.begin[point]); k < static_cast<std::size_t>(rows.begin[point + 1]);
-         ++k) {
-      sum.row(rows.node[k]) += volume[point] * Eigen::Map<const Eigen::RowVector3d>(&rows.derivative[3 * k]);
+    const ShapeRow row = rows[point];
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      sum.row(row.node[k]) += volume[point] * row.gradient(k).transpose();
     }
   }
   return sum;
@@ -201,9 +200,9 @@ double mean_magnitude(std::span<const double> volume, const ShapeRows& rows, Eig
   std::vector<double> sum(rows.size(), 0.0);  // of each point, so that threads change nothing
 #pragma omp parallel for schedule(static)
   for (std::size_t point = 0; point < rows.size(); ++point) {
-    for (auto k = static_cast<std::size_t>(rows.begin[point]); k < static_cast<std::size_t>(rows.begin[point + 1]);
-         ++k) {
-      sum[point] += volume[point] * Eigen::Map<const Eigen::Vector3d>(&rows.derivative[3 * k]).norm();
+    const ShapeRow row = rows[point];
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      sum[point] += volume[point] * row.gradient(k).norm();
     }
   }
   return std::accumulate(sum.begin(), sum.end(), 0.0) / static_cast<double>(nodes);
@@ -261,10 +260,7 @@ std::vector<std::int32_t> reached_surface(const FitResidual& system, std::span<c
                                           const ShapeRows& nodal_rows) {
   std::vector<std::int32_t> reached;
   for (const std::int32_t a : surface) {
-    const auto row = static_cast<std::size_t>(a);
-    const std::span support = std::span(nodal_rows.node)
-                                  .subspan(static_cast<std::size_t>(nodal_rows.begin[row]),
-                                           static_cast<std::size_t>(nodal_rows.begin[row + 1] - nodal_rows.begin[row]));
+    const std::span<const std::int32_t> support = nodal_rows[static_cast<std::size_t>(a)].node;
     if (std::all_of(support.begin(), support.end(),
                     [&](std::int32_t node) { return system.reaches(static_cast<std::size_t>(node)); })) {
       reached.push_back(a);

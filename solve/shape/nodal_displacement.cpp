@@ -8,8 +8,9 @@ Points nodal_displacement(const ShapeRows& rows, const NodalVectors& parameters,
   Points displacement(static_cast<Eigen::Index>(rows.size()), 3);
   for (std::size_t a = 0; a < rows.size(); ++a) {
     Eigen::Vector3d u = Eigen::Vector3d::Zero();
-    for (auto k = static_cast<std::size_t>(rows.begin[a]); k < static_cast<std::size_t>(rows.begin[a + 1]); ++k) {
-      u += rows.value[k] * Eigen::Map<const Eigen::Vector3d>(&parameters[4 * static_cast<std::size_t>(rows.node[k])]);
+    const ShapeRow row = rows[a];
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      u += row.value[k] * Eigen::Map<const Eigen::Vector3d>(&parameters[4 * static_cast<std::size_t>(row.node[k])]);
     }
     displacement.row(original[a]) = u;
   }

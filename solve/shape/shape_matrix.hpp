@@ -16,10 +16,9 @@ inline Eigen::SparseMatrix<double, Eigen::RowMajor> shape_matrix(const ShapeRows
   Eigen::SparseMatrix<double, Eigen::RowMajor> shape(static_cast<Eigen::Index>(points.size()), nodes);
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto point = static_cast<std::size_t>(points[i]);
-    for (auto k = static_cast<std::size_t>(rows.begin[point]); k < static_cast<std::size_t>(rows.begin[point + 1]);
-         ++k) {
-      entries.emplace_back(static_cast<int>(i), rows.node[k], rows.value[k]);
+    const ShapeRow row = rows[static_cast<std::size_t>(points[i])];
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      entries.emplace_back(static_cast<int>(i), row.node[k], row.value[k]);
     }
   }
   shape.setFromTriplets(entries.begin(), entries.end());

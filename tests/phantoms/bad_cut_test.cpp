@@ -21,12 +21,12 @@ TEST_F(BadInput, CutsThatAreNone) {
   const std::string flat = "--material 1:brain --plane strain ";
   const std::pair<const char*, std::vector<std::string>> paths[] = {
       {"", {"empty"}},
-      {"a,b\n1,2\n", {"line 1", "x,y"}},
+      {"a,b\n1,2\n", {":1:", "x,y"}},
       {"x,y\n1,2\n", {"1 vertex", "two"}},
-      {"x,y\n0,9\n9,9\n9,9\n", {"line 4", "repeats"}},
-      {"x,y\n0,9\n9,nine\n", {"line 3", "nine"}},
+      {"x,y\n0,9\n9,9\n9,9\n", {":4:", "repeats"}},
+      {"x,y\n0,9\n9,nine\n", {":3:", "nine"}},
       {"x,y\n0,9\n9,9\n9,19\n5,0\n", {"lines 2 to 3", "lines 4 to 5", "crosses"}},
-      {"x,y,time\n0,9,1\n9,9,0.5\n", {"line 3", "before"}},
+      {"x,y,time\n0,9,1\n9,9,0.5\n", {":3:", "before"}},
   };
   for (const auto& [text, parts] : paths) {
     write_text(at("cut.csv"), text);

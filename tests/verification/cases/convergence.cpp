@@ -10,6 +10,7 @@
 #include "solve/output/field_difference.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "tests/unit/solve/all_free.hpp"
+#include "tests/unit/solve/chapter_critical_step.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"

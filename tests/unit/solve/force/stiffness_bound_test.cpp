@@ -6,6 +6,7 @@
 
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/material/material_table.hpp"
+#include "tests/unit/solve/chapter_critical_step.hpp"
 #include "tests/unit/solve/material_cases.hpp"
 #include "tests/unit/solve/specimen.hpp"
 
