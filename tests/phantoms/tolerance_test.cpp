@@ -46,15 +46,15 @@ class Tolerance : public testing::Test {
 std::unique_ptr<ScratchFolder> Tolerance::scratch;
 
 TEST_F(Tolerance, SweepMeasuresEachChoiceOnceAndCallsFailuresFailures) {
-  const std::string lists = "--nodes 25,300,600 --precision double,single --reference-nodes 1500";
+  const std::string lists = "--nodes 30,300,600 --precision double,single --reference-nodes 1500";
   const ProgramResult first = sweep(lists);
   ASSERT_EQ(first.code, 0) << first.err;
   const fs::path out = *scratch / "sweep";
   const std::vector<std::string> csv = lines(out / "tradeoff.csv");
   ASSERT_EQ(csv.size(), 7) << "a header and a line for each choice";
   EXPECT_EQ(std::count(csv[0].begin(), csv[0].end(), ','), std::count(csv[3].begin(), csv[3].end(), ','));
-  EXPECT_NE(csv[1].find("25,auto,0,linear,full,double,0.1,,"), std::string::npos) << csv[1];
-  EXPECT_NE(csv[1].find('"'), std::string::npos) << "why 25 nodes are too few";
+  EXPECT_NE(csv[1].find("30,auto,0,linear,full,double,0.1,,"), std::string::npos) << csv[1];
+  EXPECT_NE(csv[1].find('"'), std::string::npos) << "why 30 nodes are too few";
   EXPECT_NE(first.out.find("95 % of the brain"), std::string::npos) << first.out;
   EXPECT_GT(fs::file_size(out / "tradeoff_solve.svg"), 1000U);
   EXPECT_GT(fs::file_size(out / "tradeoff_run.svg"), 1000U);
