@@ -189,7 +189,7 @@ TEST_F(BadInput, OptionsInTimeThatMakeNoSense) {
 
 TEST_F(BadInput, ACurveThatIsNone) {
   const std::pair<const char*, std::vector<std::string>> cases[] = {
-      {"t,f\n0,0\n1,1\n", {":1:", "time,factor"}},      {"time,factor\n0,0\n2,1\n1,1\n", {"line 4", "not later"}},
+      {"t,f\n0,0\n1,1\n", {":1:", "time,factor"}},      {"time,factor\n0,0\n2,1\n1,1\n", {":4:", "not later"}},
       {"time,factor\n1,0\n2,1\n", {"start at time 0"}}, {"time,factor\n0,1\n2,1\n", {"factor 0"}},
       {"time,factor\n0,0\n1,one\n", {":3:", "one"}},
   };
