@@ -3,7 +3,11 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS brainshift RUNTIME COMPONENT program)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program)
+install(FILES pipelines/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+find_program(GZIP_PROGRAM gzip REQUIRED)
+execute_process(COMMAND ${GZIP_PROGRAM} -9nc ${PROJECT_SOURCE_DIR}/pipelines/package/changelog
+  OUTPUT_FILE ${PROJECT_BINARY_DIR}/changelog.gz)
+install(FILES ${PROJECT_BINARY_DIR}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 set(libraries options geometry image files segmentation discretise solve registration)
 foreach(library ${libraries})
@@ -38,15 +42,15 @@ set(CPACK_PACKAGE_NAME brainshift)
 set(CPACK_PACKAGE_VENDOR "brainshift")
 set(CPACK_PACKAGE_CONTACT "the brainshift developers <brainshift@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
-set(CPACK_PACKAGE_DESCRIPTION "When the skull is opened the brain sags, and the preoperative MRI no longer fits.
-brainshift takes a labelled head MRI and the displacements measured on the exposed cortex, computes how the whole
-brain moved by mechanics (meshless total Lagrangian explicit dynamics) and warps the MRI to match.
-Research software, not a medical device.")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "When the skull is opened the brain sags, and the preoperative
+MRI no longer fits. brainshift takes a labelled head MRI and the displacements
+measured on the exposed cortex, computes how the whole brain moved by
+mechanics (meshless total Lagrangian explicit dynamics) and warps the MRI to
+match. Research software, not a medical device.")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set(CPACK_SOURCE_IGNORE_FILES "/\\.git/;/build[^/]*/;/demo/")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program)
