@@ -49,16 +49,23 @@ std::string described(const Surface& surface, const DirectedEdge& edge) {
          ")";
 }
 
+/// Before open edges are looked for: a triangle that is turned leaves some of its edges without an opposite one too.
+void check_each_met_once(const Surface& surface, const std::vector<DirectedEdge>& sorted) {
+  const auto twice =
+      std::adjacent_find(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.key() == b.key(); });
+  if (twice != sorted.end()) {
+    throw std::invalid_argument("signed distance: the surface is not 2-manifold or not evenly oriented " +
+                                described(surface, *twice) + "; repair it first");
+  }
+}
+
 /// The normals of edges; on the way, that each edge is met once in each direction.
 std::vector<std::array<Eigen::Vector3d, 3>> edge_normals(const Surface& surface,
                                                          const std::vector<Eigen::Vector3d>& face) {
   const std::vector<DirectedEdge> edges = sorted_edges(surface.triangles);
+  check_each_met_once(surface, edges);
   std::vector<std::array<Eigen::Vector3d, 3>> normals(face.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (e > 0 && edges[e].key() == edges[e - 1].key()) {
-      throw std::invalid_argument("signed distance: the surface is not 2-manifold or not evenly oriented " +
-                                  described(surface, edges[e]) + "; repair it first");
-    }
     const DirectedEdge opposite{edges[e].to, edges[e].from, 0, 0};
     const auto twin = std::lower_bound(edges.begin(), edges.end(), opposite,
                                        [](const auto& a, const auto& b) { return a.key() < b.key(); });

@@ -140,33 +140,4 @@ TEST(NodesFile, IsRefusedWhenAnArrayHasTheWrongShape) {
   EXPECT_NE(refusal([&] { read_node_cloud(folder / "mesh.vtu"); }).find("spacing"), std::string::npos);
 }
 
-TEST(VtuFile, ThatIsMissingEmptyTruncatedOrSomethingElseIsRefusedByName) {
-  const ScratchFolder folder;
-  const auto refused = [&](const std::string& name) {
-    const std::string sentence = refusal([&] { read_node_cloud(folder / name); });
-    return sentence.find(name) != std::string::npos;
-  };
-  EXPECT_TRUE(refused("missing.vtu"));
-  std::ofstream(folder / "empty.vtu").close();
-  EXPECT_TRUE(refused("empty.vtu"));
-  std::ofstream(folder / "text.vtu") << "x,y,z\n1,2,3\n";
-  EXPECT_TRUE(refused("text.vtu"));
-  std::ofstream(folder / "poly.vtu") << R"(<VTKFile type="PolyData" version="1.0"><PolyData/></VTKFile>)";
-  EXPECT_TRUE(refused("poly.vtu"));
-  write_node_cloud(folder / "whole.vtu", some_cloud());
-  const std::string whole = bytes_of(folder / "whole.vtu");
-  for (const double part : {0.2, 0.5, 0.8, 0.95}) {
-    std::ofstream(folder / "part.vtu", std::ios::binary)
-        << whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size())));
-    EXPECT_TRUE(refused("part.vtu")) << part;
-  }
-}
-
-TEST(VtuFile, ThatCannotBeWrittenIsAFaultOfOutput) {
-  EXPECT_THROW(write_node_cloud("/nonexistent/folder/nodes.vtu", some_cloud()), std::runtime_error);
-  if (std::filesystem::exists("/dev/full")) {
-    EXPECT_THROW(write_node_cloud("/dev/full", some_cloud()), std::runtime_error);
-  }
-}
-
 }  // namespace brainshift::node_cloud_test

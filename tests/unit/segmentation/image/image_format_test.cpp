@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/image_format.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/unit/scratch_folder.hpp"
+
+namespace brainshift::test::image_format_test {
+
+TEST(ImageFormat, IsThatOfTheEndingInAnyCase) {
+  EXPECT_EQ(image_format("a.nii"), ImageFormat::nifti);
+  EXPECT_EQ(image_format("folder.mha/a.b.NII"), ImageFormat::nifti);
+  EXPECT_EQ(image_format("a.nii.gz"), ImageFormat::nifti_gz);
+  EXPECT_EQ(image_format("A.Nii.Gz"), ImageFormat::nifti_gz);
+  EXPECT_EQ(image_format("a.nrrd"), ImageFormat::nrrd);
+  EXPECT_EQ(image_format("a.mha"), ImageFormat::meta);
+}
+
+TEST(ImageFormat, OfAnotherEndingIsRefusedWithTheKnownOnes) {
+  for (const std::string name : {"a.gz", "a.png", "nii", "a.nii.bz2", "a.nrrd/b", ""}) {
+    const std::string sentence = refusal([&] { image_format(name); });
+    EXPECT_TRUE(sentence.starts_with(name + ": images end in .nii, .nii.gz, .nrrd or .mha")) << sentence;
+  }
+}
+
+TEST(ImageFormat, HasTheReaderOfItsName) {
+  EXPECT_STREQ(make_image_io(ImageFormat::nifti)->GetNameOfClass(), "NiftiImageIO");
+  EXPECT_STREQ(make_image_io(ImageFormat::nifti_gz)->GetNameOfClass(), "NiftiImageIO");
+  EXPECT_STREQ(make_image_io(ImageFormat::nrrd)->GetNameOfClass(), "NrrdImageIO");
+  EXPECT_STREQ(make_image_io(ImageFormat::meta)->GetNameOfClass(), "MetaImageIO");
+}
+
+TEST(ImageFormat, AFaultOfItkIsToldWithoutItsClassAndAddress) {
+  const itk::ExceptionObject fault("reader.cxx", 12, "ITK ERROR: NiftiImageIO(0x5581): no header\nwas found");
+  EXPECT_EQ(reason_of(fault), "no header was found");
+  EXPECT_EQ(reason_of(itk::ExceptionObject("reader.cxx", 12, "no header (of 348): bytes")),
+            "no header (of 348): bytes");
+  EXPECT_EQ(reason_of(std::runtime_error("the disk\nis full")), "the disk is full");
+}
+
+}  // namespace brainshift::test::image_format_test
