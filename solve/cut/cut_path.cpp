@@ -19,7 +19,8 @@ struct WrittenPath {
   std::vector<double> time;                         ///< one a vertex, or none
 
   [[noreturn]] void fail(std::size_t vertex, const std::string& what) const {
-    throw std::invalid_argument(name + ", " + row + " " + std::to_string(number[vertex]) + ": " + what);
+    const std::string place = row == "line" ? ":" : ", " + row + " ";  // of a file FILE:LINE
+    throw std::invalid_argument(name + place + std::to_string(number[vertex]) + ": " + what);
   }
   std::string segment(std::size_t first) const {
     return row + "s " + std::to_string(number[first]) + " to " + std::to_string(number[first + 1]);
