@@ -45,7 +45,7 @@ FaceGaps::FaceGaps(std::vector<FacePlace> places, Points undeformed)
     append_neighbours(p);
   }
   move(undeformed_);
-  undeformed_gap_ = gap_;
+  undeformed_gap_.swap(gap_);  // which was 0
 }
 
 /// The weights are those of least squares. Along a direction in which there are no neighbours the face does not turn.

@@ -27,7 +27,7 @@ Points parameters_from_displacement(const ShapeFunctions& shape, const Points& p
     parameters.col(axis) = solver.solveWithGuess(u, u);
   }
   const double largest = displacement.cwiseAbs().maxCoeff();
-  const double error = (v * parameters - displacement).cwiseAbs().maxCoeff();
+  const double error = (v * parameters - displacement).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   if (!(error <= 1e-9 * largest)) {
     throw std::runtime_error("the shape functions' parameters could not be found from the displacement: " +
                              std::to_string(error) + " mm is left at a node; the cloud has nodes too close together");

@@ -10,17 +10,13 @@
 
 #include "solve/cut/read_cut.hpp"
 #include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/solve/expect_parts.hpp"
 
 namespace brainshift::solve::cut_path_test {
 
+using test::expect_parts;
 using test::refusal;
 using test::ScratchFolder;
-
-void expect_parts(const std::string& message, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) {
-    EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
-  }
-}
 
 TEST(CutPath, IsReadWithAndWithoutTimes) {
   const ScratchFolder folder;
@@ -75,13 +71,6 @@ TEST(CutPath, RefusesAFileThatIsNone) {
     expect_parts(fault, parts);
     expect_parts(fault, {"cut.csv"});
   }
-}
-
-TEST(CutPath, RefusesAFileThatIsNotThereOrOfAnotherKind) {
-  const ScratchFolder folder;
-  expect_parts(refusal([&] { read_cut(folder / "none.csv"); }), {"none.csv", "no such file"});
-  expect_parts(refusal([&] { read_cut(folder / "."); }), {"no such file"});
-  expect_parts(refusal([&] { read_cut(folder.write("cut.txt", "x,y\n")); }), {"cut.txt", ".csv", ".vtp, .stl"});
 }
 
 TEST(CutPath, RefusesATimingThatCannotBe) {

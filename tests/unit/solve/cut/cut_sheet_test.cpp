@@ -7,81 +7,22 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <array>
 #include <cmath>
-#include <functional>
-#include <numbers>
-#include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/files/vtk_bridge.hpp"
 #include "solve/cut/read_cut.hpp"
 #include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/solve/expect_parts.hpp"
+#include "tests/unit/solve/sheets.hpp"
 
 namespace brainshift::solve::cut_sheet_test {
 
+using test::expect_parts;
 using test::refusal;
 using test::ScratchFolder;
-
-void expect_parts(const std::string& message, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) {
-    EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
-  }
-}
-
-/// A square of n × n vertices, 10 mm wide, in z = 5; a triangle is left out where `leave_out` says so.
-Surface square(int n, const std::function<bool(int, int)>& leave_out = {}) {
-  Surface sheet{Points(n * n, 3), Triangles(0, 3)};
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      sheet.vertices.row(j * n + i) << 10.0 * i / (n - 1), 10.0 * j / (n - 1), 5;
-      if (i + 1 < n && j + 1 < n && !(leave_out && leave_out(i, j))) {
-        const std::int32_t corner = j * n + i;
-        triangles.push_back({corner, corner + 1, corner + n + 1});
-        triangles.push_back({corner, corner + n + 1, corner + n});
-      }
-    }
-  }
-  sheet.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    sheet.triangles.row(static_cast<Eigen::Index>(t)) << triangles[t][0], triangles[t][1], triangles[t][2];
-  }
-  return sheet;
-}
-
-Surface with_triangles(Surface sheet, const std::vector<std::array<double, 3>>& vertices,
-                       const std::vector<std::array<std::int32_t, 3>>& triangles) {
-  for (const auto& v : vertices) {
-    sheet.vertices.conservativeResize(sheet.vertices.rows() + 1, Eigen::NoChange);
-    sheet.vertices.bottomRows<1>() << v[0], v[1], v[2];
-  }
-  for (const auto& t : triangles) {
-    sheet.triangles.conservativeResize(sheet.triangles.rows() + 1, Eigen::NoChange);
-    sheet.triangles.bottomRows<1>() << t[0], t[1], t[2];
-  }
-  return sheet;
-}
-
-/// A band of n quadrilaterals around the z axis, turned half round for each of `half_turns`.
-Surface band(int n, int half_turns) {
-  Surface sheet{Points(2 * n, 3), Triangles(2 * n, 3)};
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2 * std::numbers::pi * i / n, turn = half_turns * angle / 2;
-    const Eigen::RowVector3d out(std::cos(angle), std::sin(angle), 0);
-    const Eigen::RowVector3d across = 3 * (std::sin(turn) * out + std::cos(turn) * Eigen::RowVector3d::UnitZ());
-    sheet.vertices.row(2 * i) = 10 * out - across;
-    sheet.vertices.row(2 * i + 1) = 10 * out + across;
-    const bool crossed = i + 1 == n && half_turns % 2 != 0;
-    const std::int32_t a = 2 * i, b = a + 1, c = (2 * (i + 1) + (crossed ? 1 : 0)) % (2 * n), d = c ^ 1;
-    sheet.triangles.row(2 * i) << a, c, b;
-    sheet.triangles.row(2 * i + 1) << b, c, d;
-  }
-  return sheet;
-}
+using test::square;
 
 /// Twice the area of a flat sheet's triangles, with the sign of their orientation.
 double signed_area(const Cut& cut) {
@@ -122,16 +63,6 @@ TEST(CutSheet, IsReadFromVtpAndStlWithItsPointsMerged) {
     EXPECT_NEAR(signed_area(cut), 200, 1e-4);
     EXPECT_TRUE(cut.time.empty());
   }
-}
-
-TEST(CutSheet, TrianglesAreTurnedToAgreeWithTheFirst) {
-  const ScratchFolder folder;
-  Surface sheet = square(4);
-  for (const Eigen::Index t : {1, 4, 5, 11, 17}) {
-    std::swap(sheet.triangles(t, 0), sheet.triangles(t, 1));
-  }
-  write_surface(folder / "sheet.vtp", sheet);
-  EXPECT_NEAR(signed_area(read_cut(folder / "sheet.vtp")), 200, 1e-9);
 }
 
 TEST(CutSheet, KeepsTheTimesOfThePointsThatItUses) {
@@ -180,46 +111,12 @@ TEST(CutSheet, RefusesATimingThatCannotBe) {
   expect_parts(refusal([&] { read_cut(folder / "vectors.vtp"); }), {"vectors.vtp", "2 numbers a point"});
 }
 
-TEST(CutSheet, RefusesWhatCannotBeCutAlong) {
+TEST(CutSheet, IsRefusedByFileWhereItCannotBeCutAlong) {
   const ScratchFolder folder;
-  const auto in_middle = [](int i, int j) { return i == 2 && j == 2; };
-  const auto diagonal = [](int i, int j) { return (i == 0) != (j == 0); };
-  const Surface tetrahedron =
-      with_triangles({Points(0, 3), Triangles(0, 3)}, {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}},
-                     {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
-  const std::tuple<const char*, Surface, std::vector<std::string>> cases[] = {
-      {"twice a vertex", with_triangles(square(2), {}, {{0, 1, 1}}), {"triangle 3", "no area"}},
-      {"no area", with_triangles(square(2), {{20, 0, 5}}, {{0, 1, 4}}), {"triangle 3", "no area"}},
-      {"branching",
-       with_triangles(square(2), {{5, 5, 12}}, {{0, 3, 4}}),
-       {"3 triangles", "(5, 5, 5)", "cut of its own"}},
-      {"pieces",
-       with_triangles(square(2), {{20, 0, 5}, {30, 0, 5}, {30, 9, 5}}, {{4, 5, 6}}),
-       {"pieces", "(20, 0, 5)"}},
-      {"one-sided", band(12, 1), {"one side only"}},
-      {"pieces that share a vertex", square(3, diagonal), {"pieces"}},
-      {"closed", tetrahedron, {"closed", "resection"}},
-      {"a ring", band(12, 0), {"hole"}},
-      {"a hole", square(6, in_middle), {"hole", "rim 8 mm", "(5, 5, 5)"}},
-      {"crossing",
-       with_triangles(square(2), {{20, 0, 5}, {5, 5, -5}, {4, 4, 15}}, {{1, 4, 3}, {4, 5, 3}, {5, 6, 3}}),
-       {"crosses or touches"}},
-      {"folded back", with_triangles(square(2), {{2, 5, 5}}, {{1, 3, 4}}), {"crosses or touches", "triangles"}},
-  };
-  for (const auto& [what, sheet, parts] : cases) {
-    SCOPED_TRACE(what);
-    write_surface(folder / "sheet.vtp", sheet);
-    const std::string fault = refusal([&] { read_cut(folder / "sheet.vtp"); });
-    expect_parts(fault, parts);
-    expect_parts(fault, {"sheet.vtp"});
-  }
-}
-
-TEST(CutSheet, RefusesPartsThatHangTogetherByAVertex) {
-  const ScratchFolder folder;
-  // A ring of squares whose corner is missing too: two of them meet in the vertex between the gaps.
-  write_surface(folder / "sheet.vtp", square(4, [](int i, int j) { return i == j && i > 0; }));
-  expect_parts(refusal([&] { read_cut(folder / "sheet.vtp"); }), {"sheet.vtp", "one vertex only", "6.66667, 6.66667"});
+  write_surface(folder / "ring.vtp", test::band(12, 0));
+  expect_parts(refusal([&] { read_cut(folder / "ring.vtp"); }), {"ring.vtp", "hole"});
+  write_surface(folder / "folded.vtp", test::folded_back());
+  expect_parts(refusal([&] { read_cut(folder / "folded.vtp"); }), {"folded.vtp", "crosses or touches", "triangles"});
 }
 
 TEST(CutSheet, RefusesAFileThatIsNone) {

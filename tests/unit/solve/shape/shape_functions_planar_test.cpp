@@ -198,15 +198,4 @@ TEST_P(EveryPlanarBasis, RefusesNodesAndPointsOffThePlaneByName) {
   EXPECT_EQ(sentence([&] { shape_of(cloud); }).find("node 7 has z = 1e-09 mm"), 0U);
 }
 
-TEST_P(EveryPlanarBasis, GivesItsParametersBackFromTheDisplacement) {
-  const NodeCloud cloud = cloud_of_rectangle();
-  const ShapeFunctions shape = shape_of(cloud);
-  Points parameters = test::random_points(static_cast<int>(cloud.positions.rows()), 5);
-  parameters.col(2).setZero();
-  const Points displacement = shape.interpolate(cloud.positions, parameters);
-  const Points found = parameters_from_displacement(shape, cloud.positions, displacement);
-  EXPECT_LE((shape.interpolate(cloud.positions, found) - displacement).cwiseAbs().maxCoeff(), 1e-8);
-  EXPECT_TRUE((found.col(2).array() == 0).all());
-}
-
 }  // namespace brainshift::solve::shape_functions_planar_test

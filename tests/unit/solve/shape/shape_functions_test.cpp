@@ -136,14 +136,4 @@ TEST(ShapeFunctions, AreTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.derivative, three.derivative);
 }
 
-TEST_P(EveryBasis, GivesItsParametersBackFromTheDisplacement) {
-  const NodeCloud cloud = irregular_box(9, side);
-  const ShapeFunctions shape(cloud.positions, cloud.spacing, options());
-  const Points parameters = random_points(static_cast<int>(cloud.positions.rows()), 5);
-  const Points displacement = shape.interpolate(cloud.positions, parameters);
-  const Points found = parameters_from_displacement(shape, cloud.positions, displacement);
-  EXPECT_LE((shape.interpolate(cloud.positions, found) - displacement).cwiseAbs().maxCoeff(), 1e-8);
-  EXPECT_LE((found - parameters).cwiseAbs().maxCoeff(), 1e-4);
-}
-
 }  // namespace brainshift::solve::shape_functions_test

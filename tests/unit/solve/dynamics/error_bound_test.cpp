@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/dynamics/error_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace brainshift::solve::error_bound_test {
+
+constexpr int window = 10;  // steps between two looks
+
+/// The bound after so many looks at steps that shrink by `rate` each.
+ErrorBound after(int looks, double rate, double damping_rate = 0) {
+  ErrorBound bound(window);
+  for (int k = 0; k < looks; ++k) {
+    bound.add(std::pow(rate, k * window), damping_rate, true);
+  }
+  return bound;
+}
+
+/// What the steps after this one add up to is ρ/(1 − ρ) of it.
+TEST(ErrorBound, OfAGeometricApproachIsAboveTheErrorAndFallsAsItDoes) {
+  constexpr double rate = 0.99;
+  for (const int looks : {10, 20, 40}) {
+    const double error = rate / (1 - rate) * std::pow(rate, (looks - 1) * window);
+    const double bound = after(looks, rate).value();
+    EXPECT_GE(bound, error);
+    EXPECT_NEAR(bound, error * std::pow(rate, -3 * window), 1e-9 * bound) << "the largest of the last four";
+  }
+}
+
+TEST(ErrorBound, IsInfiniteUntilFourBoundsAreKnown) {
+  EXPECT_TRUE(std::isinf(after(7, 0.9).value()));
+  EXPECT_TRUE(std::isfinite(after(8, 0.9).value()));
+  ErrorBound bound = after(20, 0.9);
+  bound.reset();
+  EXPECT_TRUE(std::isinf(bound.value()));
+  for (int k = 0; k < 7; ++k) {
+    bound.add(1, 0.9, true);
+  }
+  EXPECT_TRUE(std::isinf(bound.value())) << "what was before does not count";
+}
+
+TEST(ErrorBound, DoesNotCountUntilTheWholeLoadIsOn) {
+  ErrorBound bound(window);
+  for (int k = 0; k < 30; ++k) {
+    bound.add(std::pow(0.9, k * window), 0.5, false);
+  }
+  EXPECT_TRUE(std::isinf(bound.value()));
+}
+
+TEST(ErrorBound, TakesTheSlowerOfTheMeasuredRateAndThatOfTheDamping) {
+  constexpr int looks = 12;
+  const double moved = std::pow(0.9, (looks - 4) * window);
+  EXPECT_NEAR(after(looks, 0.9, 0.99).value(), 0.99 / 0.01 * moved, 1e-9 * 99 * moved);
+  EXPECT_NEAR(after(looks, 0.9, 0.5).value(), 0.9 / 0.1 * moved, 1e-9 * 9 * moved);
+}
+
+TEST(ErrorBound, IsNotTakenInByAPassingLow) {
+  ErrorBound bound = after(20, 0.99);
+  const double before = bound.value();
+  bound.add(1e-9, 0, true);
+  EXPECT_GT(bound.value(), 0.5 * before);
+}
+
+TEST(ErrorBound, IsInfiniteWhereStepsDoNotShrink) {
+  EXPECT_TRUE(std::isinf(after(30, 1.0).value()));
+  EXPECT_TRUE(std::isinf(after(30, 1.01).value()));
+}
+
+TEST(ErrorBound, OfABodyThatDoesNotMoveIsZero) {
+  ErrorBound bound(window);
+  for (int k = 0; k < 8; ++k) {
+    bound.add(0, 0.9, true);
+  }
+  EXPECT_EQ(bound.value(), 0);
+}
+
+}  // namespace brainshift::solve::error_bound_test
