@@ -2,6 +2,7 @@
 #include "solve/force/largest_eigenvalue.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -9,6 +10,18 @@
 #include "tests/unit/solve/specimen.hpp"
 
 namespace brainshift::solve::largest_eigenvalue_test {
+
+/// Hundreds of forces of a body of 27 nodes: threads would only wait for each other.
+class OneThread : public testing::Test {
+ protected:
+  OneThread() { omp_set_num_threads(1); }
+  ~OneThread() override { omp_set_num_threads(threads_); }
+
+ private:
+  int threads_ = omp_get_max_threads();
+};
+class LargestEigenvalue : public OneThread {};
+class BoundTightness : public OneThread {};
 
 Specimen small_box() {
   return {test::irregular_box(3, 30), test::box_cells(2, 30.0), {{.poisson_ratio = 0.45}}, {}};
@@ -46,7 +59,7 @@ double dense_eigenvalue(Specimen& body, const std::vector<double>& mass) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
-TEST(LargestEigenvalue, ComesFromBelowToThatOfTheMatrix) {
+TEST_F(LargestEigenvalue, ComesFromBelowToThatOfTheMatrix) {
   Specimen body = small_box();
   const std::vector<double> mass = uneven_mass(body.cloud.size());
   const double exact = dense_eigenvalue(body, mass);
@@ -61,14 +74,14 @@ TEST(LargestEigenvalue, ComesFromBelowToThatOfTheMatrix) {
   EXPECT_GE(largest_eigenvalue(body.points, body.laws, mass, 40), 0.9 * exact) << "forty some percent short";
 }
 
-TEST(LargestEigenvalue, IsHalfWithTwiceTheMass) {
+TEST_F(LargestEigenvalue, IsHalfWithTwiceTheMass) {
   const Specimen body = small_box();
   const std::vector<double> light(body.cloud.size(), 1), heavy(body.cloud.size(), 2);
   const double of_light = largest_eigenvalue(body.points, body.laws, light, 40);
   EXPECT_NEAR(largest_eigenvalue(body.points, body.laws, heavy, 40), of_light / 2, 1e-6 * of_light);
 }
 
-TEST(BoundTightness, IsTheEigenvalueWithAMarginOverTheBound) {
+TEST_F(BoundTightness, IsTheEigenvalueWithAMarginOverTheBound) {
   Specimen body = small_box();
   body.force(body.rest());
   const std::vector<double> mass = uneven_mass(body.cloud.size());
