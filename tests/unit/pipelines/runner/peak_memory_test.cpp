@@ -2,19 +2,22 @@
 #include "pipelines/runner/peak_memory.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <cmath>
-#include <vector>
 
 namespace brainshift::pipelines::peak_memory_test {
 
-/// Holds so many MB for a moment, every page of them touched.
+/// Holds so many MB for a moment, every page of them touched; taken from the system, which has them back at once.
 void hold(std::size_t megabytes) {
-  std::vector<char> held(megabytes << 20);
-  volatile char* const bytes = held.data();
-  for (std::size_t i = 0; i < held.size(); i += 1024) {
+  const std::size_t size = megabytes << 20;
+  void* const held = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(held, MAP_FAILED);
+  volatile char* const bytes = static_cast<char*>(held);
+  for (std::size_t i = 0; i < size; i += 1024) {
     bytes[i] = 1;
   }
+  munmap(held, size);
 }
 
 TEST(PeakMemory, RemembersWhatWasHeldForAMoment) {
