@@ -2,6 +2,7 @@
 #include "pipelines/tradeoff/sweep.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <cmath>
 
@@ -18,6 +19,7 @@ using brainshift::test::refusal;
 class SweepTest : public RunFolder {
  protected:
   void SetUp() override {
+    omp_set_num_threads(1);  // of a few nodes each thread would mostly wait for the others
     const Surface ball = brainshift::test::sphere({0, 0, 0}, 20, 3);
     write_surface(folder_ / "ball.vtp", ball);
     solve::CraniotomyLoad load{Points(0, 3), Points(0, 3)};
@@ -30,6 +32,7 @@ class SweepTest : public RunFolder {
     load.displacement = Eigen::RowVector3d(0, 0, -1).replicate(load.positions.rows(), 1);
     solve::write_craniotomy_csv(folder_ / "load.csv", load);
   }
+  void TearDown() override { omp_set_num_threads(threads_); }
   fs::path scene(const std::string& nodes, const std::string& reference, const std::string& more = "") const {
     return write("scene.xml", R"(<scene version="1"><image surface="ball.vtp"/>
       <tissues><tissue label="1" material="brain"/></tissues>
@@ -48,6 +51,7 @@ class SweepTest : public RunFolder {
                  });
   }
 
+  const int threads_ = omp_get_max_threads();
   std::size_t told_ = 0;
   TradeoffPoint last_;
 };
