@@ -139,7 +139,8 @@ TEST(PointsFile, OfMalformedFcsvIsRefusedWithTheLine) {
   EXPECT_NE(fault(fcsv("LPS", good + "1,1,x,3,0,0,0,1,1,1,0,F-1,,\n")).find(":5:"), std::string::npos);
   EXPECT_NE(fault(fcsv("LPS", good + "1,1,2,3\n")).find(":5:"), std::string::npos);
   EXPECT_NE(fault(fcsv("LPS", "")).find("no point"), std::string::npos);
-  EXPECT_NE(fault("# CoordinateSystem = LPS\n# columns = id,x,y,label\n1,2,3,a\n").find("x, y and z is expected"), std::string::npos);
+  EXPECT_NE(fault("# CoordinateSystem = LPS\n# columns = id,x,y,label\n1,2,3,a\n").find("x, y and z is expected"),
+            std::string::npos);
 }
 
 TEST(PointsFile, OfAnUnknownKindIsRefused) {
