@@ -53,11 +53,4 @@ TEST(DartGrid, HoldsPointsOnItsBoxsCorners) {
   EXPECT_TRUE(grid.is_free({5, 5, 5}, 3));
 }
 
-TEST(DartGrid, OfALargeBoxAndASmallReachFitsInMemory) {
-  DartGrid grid({0, 0, 0}, {1e5, 1e5, 1e5}, 1e-3);
-  grid.accept({500, 500, 500});
-  EXPECT_FALSE(grid.is_free({500, 500, 500.0005}, 1e-3));
-  EXPECT_TRUE(grid.is_free({500, 500, 500.002}, 1e-3));
-}
-
 }  // namespace brainshift::discretise::dart_grid_test
