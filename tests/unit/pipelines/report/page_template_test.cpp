@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <stdexcept>
+#include <string>
 
 namespace brainshift::pipelines::page_template_test {
 
@@ -12,7 +12,11 @@ using nlohmann::json;
 
 // Without the lines and their indents that the printer begins between elements.
 std::string filled(const char* page, const json& data) {
-  return std::regex_replace(fill_page(page, data), std::regex("\n *"), "");
+  std::string text = fill_page(page, data);
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at)) {
+    text.erase(at, text.find_first_not_of(' ', at + 1) - at);
+  }
+  return text;
 }
 
 TEST(PageTemplate, FillsTextAndAttributesAndEscapesThem) {
