@@ -9,6 +9,7 @@
 
 #include "solve/output/solution_file.hpp"
 #include "solve/output/steps.hpp"
+#include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve::solve_test {
@@ -113,13 +114,10 @@ TEST(Solve, KeepsSnapshotsOnRequest) {
   EXPECT_LT(result.snapshots[0].displacement.norm(), result.snapshots[2].displacement.norm());
   EXPECT_TRUE(solve(uniaxial(1.1, 5), {}).snapshots.empty());
 
-  const auto folder = std::filesystem::temp_directory_path() / "brainshift_steps_test";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  write_steps(folder, result);
+  const test::ScratchFolder folder;
+  write_steps(folder.path(), result);
   EXPECT_TRUE(std::filesystem::exists(folder / "steps.pvd"));
   EXPECT_EQ(read_solution(folder / "steps/000100.vtu").displacement, result.snapshots[0].displacement);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Solve, KeepsTheOrderOfTheNodes) {
@@ -161,10 +159,10 @@ TEST(Solve, RefusesWhatCannotBeSolved) {
 
 TEST(Solution, SurvivesWritingAndReading) {
   const SolveResult result = solve(uniaxial(1.1, 5), {});
-  const auto file = std::filesystem::temp_directory_path() / "brainshift_solution_test.vtu";
+  const test::ScratchFolder folder;
+  const auto file = folder / "solution.vtu";
   write_solution(file, result.solution);
   const Solution read = read_solution(file);
-  std::filesystem::remove(file);
   EXPECT_EQ(read.displacement, result.solution.displacement);
   EXPECT_EQ(read.reaction_force, result.solution.reaction_force);
   EXPECT_EQ(read.spacing, result.solution.spacing);

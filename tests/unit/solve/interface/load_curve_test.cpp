@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "solve/interface/load_curve.hpp"
+#include "tests/unit/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -91,9 +92,8 @@ TEST(LoadCurve, RefusesATableWithTheRow) {
 /// A file of its own for each test.
 class LoadCurveFile : public testing::Test {
  protected:
-  std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) /
-      ("brainshift_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
+  test::ScratchFolder folder;
+  std::filesystem::path file = folder / "curve.csv";
 
   LoadCurve read(const std::string& text) {
     std::ofstream(file) << text;
@@ -102,7 +102,6 @@ class LoadCurveFile : public testing::Test {
   std::string refusal_of(const std::string& text) {
     return refusal([&] { read(text); });
   }
-  void TearDown() override { std::filesystem::remove(file); }
 };
 
 TEST_F(LoadCurveFile, IsReadWithItsCommentsAside) {

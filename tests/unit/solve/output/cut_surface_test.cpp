@@ -11,14 +11,13 @@
 #include <filesystem>
 
 #include "solve/solve.hpp"
+#include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve::cut_surface_test {
 
 constexpr double side = 60;
-namespace fs = std::filesystem;
-
 /// A square in plane strain that is pulled open across a cut from its left side to x = 30.
 Model square() {
   Model model;
@@ -60,13 +59,6 @@ SolveOptions planar_options() {
   return options;
 }
 
-fs::path fresh_folder(const char* name) {
-  const fs::path folder = fs::temp_directory_path() / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
-
 /// How far the faces are apart across the cut, along an axis, at their vertices in turn.
 Eigen::VectorXd opening(const CutSurface& surface, int axis) {
   const Eigen::Index half = surface.vertices.rows() / 2;
@@ -89,7 +81,7 @@ TEST(CutSurface, HasTwoFacesThatOpenTowardsTheSurfaceAndMeetAtTheTip) {
 }
 
 TEST(CutSurface, IsReadByVtk) {
-  const fs::path folder = fresh_folder("brainshift_cut_surface_test");
+  const test::ScratchFolder folder;
   const SolveResult planar = solve(square(), planar_options()), spatial = solve(cube(), {});
   for (const SolveResult* result : {&planar, &spatial}) {
     const CutSurface& surface = result->faces;
@@ -109,7 +101,6 @@ TEST(CutSurface, IsReadByVtk) {
     EXPECT_EQ(displacement->GetComponent(last, 1), surface.displacement(last, 1));
   }
   EXPECT_GT(opening(spatial.faces, 2).maxCoeff(), 4);
-  fs::remove_all(folder);
 }
 
 }  // namespace brainshift::solve::cut_surface_test

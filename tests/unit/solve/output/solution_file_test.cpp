@@ -9,6 +9,7 @@
 #include "segmentation/files/vtu_file.hpp"
 #include "solve/interface/solution.hpp"
 #include "solve/shape/shape_functions.hpp"
+#include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift::solution_file_test {
@@ -25,11 +26,10 @@ Solution planar_solution() {
 }
 
 Solution read_back(const Solution& solution) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "brainshift_planar_solution_test.vtu";
+  const test::ScratchFolder folder;
+  const auto file = folder / "solution.vtu";
   write_solution(file, solution);
-  const Solution read = read_solution(file);
-  std::filesystem::remove(file);
-  return read;
+  return read_solution(file);
 }
 
 std::string refusal(const Solution& solution) {
@@ -56,13 +56,13 @@ TEST(PlanarSolution, IsOneOnlyWhereTheFileSaysSo) {
   Solution solution = planar_solution();
   solution.shape.planar = false;
   EXPECT_FALSE(read_back(solution).shape.planar);
-  const auto file = std::filesystem::path(testing::TempDir()) / "brainshift_foreign_solution_test.vtu";
+  const test::ScratchFolder folder;
+  const auto file = folder / "foreign.vtu";
   const auto grid = vtu::vertex_grid(solution.positions);
   const Points& u = solution.displacement;
   vtu::add_array(*grid->GetPointData(), "displacement", {u.data(), static_cast<std::size_t>(u.size())}, 3);
   vtu::write(file, *grid);
   EXPECT_FALSE(read_solution(file).shape.planar);
-  std::filesystem::remove(file);
 }
 
 TEST(PlanarSolution, OffThePlaneIsRefusedWithTheNode) {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "solve/solve.hpp"
+#include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/models.hpp"
 
@@ -44,28 +45,20 @@ SolveOptions planar_options() {
   return options;
 }
 
-fs::path fresh_folder(const char* name) {
-  const fs::path folder = fs::temp_directory_path() / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
-
 TEST(CutSurface, IsAPartOfEachStepOnceThereIsACut) {
-  const fs::path folder = fresh_folder("brainshift_cut_steps_test");
+  const test::ScratchFolder folder;
   Model model = square();
   model.cuts[0].time = {0.4, 0.8};
   SolveOptions options = planar_options();
   options.snapshot_every = 100;
   const SolveResult result = solve(model, options);
-  write_steps(folder, result);
+  write_steps(folder.path(), result);
   EXPECT_FALSE(fs::exists(folder / "steps/000100_cut.vtp"));
   EXPECT_TRUE(fs::exists(folder / "steps/000300_cut.vtp"));
   EXPECT_TRUE(fs::exists(folder / "steps/000400.vtu"));
   std::ostringstream text;
   text << std::ifstream(folder / "steps.pvd").rdbuf();
   EXPECT_NE(text.str().find("timestep=\"400\" part=\"1\" file=\"steps/000400_cut.vtp\""), std::string::npos);
-  fs::remove_all(folder);
 }
 
 }  // namespace brainshift::solve::steps_test
