@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "discretise/body/check_surface.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 
-#include <array>
 #include <stdexcept>
 #include <string>
-#include <vector>
+
+#include "segmentation/geometry/cgal_bridge.hpp"
 
 namespace brainshift::discretise {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace pmp = CGAL::Polygon_mesh_processing;
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -37,25 +32,7 @@ void check_numbers(const Surface& surface) {
   }
 }
 
-Mesh to_mesh(const Surface& surface) {
-  std::vector<Kernel::Point_3> points;
-  for (const auto& v : surface.vertices.rowwise()) {
-    points.emplace_back(v[0], v[1], v[2]);
-  }
-  std::vector<std::array<std::size_t, 3>> triangles;
-  for (const auto& t : surface.triangles.rowwise()) {
-    triangles.push_back(
-        {static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2])});
-  }
-  if (!pmp::is_polygon_soup_a_polygon_mesh(triangles)) {
-    refuse("is not a 2-manifold with triangles that agree in orientation; repair it (the segment stage can).");
-  }
-  Mesh mesh;
-  pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
-  return mesh;
-}
-
-std::size_t border_edges(const Mesh& mesh) {
+std::size_t border_edges(const CgalMesh& mesh) {
   std::size_t count = 0;
   for (const auto halfedge : mesh.halfedges()) {
     count += mesh.is_border(halfedge) ? 1 : 0;
@@ -67,16 +44,19 @@ std::size_t border_edges(const Mesh& mesh) {
 
 void check_encloses_body(const Surface& surface) {
   check_numbers(surface);
-  const Mesh mesh = to_mesh(surface);
-  if (const std::size_t open = border_edges(mesh); open > 0) {
+  const std::optional<CgalMesh> mesh = to_mesh(surface);
+  if (!mesh) {
+    refuse("is not a 2-manifold with triangles that agree in orientation; repair it (the segment stage can).");
+  }
+  if (const std::size_t open = border_edges(*mesh); open > 0) {
     refuse("is open: " + std::to_string(open) +
            " edges have a triangle on one side only; close it (the segment stage "
            "can).");
   }
-  if (pmp::does_self_intersect(mesh)) {
+  if (pmp::does_self_intersect(*mesh)) {
     refuse("intersects itself; repair it (the segment stage can).");
   }
-  if (!(volume(surface) > 0) || !pmp::does_bound_a_volume(mesh)) {
+  if (!(volume(surface) > 0) || !pmp::does_bound_a_volume(*mesh)) {
     refuse("is inside out: its triangles must be counter-clockwise seen from outside; flip them.");
   }
 }

@@ -11,9 +11,13 @@
 
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
+#include "segmentation/image/image.hpp"
+#include "tests/unit/expect_parts.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::pipelines {
+
+using test::expect_parts;
 
 /// A folder of its own for each test, with a scene in it.
 class SceneFile : public testing::Test {
@@ -43,10 +47,14 @@ class SceneFile : public testing::Test {
   std::filesystem::path folder_ = scratch_.path();
 };
 
-inline void expect_parts(const std::string& message, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) {
-    EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
-  }
+inline LabelMap block_labels() {
+  LabelMap map;
+  map.geometry.size = {4, 4, 4};
+  map.voxels.assign(64, 0);
+  map.at(1, 1, 1) = 1;
+  map.at(2, 1, 1) = 3;
+  map.at(1, 2, 1) = 6;
+  return map;
 }
 
 }  // namespace brainshift::pipelines

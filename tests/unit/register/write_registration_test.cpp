@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ITK brings an Eigen of its own, which must be read before ours.
 #include <gtest/gtest.h>
-#include <itkDisplacementFieldTransform.h>
-#include <itkHDF5TransformIO.h>
 #include <itkImageFileReader.h>
 #include <itkNearestNeighborInterpolateImageFunction.h>
 #include <itkNiftiImageIO.h>
 #include <itkResampleImageFilter.h>
-#include <itkTransformFileReader.h>
 
 #include <fstream>
 
@@ -15,6 +12,7 @@
 #include "register/warp/warp.hpp"
 #include "segmentation/image/itk_bridge.hpp"
 #include "tests/unit/register/builders.hpp"
+#include "tests/unit/register/read_transform.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::registration::write_registration_test {
@@ -23,7 +21,6 @@ using namespace builders;
 using test::ScratchFolder;
 
 using ItkField = itk::Image<itk::Vector<float, 3>, 3>;
-using ItkTransform = itk::DisplacementFieldTransform<double, 3>;
 
 ItkField::Pointer read_field(const std::filesystem::path& file) {
   const auto reader = itk::ImageFileReader<ItkField>::New();
@@ -31,15 +28,6 @@ ItkField::Pointer read_field(const std::filesystem::path& file) {
   reader->SetFileName(file.string());
   reader->Update();
   return reader->GetOutput();
-}
-
-/// As 3D Slicer and SimpleITK read it: in double precision.
-ItkTransform::Pointer read_transform(const std::filesystem::path& file) {
-  const auto reader = itk::TransformFileReaderTemplate<double>::New();
-  reader->SetTransformIO(itk::HDF5TransformIOTemplate<double>::New());
-  reader->SetFileName(file.string());
-  reader->Update();
-  return dynamic_cast<ItkTransform*>(reader->GetTransformList()->front().GetPointer());
 }
 
 ItkTransform::Pointer transform_of(const ItkField& field) {

@@ -55,6 +55,12 @@ inline LabelMap ball(const ImageGeometry& geometry, const Eigen::Vector3d& centr
   });
 }
 
+/// Oblique, with voxels of 1 × 2 × 3 mm.
+inline Mask empty_mask(int size) {
+  const auto geometry = grid_around(Eigen::Vector3d::Zero(), size, {1.0, 2.0, 3.0}, oblique_left_handed());
+  return {geometry, std::vector<std::uint8_t>(geometry.voxel_count())};
+}
+
 inline Surface tetrahedron() {
   Surface surface;
   surface.vertices.resize(4, 3);

@@ -5,53 +5,15 @@
 
 #include <numbers>
 
-#include <random>
-
 #include "segmentation/files/surface_file.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/segmentation/builders.hpp"
+#include "tests/unit/segmentation/drawn_head.hpp"
 
 namespace brainshift::test::segment_test {
 
+using namespace drawn_head;
 using namespace segmentation;
-
-const Eigen::Vector3d centre(10.0, -40.0, 60.0);
-constexpr double brain_radius = 30.0;
-constexpr double ventricle_radius = 8.0;
-
-// A ball of a brain: grey rim, white inside, a round ventricle in the middle, dark sulci that run in from outside.
-struct Head {
-  ScalarImage t1;
-  LabelMap mask;
-  LabelMap labels;
-};
-
-bool in_sulcus(const Eigen::Vector3d& x) {
-  return x.norm() > 22.0 && std::abs(x.x()) < 1.0;
-}
-
-Head head(const Eigen::Matrix3d& direction) {
-  const auto geometry = grid_around(centre, 72, Eigen::Vector3d::Ones(), direction);
-  std::mt19937 generator(7);
-  std::normal_distribution<float> noise(0.0F, 3.0F);
-  Head result;
-  result.t1 = image_by<float>(geometry, [&](const Eigen::Vector3d& world) {
-    const Eigen::Vector3d x = world - centre;
-    const double r = x.norm();
-    const double value = r > brain_radius                       ? 20.0
-                         : r < ventricle_radius || in_sulcus(x) ? 40.0
-                         : r > 25.0                             ? 80.0
-                                                                : 110.0;
-    return static_cast<float>(value) + noise(generator);
-  });
-  result.mask = ball(geometry, centre, brain_radius);
-  result.labels = result.mask;
-  const LabelMap ventricle = ball(geometry, centre, ventricle_radius);
-  for (std::size_t i = 0; i < ventricle.voxels.size(); ++i) {
-    result.labels.voxels[i] = static_cast<std::int16_t>(result.labels.voxels[i] + ventricle.voxels[i]);
-  }
-  return result;
-}
 
 double dice(const LabelMap& a, const LabelMap& b, std::int16_t label) {
   double both = 0;
@@ -61,13 +23,6 @@ double dice(const LabelMap& a, const LabelMap& b, std::int16_t label) {
     sum += (a.voxels[i] == label ? 1 : 0) + (b.voxels[i] == label ? 1 : 0);
   }
   return 2.0 * both / sum;
-}
-
-SegmentOptions two_labels() {
-  SegmentOptions options;
-  options.edge_length = 4.0;
-  options.brain_labels = {1, 2};
-  return options;
 }
 
 TEST(Segment, AT1WithAMaskGivesTheTissuesThatWereDrawn) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,6 +35,28 @@ inline double completeness_error(const NodeCloud& cloud, const Points& at, const
     worst = std::max({worst, std::abs(sum - 1), place.norm() / h, slope.norm() * h, (gradient - complete).norm()});
   }
   return worst;
+}
+
+/// The derivatives along the first `axes` axes are those of the values, by central differences.
+inline void expect_derivatives_of_values(const solve::ShapeFunctions& shape, const Points& nodes, const Points& at,
+                                         int axes) {
+  const Points values = nodes.array().sin().matrix();  // anything rough
+  const solve::ShapeRows rows = shape.evaluate(at, true);
+  constexpr double step = 1e-5;
+  for (int axis = 0; axis < axes; ++axis) {
+    Points ahead = at, behind = at;
+    ahead.col(axis).array() += step;
+    behind.col(axis).array() -= step;
+    const Points difference = (shape.interpolate(ahead, values) - shape.interpolate(behind, values)) / (2 * step);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const solve::ShapeRow row = rows[i];
+      Eigen::RowVector3d slope = Eigen::RowVector3d::Zero();
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        slope += row.gradient(k)[axis] * values.row(row.node[k]);
+      }
+      EXPECT_LE((slope - difference.row(static_cast<Eigen::Index>(i))).norm(), 1e-6);
+    }
+  }
 }
 
 }  // namespace brainshift::test

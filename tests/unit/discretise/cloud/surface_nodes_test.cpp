@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Side_of_triangle_mesh.h>
-#include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
 #include <array>
 
 #include "discretise/discretise.hpp"
 #include "tests/unit/discretise/bodies.hpp"
+#include "tests/unit/discretise/inside.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 
 namespace brainshift::discretise::surface_nodes_test {
@@ -16,36 +13,8 @@ namespace brainshift::discretise::surface_nodes_test {
 using test::ball;
 using test::box;
 using test::bumpy_brain;
+using test::Inside;
 const Eigen::Vector3d centre(30, -210, 55);
-
-/// CGAL's exact inside test.
-class Inside {
- public:
-  explicit Inside(const Surface& surface) : mesh_(to_mesh(surface)), side_(mesh_) {}
-  bool operator()(const double* x) const { return side_({x[0], x[1], x[2]}) == CGAL::ON_BOUNDED_SIDE; }
-
- private:
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-
-  static Mesh to_mesh(const Surface& surface) {
-    std::vector<Kernel::Point_3> points;
-    for (const auto& v : surface.vertices.rowwise()) {
-      points.emplace_back(v[0], v[1], v[2]);
-    }
-    std::vector<std::array<std::size_t, 3>> triangles;
-    for (const auto& t : surface.triangles.rowwise()) {
-      triangles.push_back(
-          {static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2])});
-    }
-    Mesh mesh;
-    CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, triangles, mesh);
-    return mesh;
-  }
-
-  Mesh mesh_;
-  CGAL::Side_of_triangle_mesh<Mesh, Kernel> side_;
-};
 
 Discretisation with_nodes(const Surface& surface, std::size_t nodes, CellKind kind) {
   DiscretiseOptions options;

@@ -9,19 +9,21 @@
 #include <vtkPoints.h>
 #include <vtkTriangleFilter.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
-#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <limits>
 
 #include "discretise/interface/node_cloud.hpp"
+#include "tests/unit/discretise/foreign_mesh.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::background_cells_test {
 
 using test::bytes_of;
+using test::foreign_cube;
+using test::read_with_vtk;
 using test::refusal;
 using test::ScratchFolder;
+using test::write_with_vtk;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Two unit cubes side by side; the second is cut.
@@ -56,35 +58,6 @@ BackgroundCells one_tetrahedron() {
   cells.inside_fraction = {1};
   cells.label = {1};
   return cells;
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> read_with_vtk(const std::filesystem::path& file) {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
-
-void write_with_vtk(const std::filesystem::path& file, vtkUnstructuredGrid* grid) {
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetFileName(file.c_str());
-  writer->SetDataModeToAscii();
-  writer->SetInputData(grid);
-  writer->Write();
-}
-
-/// Another program's mesh: eight corners of a cube as floats, no arrays.
-vtkSmartPointer<vtkUnstructuredGrid> foreign_cube(int cell_type) {
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  vtkNew<vtkPoints> points;
-  const double corner[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
-  for (const auto& x : corner) {
-    points->InsertNextPoint(x);
-  }
-  grid->SetPoints(points);
-  const vtkIdType ids[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-  grid->InsertNextCell(cell_type, 8, ids);
-  return grid;
 }
 
 TEST(CellsFile, ReturnsEveryBitOfTheCells) {

@@ -8,20 +8,22 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
-#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <cmath>
 #include <limits>
 
 #include "discretise/interface/background_cells.hpp"
+#include "tests/unit/discretise/foreign_mesh.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::node_cloud_test {
 
 using test::bytes_of;
+using test::foreign_cube;
+using test::read_with_vtk;
 using test::refusal;
 using test::ScratchFolder;
+using test::write_with_vtk;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 NodeCloud some_cloud() {
@@ -31,35 +33,6 @@ NodeCloud some_cloud() {
   cloud.spacing = {1.5, 0.1, 2, 3, 4};
   cloud.on_surface = {1, 0, 1, 0, 0};
   return cloud;
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> read_with_vtk(const std::filesystem::path& file) {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
-
-void write_with_vtk(const std::filesystem::path& file, vtkUnstructuredGrid* grid) {
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  writer->SetFileName(file.c_str());
-  writer->SetDataModeToAscii();
-  writer->SetInputData(grid);
-  writer->Write();
-}
-
-/// Another program's mesh: eight corners of a cube as floats, no arrays.
-vtkSmartPointer<vtkUnstructuredGrid> foreign_cube(int cell_type) {
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  vtkNew<vtkPoints> points;
-  const double corner[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
-  for (const auto& x : corner) {
-    points->InsertNextPoint(x);
-  }
-  grid->SetPoints(points);
-  const vtkIdType ids[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-  grid->InsertNextCell(cell_type, 8, ids);
-  return grid;
 }
 
 TEST(NodesFile, ReturnsEveryBitOfTheCloud) {

@@ -7,16 +7,6 @@
 
 namespace brainshift::pipelines::explain_scene_test {
 
-LabelMap block_labels() {
-  LabelMap map;
-  map.geometry.size = {4, 4, 4};
-  map.voxels.assign(64, 0);
-  map.at(1, 1, 1) = 1;
-  map.at(2, 1, 1) = 3;
-  map.at(1, 2, 1) = 6;
-  return map;
-}
-
 TEST_F(SceneFile, ExplainTellsActivePartsFromThoseNotBuilt) {
   write_image(folder_ / "labels.nii.gz", block_labels());
   touch("load.csv");

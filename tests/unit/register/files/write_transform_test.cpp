@@ -1,30 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ITK brings an Eigen of its own, which must be read before ours.
 #include <gtest/gtest.h>
-#include <itkDisplacementFieldTransform.h>
-#include <itkHDF5TransformIO.h>
-#include <itkTransformFileReader.h>
 
 #include "register/files/write_transform.hpp"
 #include "segmentation/image/itk_bridge.hpp"
 #include "tests/unit/register/builders.hpp"
+#include "tests/unit/register/read_transform.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::registration::write_transform_test {
 
 using namespace builders;
 using test::ScratchFolder;
-
-using ItkTransform = itk::DisplacementFieldTransform<double, 3>;
-
-/// As 3D Slicer and SimpleITK read it: in double precision.
-ItkTransform::Pointer read_transform(const std::filesystem::path& file) {
-  const auto reader = itk::TransformFileReaderTemplate<double>::New();
-  reader->SetTransformIO(itk::HDF5TransformIOTemplate<double>::New());
-  reader->SetFileName(file.string());
-  reader->Update();
-  return dynamic_cast<ItkTransform*>(reader->GetTransformList()->front().GetPointer());
-}
 
 TEST(WriteTransform, OfAFieldThatIsZeroIsTheIdentity) {
   const ScratchFolder folder;

@@ -7,11 +7,6 @@
 
 namespace brainshift::test::mask_test {
 
-Mask empty_mask(int size) {
-  const auto geometry = grid_around(Eigen::Vector3d::Zero(), size, {1.0, 2.0, 3.0}, oblique_left_handed());
-  return {geometry, std::vector<std::uint8_t>(geometry.voxel_count())};
-}
-
 TEST(Mask, CropAndBackKeepsEveryVoxelAtItsPlace) {
   Mask mask = empty_mask(9);
   mask.at(0, 4, 8) = 1;

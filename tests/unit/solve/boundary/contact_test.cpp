@@ -6,6 +6,7 @@
 #include "solve/boundary/essential_conditions.hpp"
 #include "solve/shape/shape_functions.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/weighted_box.hpp"
 
 namespace brainshift::solve::contact_test {
 
@@ -13,37 +14,6 @@ using test::irregular_box;
 using test::random_points;
 
 constexpr double side = 40;
-
-struct Cloud {
-  NodeCloud nodes = irregular_box(7, side);
-  ShapeFunctions shape{nodes.positions, nodes.spacing, {}};
-  ShapeRows rows = shape.evaluate(nodes.positions, false);
-  std::vector<double> mass = masses();
-
-  std::vector<double> masses() const {
-    std::vector<double> m;
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      m.push_back(1 + 0.5 * std::sin(static_cast<double>(a)));
-    }
-    return m;
-  }
-  NodalVectors random_parameters(double amplitude) const {
-    const Points random = random_points(static_cast<int>(nodes.size()), 2 * amplitude);
-    NodalVectors u(4 * nodes.size(), 0.0);
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      Eigen::Vector3d::Map(&u[4 * a]) =
-          random.row(static_cast<Eigen::Index>(a)).transpose() - Eigen::Vector3d::Constant(amplitude);
-    }
-    return u;
-  }
-  Points displacement(const NodalVectors& u) const {
-    Points parameters(nodes.positions.rows(), 3);
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      parameters.row(static_cast<Eigen::Index>(a)) = Eigen::Vector3d::Map(&u[4 * a]);
-    }
-    return shape.interpolate(nodes.positions, parameters);
-  }
-};
 
 /// A closed box, outward, as a skull.
 Surface box_surface(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
@@ -60,7 +30,7 @@ Surface box_surface(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
 
 class ContactWithABox : public testing::Test {
  protected:
-  Cloud cloud;
+  WeightedBox cloud;
   SignedDistance skull{box_surface(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(side + 2))};
   std::vector<std::int32_t> surface_nodes() const {
     std::vector<std::int32_t> nodes;

@@ -8,6 +8,7 @@
 #include "solve/boundary/contact.hpp"
 #include "solve/shape/shape_functions.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/weighted_box.hpp"
 
 namespace brainshift::solve::essential_conditions_test {
 
@@ -16,37 +17,6 @@ using test::random_points;
 
 constexpr double side = 40;
 
-struct Cloud {
-  NodeCloud nodes = irregular_box(7, side);
-  ShapeFunctions shape{nodes.positions, nodes.spacing, {}};
-  ShapeRows rows = shape.evaluate(nodes.positions, false);
-  std::vector<double> mass = masses();
-
-  std::vector<double> masses() const {
-    std::vector<double> m;
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      m.push_back(1 + 0.5 * std::sin(static_cast<double>(a)));
-    }
-    return m;
-  }
-  NodalVectors random_parameters(double amplitude) const {
-    const Points random = random_points(static_cast<int>(nodes.size()), 2 * amplitude);
-    NodalVectors u(4 * nodes.size(), 0.0);
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      Eigen::Vector3d::Map(&u[4 * a]) =
-          random.row(static_cast<Eigen::Index>(a)).transpose() - Eigen::Vector3d::Constant(amplitude);
-    }
-    return u;
-  }
-  Points displacement(const NodalVectors& u) const {
-    Points parameters(nodes.positions.rows(), 3);
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      parameters.row(static_cast<Eigen::Index>(a)) = Eigen::Vector3d::Map(&u[4 * a]);
-    }
-    return shape.interpolate(nodes.positions, parameters);
-  }
-};
-
 std::vector<std::int32_t> names(const Points& prescribed) {
   std::vector<std::int32_t> names(static_cast<std::size_t>(prescribed.rows()));
   std::iota(names.begin(), names.end(), 0);
@@ -54,7 +24,7 @@ std::vector<std::int32_t> names(const Points& prescribed) {
 }
 
 TEST(EssentialConditions, HoldForTheDisplacementNotTheParameter) {
-  Cloud cloud;
+  WeightedBox cloud;
   Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
   for (Eigen::Index a = 0; a < prescribed.rows(); a += 5) {
     prescribed.row(a) << 1.0, std::nan(""), -2.0;
@@ -76,7 +46,7 @@ TEST(EssentialConditions, HoldForTheDisplacementNotTheParameter) {
 TEST(EssentialConditions, MoveTheParametersLeastInTheNormOfTheMasses) {
   // A projection: doing it twice changes nothing, and the correction M⁻¹Vᵀμ is M-orthogonal to every motion that keeps
   // the conditions.
-  Cloud cloud;
+  WeightedBox cloud;
   Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
   for (Eigen::Index a = 0; a < prescribed.rows(); a += 7) {
     prescribed.row(a).setConstant(1.0);
@@ -99,7 +69,7 @@ TEST(EssentialConditions, MoveTheParametersLeastInTheNormOfTheMasses) {
 }
 
 TEST(EssentialConditions, RefuseTwoNodesThatSayTheSame) {
-  Cloud cloud;
+  WeightedBox cloud;
   ShapeRows same = cloud.rows;  // node 1 seen as node 0: both rows alike
   Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
   prescribed.topRows(2).setZero();

@@ -9,18 +9,13 @@
 
 #include "solve/output/field_difference.hpp"
 #include "tests/unit/solve/all_free.hpp"
+#include "tests/unit/solve/cut_bodies.hpp"
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve::face_contact_test {
 
 constexpr double side = 60;
 constexpr double pressed = 6;  // mm
-
-SolveOptions planar_options() {
-  SolveOptions options;
-  options.points_per_cell = 4;
-  return options;
-}
 
 Cut path(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   Cut cut;
@@ -82,9 +77,9 @@ TEST(FaceContact, CarriesWhatAnUncutBlockCarries) {
     const Model whole = square(-pressed, right_through);
     const Cut& cut = right_through ? through : internal;
     const double from = right_through ? 0 : 15, to = right_through ? side : 45;
-    const SolveResult uncut = solve(whole, planar_options());
-    const SolveResult touching = solve(with_cut(whole, cut, true), planar_options());
-    const SolveResult apart = solve(with_cut(whole, cut, false), planar_options());
+    const SolveResult uncut = solve(whole, test::plane_options());
+    const SolveResult touching = solve(with_cut(whole, cut, true), test::plane_options());
+    const SolveResult apart = solve(with_cut(whole, cut, false), test::plane_options());
     ASSERT_TRUE(touching.measures.converged) << touching.failure;
     EXPECT_NEAR(reaction(touching, 1) / reaction(uncut, 1), 1, 0.01);
     EXPECT_LT(overlap(touching.solution, from, to), 0.01 * pressed);
@@ -99,8 +94,8 @@ TEST(FaceContact, CarriesWhatAnUncutBlockCarries) {
 TEST(FaceContact, HoldsTheCornersWhereACutLeavesTheBody) {
   const Model whole = square(-pressed, true);
   const Cut cut = path({-5, 30.5, 0}, {65, 30.5, 0});
-  const SolveResult uncut = solve(whole, planar_options());
-  const SolveResult touching = solve(with_cut(whole, cut, true), planar_options());
+  const SolveResult uncut = solve(whole, test::plane_options());
+  const SolveResult touching = solve(with_cut(whole, cut, true), test::plane_options());
   ASSERT_TRUE(touching.measures.converged) << touching.failure;
   EXPECT_NEAR(reaction(touching, 1) / reaction(uncut, 1), 1, 0.015);
   EXPECT_LT(touching.measures.cut->faces->largest_overlap, 0.01 * pressed);
@@ -110,8 +105,8 @@ TEST(FaceContact, DoesNothingWhereTheFacesOpen) {
   for (const bool right_through : {true, false}) {
     const Model model = square(pressed, right_through);
     const Cut& cut = right_through ? through : internal;
-    const SolveResult on = solve(with_cut(model, cut, true), planar_options());
-    const SolveResult off = solve(with_cut(model, cut, false), planar_options());
+    const SolveResult on = solve(with_cut(model, cut, true), test::plane_options());
+    const SolveResult off = solve(with_cut(model, cut, false), test::plane_options());
     EXPECT_LT((on.solution.displacement - off.solution.displacement).cwiseAbs().maxCoeff(),
               1e-6);  // touched on the way
     EXPECT_EQ(on.measures.cut->faces->largest_overlap, 0);
@@ -136,7 +131,7 @@ TEST(FaceContact, SlidesWithoutFriction) {
     model.conditions.force(a, 0) = push / static_cast<double>(pushed.size());
   }
   const Cut cut = path({-5, 30 - 35 * slope, 0}, {65, 30 + 35 * slope, 0});
-  const SolveResult result = solve(with_cut(model, cut, true), planar_options());
+  const SolveResult result = solve(with_cut(model, cut, true), test::plane_options());
   ASSERT_TRUE(result.measures.converged) << result.failure;
   EXPECT_NEAR(reaction(result, 1) / (-push / slope), 1, 0.03);
   EXPECT_LT(result.measures.cut->faces->largest_overlap, 0.01 * d);
@@ -163,10 +158,10 @@ TEST(FaceContact, FollowsACutThatGoesOn) {
   const Model whole = square(-pressed, false);
   Cut cut = internal;
   cut.time = {0.2, 0.8};
-  const SolveResult touching = solve(with_cut(whole, cut, true), planar_options());
+  const SolveResult touching = solve(with_cut(whole, cut, true), test::plane_options());
   ASSERT_TRUE(touching.measures.converged) << touching.failure;
   EXPECT_GE(touching.measures.cut->advances, 5u);
-  EXPECT_NEAR(reaction(touching, 1) / reaction(solve(whole, planar_options()), 1), 1, 0.01);
+  EXPECT_NEAR(reaction(touching, 1) / reaction(solve(whole, test::plane_options()), 1), 1, 0.01);
   EXPECT_LT(overlap(touching.solution, 15, 45), 0.015 * pressed);
 }
 
@@ -191,9 +186,9 @@ TEST(FaceContact, IsTheSameForAnyNumberOfThreads) {
   const Model model = with_cut(square(-pressed, true, 13), through, true);
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
-  const SolveResult one = solve(model, planar_options());
+  const SolveResult one = solve(model, test::plane_options());
   omp_set_num_threads(3);
-  const SolveResult three = solve(model, planar_options());
+  const SolveResult three = solve(model, test::plane_options());
   omp_set_num_threads(threads);
   EXPECT_EQ(one.solution.displacement, three.solution.displacement);
 }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "solve/cut/read_cut.hpp"
+#include "tests/unit/expect_parts.hpp"
 #include "tests/unit/scratch_folder.hpp"
-#include "tests/unit/solve/expect_parts.hpp"
 
 namespace brainshift::solve::cut_path_test {
 

@@ -13,8 +13,8 @@
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/files/vtk_bridge.hpp"
 #include "solve/cut/read_cut.hpp"
+#include "tests/unit/expect_parts.hpp"
 #include "tests/unit/scratch_folder.hpp"
-#include "tests/unit/solve/expect_parts.hpp"
 #include "tests/unit/solve/sheets.hpp"
 
 namespace brainshift::solve::cut_sheet_test {

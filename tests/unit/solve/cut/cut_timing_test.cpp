@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/expect_parts.hpp"
 #include "tests/unit/scratch_folder.hpp"
-#include "tests/unit/solve/expect_parts.hpp"
 
 namespace brainshift::solve::cut_timing_test {
 

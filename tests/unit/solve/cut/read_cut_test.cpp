@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "segmentation/files/surface_file.hpp"
+#include "tests/unit/expect_parts.hpp"
 #include "tests/unit/scratch_folder.hpp"
-#include "tests/unit/solve/expect_parts.hpp"
 #include "tests/unit/solve/sheets.hpp"
 
 namespace brainshift::solve::read_cut_test {

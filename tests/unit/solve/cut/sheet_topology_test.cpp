@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "tests/unit/expect_parts.hpp"
 #include "tests/unit/scratch_folder.hpp"
-#include "tests/unit/solve/expect_parts.hpp"
 #include "tests/unit/solve/sheets.hpp"
 
 namespace brainshift::solve::sheet_topology_test {

@@ -6,39 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "tests/unit/markup_texts.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::solve::markup_pairs_test {
 
+using test::fcsv;
+using test::MarkupPoint;
+using test::mrk_json;
 using test::refusal;
 using test::ScratchFolder;
-
-struct Point {
-  std::string label, position;
-};
-
-/// As 3D Slicer 5 writes it.
-std::string mrk_json(const std::string& system, const std::vector<Point>& points) {
-  std::string text = R"({"@schema": "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/)"
-                     R"(Resources/Schema/markups-schema-v1.0.3.json#", "markups": [{"type": "Fiducial", )"
-                     R"("coordinateSystem": )" +
-                     system + R"(, "coordinateUnits": "mm", "controlPoints": [)";
-  for (std::size_t n = 0; n < points.size(); ++n) {
-    text += (n == 0 ? "" : ", ") + std::string(R"({"id": "1", "label": ")") + points[n].label + R"(", "position": [)" +
-            points[n].position + R"(], "orientation": [1, 0, 0, 0, 1, 0, 0, 0, 1], "positionStatus": "defined"})";
-  }
-  return text + "]}]}\n";
-}
-
-std::string fcsv(const std::string& system, const std::string& points) {
-  return "# Markups fiducial file version = 4.11\n# CoordinateSystem = " + system +
-         "\n# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n" + points;
-}
 
 TEST(Markups, AreReadInTheFrameThatTheFileNames) {
   const ScratchFolder folder;
   const Eigen::RowVector3d lps(-1.5, -2, 3), same(1.5, 2, 3);
-  const std::vector<Point> points = {{"F-1", "1.5, 2, 3"}};
+  const std::vector<MarkupPoint> points = {{"F-1", "1.5, 2, 3"}};
   const std::string row = "1,1.5,2,3,0,0,0,1,1,1,0,F-1,,\n";
   for (const std::string ras : {"RAS", "0"}) {
     EXPECT_EQ(read_markup_positions(folder.write("p.mrk.json", mrk_json("\"" + ras + "\"", points))).row(0), lps);
@@ -77,7 +59,7 @@ TEST(Markups, WithoutACommonLabelArePairedByOrder) {
 
 TEST(Markups, ThatCannotBePairedAreRefused) {
   const ScratchFolder folder;
-  const auto pair = [&](const std::vector<Point>& before, const std::vector<Point>& after) {
+  const auto pair = [&](const std::vector<MarkupPoint>& before, const std::vector<MarkupPoint>& after) {
     const auto first = folder.write("b.mrk.json", mrk_json("\"LPS\"", before));
     const auto second = folder.write("a.mrk.json", mrk_json("\"LPS\"", after));
     return refusal([&] { read_markups(first, second); });

@@ -13,32 +13,11 @@
 #include "solve/solve.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/all_free.hpp"
+#include "tests/unit/solve/cut_bodies.hpp"
 #include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/pulled_square.hpp"
 
 namespace brainshift::solve::cut_surface_test {
-
-constexpr double side = 60;
-/// A square in plane strain that is pulled open across a cut from its left side to x = 30.
-Model square() {
-  Model model;
-  model.cloud = test::irregular_rectangle(21, 21, side, side);
-  model.conditions = test::all_free(model.cloud);
-  model.cells = test::rectangle_cells(20, 20, side, side);
-  model.materials[1] = {3000, 0.45, 1000};
-  model.plane = Plane::strain;
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    const double y = model.cloud.positions(a, 1);
-    if (y < 1e-9 || y > side - 1e-9) {
-      model.conditions.displacement.row(a) << 0, y > 1 ? 6 : 0, std::nan("");
-    }
-  }
-  Cut cut;
-  cut.name = "path";
-  cut.vertices.resize(2, 3);
-  cut.vertices << -5, 30, 0, 30, 30, 0;
-  model.cuts = {cut};
-  return model;
-}
 
 /// A cube that is pulled open across a sheet over half of it.
 Model cube() {
@@ -53,12 +32,6 @@ Model cube() {
   return model;
 }
 
-SolveOptions planar_options() {
-  SolveOptions options;
-  options.points_per_cell = 4;
-  return options;
-}
-
 /// How far the faces are apart across the cut, along an axis, at their vertices in turn.
 Eigen::VectorXd opening(const CutSurface& surface, int axis) {
   const Eigen::Index half = surface.vertices.rows() / 2;
@@ -66,7 +39,7 @@ Eigen::VectorXd opening(const CutSurface& surface, int axis) {
 }
 
 TEST(CutSurface, HasTwoFacesThatOpenTowardsTheSurfaceAndMeetAtTheTip) {
-  const SolveResult result = solve(square(), planar_options());
+  const SolveResult result = solve(pulled_square(), test::plane_options());
   const CutSurface& surface = result.faces;
   const Eigen::Index half = surface.vertices.rows() / 2;
   EXPECT_EQ(surface.vertices.topRows(half), surface.vertices.bottomRows(half));
@@ -82,7 +55,7 @@ TEST(CutSurface, HasTwoFacesThatOpenTowardsTheSurfaceAndMeetAtTheTip) {
 
 TEST(CutSurface, IsReadByVtk) {
   const test::ScratchFolder folder;
-  const SolveResult planar = solve(square(), planar_options()), spatial = solve(cube(), {});
+  const SolveResult planar = solve(pulled_square(), test::plane_options()), spatial = solve(cube(), {});
   for (const SolveResult* result : {&planar, &spatial}) {
     const CutSurface& surface = result->faces;
     write_cut_surface(folder / "cut.vtp", surface);

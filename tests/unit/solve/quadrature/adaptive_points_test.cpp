@@ -8,26 +8,15 @@
 
 #include "solve/quadrature/cell_points.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/domains.hpp"
 
 namespace brainshift::solve::adaptive_points_test {
 
+using test::Domain;
+using test::domains;
+
 constexpr double side = 40;
 const std::vector<std::int32_t> tissues = {1, 2};
-
-struct Domain {
-  std::string name;
-  NodeCloud cloud;
-  BackgroundCells cells;
-};
-
-/// Cells about as large as the spacing of the nodes.
-std::vector<Domain> domains() {
-  const NodeCloud box = test::irregular_box(4, side), rectangle = test::irregular_rectangle(13, 13, side, side);
-  return {{"hexahedra", box, test::box_cells(4, side)},
-          {"tetrahedra", box, test::box_tetrahedra(test::irregular_box(4, side), 4)},
-          {"quadrilaterals", rectangle, test::rectangle_cells(7, 7, side, side)},
-          {"triangles", rectangle, test::rectangle_triangles(test::irregular_rectangle(7, 7, side, side), 7, 7)}};
-}
 
 ShapeFunctions shape_of(const Domain& domain) {
   ShapeOptions options;
@@ -55,7 +44,7 @@ Points integral(const AdaptivePoints& a, std::size_t nodes) {
 }
 
 TEST(AdaptivePoints, FillTheBodyAndCarryTheShapeFunctionsOfTheirPlaces) {
-  for (const Domain& domain : domains()) {
+  for (const Domain& domain : domains(side)) {
     const AdaptivePoints a = adaptive(domain, 0.2);
     const double expected = is_planar(domain.cells.kind) ? side * side : side * side * side;
     EXPECT_NEAR(volume_of(a.points), expected, 1e-9 * expected) << domain.name;
@@ -68,7 +57,7 @@ TEST(AdaptivePoints, FillTheBodyAndCarryTheShapeFunctionsOfTheirPlaces) {
 }
 
 TEST(AdaptivePoints, SplitMoreAndIntegrateBetterTheSmallerTheTolerance) {
-  for (const Domain& domain : domains()) {
+  for (const Domain& domain : domains(side)) {
     const bool planar = is_planar(domain.cells.kind);
     const Points exact = integral(adaptive(domain, 1e-6, planar ? 5 : 3), domain.cloud.size());
     std::size_t points = 0;
@@ -86,7 +75,7 @@ TEST(AdaptivePoints, SplitMoreAndIntegrateBetterTheSmallerTheTolerance) {
 }
 
 TEST(AdaptivePoints, IntegratePolynomialsAsTheirGaussPointsDo) {
-  for (const Domain& domain : domains()) {
+  for (const Domain& domain : domains(side)) {
     const double area = side * side, thickness = is_planar(domain.cells.kind) ? 1 : side;
     for (const int points : {1, most_points_per_cell(domain.cells.kind)}) {
       const AdaptivePoints a = adaptive(domain, 0.2, 3, points);
@@ -110,7 +99,7 @@ TEST(AdaptivePoints, IntegratePolynomialsAsTheirGaussPointsDo) {
 }
 
 TEST(AdaptivePoints, ReachATighterToleranceWithFewerPointsTheMoreGaussPointsAPartHas) {
-  for (const Domain& domain : {domains()[2], domains()[3]}) {
+  for (const Domain& domain : {domains(side)[2], domains(side)[3]}) {
     const int most = most_points_per_cell(domain.cells.kind);
     std::size_t before = 0;
     for (const double tolerance : {0.3, 0.1, 0.03, 0.01}) {
@@ -123,7 +112,7 @@ TEST(AdaptivePoints, ReachATighterToleranceWithFewerPointsTheMoreGaussPointsAPar
 }
 
 TEST(AdaptivePoints, MissTheToleranceTheLessTheDeeperTheyMayGo) {
-  for (const Domain& domain : domains()) {
+  for (const Domain& domain : domains(side)) {
     double before = 1;
     for (const int depth : {1, 2, 3}) {
       const AdaptivePoints a = adaptive(domain, 0.15, depth);
@@ -136,7 +125,7 @@ TEST(AdaptivePoints, MissTheToleranceTheLessTheDeeperTheyMayGo) {
 }
 
 TEST(AdaptivePoints, StopAtTheDepthAndCountWhatMissedTheTolerance) {
-  for (const Domain& domain : domains()) {
+  for (const Domain& domain : domains(side)) {
     const AdaptivePoints once = adaptive(domain, 1e-9, 1), coarse = adaptive(domain, 1e9, 3);
     const std::size_t parts = domain.cells.size() * (is_planar(domain.cells.kind) ? 4 : 8);
     EXPECT_EQ(once.points.size(), parts) << domain.name;
@@ -147,7 +136,7 @@ TEST(AdaptivePoints, StopAtTheDepthAndCountWhatMissedTheTolerance) {
 }
 
 TEST(AdaptivePoints, OfACutCellKeepItsVolumeAndStayInside) {
-  Domain domain = domains()[0];
+  Domain domain = domains(side)[0];
   domain.cells.cut_index.assign(domain.cells.size(), -1);
   domain.cells.cut_index[0] = 0;
   const double edge = side / 4, octant = std::pow(edge / 2, 3);
@@ -180,7 +169,7 @@ TEST(AdaptivePoints, OfACutCellKeepItsVolumeAndStayInside) {
 }
 
 TEST(AdaptivePoints, AreTheSameForAnyNumberOfThreads) {
-  const Domain domain = domains()[0];
+  const Domain domain = domains(side)[0];
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
   const AdaptivePoints one = adaptive(domain, 0.2);
@@ -197,7 +186,7 @@ TEST(AdaptivePoints, RefuseMorePointsThanMemoryHolds) {
 }
 
 TEST(AdaptivePoints, RefuseANumberOfPointsThatTheCellsDoNotTake) {
-  const Domain domain = domains()[2];
+  const Domain domain = domains(side)[2];
   EXPECT_THROW(adaptive(domain, 0.1, 3, 8), std::invalid_argument);
 }
 

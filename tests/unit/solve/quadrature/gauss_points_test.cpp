@@ -8,6 +8,7 @@
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/quarter_cell.hpp"
 
 namespace brainshift::solve::gauss_points_test {
 
@@ -34,24 +35,9 @@ TEST(IntegrationPoints, IntegrateQuadraticsExactlyWithEightOrFourPoints) {
               1e-9 * exact);
 }
 
-BackgroundCells cell_cut_at_a_quarter() {
-  BackgroundCells cells = box_cells(1, side);
-  cells.inside_fraction = {0.25};  // x below side/4
-  cells.cut_index = {0};
-  InsideOctants part{};
-  for (const std::size_t octant : {0u, 2u, 4u, 6u}) {
-    part.volume[octant] = side * side * side / 16;
-    part.centroid[octant][0] = side / 8;
-    part.centroid[octant][1] = octant & 2 ? 0.75 * side : 0.25 * side;
-    part.centroid[octant][2] = octant & 4 ? 0.75 * side : 0.25 * side;
-  }
-  cells.cut_parts = {part};
-  return cells;
-}
-
 TEST(IntegrationPoints, OfACutCellLieInItsInsidePartAndCarryItsVolume) {
   for (const int n : {1, 8}) {
-    const IntegrationPoints points = integration_points(cell_cut_at_a_quarter(), n, nullptr, tissues);
+    const IntegrationPoints points = integration_points(test::cell_cut_at_a_quarter(side), n, nullptr, tissues);
     EXPECT_EQ(points.size(), n == 1 ? 1u : 4u);
     EXPECT_NEAR(std::accumulate(points.volume.begin(), points.volume.end(), 0.0), side * side * side / 4, 1e-9);
     EXPECT_LE(points.positions.col(0).maxCoeff(), side / 4);

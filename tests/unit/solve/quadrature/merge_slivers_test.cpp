@@ -6,6 +6,7 @@
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/quarter_cell.hpp"
 
 namespace brainshift::solve::merge_slivers_test {
 
@@ -14,24 +15,9 @@ using test::box_cells;
 constexpr double side = 12;
 const std::vector<std::int32_t> tissues = {1, 2};
 
-BackgroundCells cell_cut_at_a_quarter() {
-  BackgroundCells cells = box_cells(1, side);
-  cells.inside_fraction = {0.25};  // x below side/4
-  cells.cut_index = {0};
-  InsideOctants part{};
-  for (const std::size_t octant : {0u, 2u, 4u, 6u}) {
-    part.volume[octant] = side * side * side / 16;
-    part.centroid[octant][0] = side / 8;
-    part.centroid[octant][1] = octant & 2 ? 0.75 * side : 0.25 * side;
-    part.centroid[octant][2] = octant & 4 ? 0.75 * side : 0.25 * side;
-  }
-  cells.cut_parts = {part};
-  return cells;
-}
-
 /// The same but for a thin layer beyond the middle, whose octants become part of those before it.
 TEST(IntegrationPoints, OfSliversAreMergedSoThatLinearFunctionsAreStillIntegrated) {
-  BackgroundCells cells = cell_cut_at_a_quarter();
+  BackgroundCells cells = test::cell_cut_at_a_quarter(side);
   InsideOctants& part = cells.cut_parts[0];
   for (const std::size_t octant : {1u, 3u, 5u, 7u}) {
     part.volume[octant] = 0.05 * side * side * side / 8;

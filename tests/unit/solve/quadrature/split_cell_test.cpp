@@ -4,28 +4,17 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/domains.hpp"
 
 namespace brainshift::solve::split_cell_test {
 
+using test::Domain;
+using test::domains;
+
 constexpr double side = 40;
 
-struct Domain {
-  std::string name;
-  NodeCloud cloud;
-  BackgroundCells cells;
-};
-
-/// Cells about as large as the spacing of the nodes.
-std::vector<Domain> domains() {
-  const NodeCloud box = test::irregular_box(4, side), rectangle = test::irregular_rectangle(13, 13, side, side);
-  return {{"hexahedra", box, test::box_cells(4, side)},
-          {"tetrahedra", box, test::box_tetrahedra(test::irregular_box(4, side), 4)},
-          {"quadrilaterals", rectangle, test::rectangle_cells(7, 7, side, side)},
-          {"triangles", rectangle, test::rectangle_triangles(test::irregular_rectangle(7, 7, side, side), 7, 7)}};
-}
-
 TEST(SplitCell, PartsFillTheCellWithItsOrientation) {
-  for (const Domain& domain : domains()) {
+  for (const Domain& domain : domains(side)) {
     for (const std::size_t cell : {0u, 7u}) {
       const Corners corners = corners_of(domain.cells, cell);
       std::vector<WeightedPoint> whole, parts;

@@ -12,6 +12,7 @@
 namespace brainshift::solve::shape_functions_planar_test {
 
 using test::completeness_error;
+using test::expect_derivatives_of_values;
 using test::irregular_rectangle;
 
 constexpr double width = 60, height = 40;
@@ -68,22 +69,7 @@ TEST_P(EveryPlanarBasis, HasTheDerivativesOfItsValues) {
   const NodeCloud cloud = cloud_of_rectangle();
   const ShapeFunctions shape = shape_of(cloud);
   const Points at = random_places(60);
-  const Points values = cloud.positions.array().sin().matrix();  // anything rough
-  const ShapeRows rows = shape.evaluate(at, true);
-  constexpr double step = 1e-5;
-  for (int axis = 0; axis < 2; ++axis) {
-    Points ahead = at, behind = at;
-    ahead.col(axis).array() += step;
-    behind.col(axis).array() -= step;
-    const Points difference = (shape.interpolate(ahead, values) - shape.interpolate(behind, values)) / (2 * step);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      Eigen::RowVector3d slope = Eigen::RowVector3d::Zero();
-      for (auto k = static_cast<std::size_t>(rows.begin[i]); k < static_cast<std::size_t>(rows.begin[i + 1]); ++k) {
-        slope += rows.derivative[3 * k + static_cast<std::size_t>(axis)] * values.row(rows.node[k]);
-      }
-      EXPECT_LE((slope - difference.row(static_cast<Eigen::Index>(i))).norm(), 1e-6);
-    }
-  }
+  expect_derivatives_of_values(shape, cloud.positions, at, 2);
 }
 
 TEST_P(EveryPlanarBasis, TurnsWithTheCloud) {

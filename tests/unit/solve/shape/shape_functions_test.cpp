@@ -11,6 +11,7 @@
 namespace brainshift::solve::shape_functions_test {
 
 using test::completeness_error;
+using test::expect_derivatives_of_values;
 using test::irregular_box;
 using test::random_points;
 
@@ -44,22 +45,7 @@ TEST_P(EveryBasis, HasTheDerivativesOfItsValues) {
   const NodeCloud cloud = irregular_box(8, side);
   const ShapeFunctions shape(cloud.positions, cloud.spacing, options());
   const Points at = random_points(60, side);
-  const Points values = cloud.positions.array().sin().matrix();  // anything rough
-  const ShapeRows rows = shape.evaluate(at, true);
-  constexpr double step = 1e-5;
-  for (int axis = 0; axis < 3; ++axis) {
-    Points ahead = at, behind = at;
-    ahead.col(axis).array() += step;
-    behind.col(axis).array() -= step;
-    const Points difference = (shape.interpolate(ahead, values) - shape.interpolate(behind, values)) / (2 * step);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      Eigen::RowVector3d slope = Eigen::RowVector3d::Zero();
-      for (auto k = static_cast<std::size_t>(rows.begin[i]); k < static_cast<std::size_t>(rows.begin[i + 1]); ++k) {
-        slope += rows.derivative[3 * k + static_cast<std::size_t>(axis)] * values.row(rows.node[k]);
-      }
-      EXPECT_LE((slope - difference.row(static_cast<Eigen::Index>(i))).norm(), 1e-6);
-    }
-  }
+  expect_derivatives_of_values(shape, cloud.positions, at, 3);
 }
 
 double quadratic_error(Basis basis) {
