@@ -14,8 +14,8 @@ namespace brainshift::pipelines {
 
 namespace {
 
-constexpr double radius = 50, height = 100, pressed = 10;  // mm
-constexpr int around = 120;                                // vertices on a rim: an edge of 2.6 mm
+constexpr double full_radius = 50, full_height = 100, pressed = 10;  // mm
+constexpr int around = 120;                                          // vertices on a rim: an edge of 2.6 mm
 
 Eigen::RowVector3d on_circle(double r, int i, int count, double z) {
   const double angle = 2 * std::numbers::pi * i / count;
@@ -31,13 +31,13 @@ std::vector<Circle> circles() {
   constexpr int rings = 20, rows = 40;
   std::vector<Circle> all;
   for (int i = 1; i <= rings; ++i) {
-    all.push_back({radius * i / rings, 0});
+    all.push_back({full_radius * i / rings, 0});
   }
   for (int i = 1; i <= rows; ++i) {
-    all.push_back({radius, height * i / rows});
+    all.push_back({full_radius, full_height * i / rows});
   }
   for (int i = rings - 1; i >= 1; --i) {
-    all.push_back({radius * i / rings, height});
+    all.push_back({full_radius * i / rings, full_height});
   }
   return all;
 }
@@ -50,7 +50,7 @@ Surface cylinder() {
   surface.triangles.resize(2 * around * count, 3);
   const std::int32_t bottom = around * count, top = bottom + 1;
   surface.vertices.row(bottom) << 0, 0, 0;
-  surface.vertices.row(top) << 0, 0, height;
+  surface.vertices.row(top) << 0, 0, full_height;
   Eigen::Index t = 0;
   for (int row = 0; row < count; ++row) {
     const Circle& circle = rows[static_cast<std::size_t>(row)];
@@ -73,7 +73,7 @@ Surface cylinder() {
 
 /// A box whose floor the cylinder stands on and whose walls it never reaches.
 Surface plate() {
-  constexpr double wide = 1.4 * radius, high = 1.1 * height;
+  constexpr double wide = 1.4 * full_radius, high = 1.1 * full_height;
   Surface box{Points(8, 3), Triangles(12, 3)};
   for (int corner = 0; corner < 8; ++corner) {
     box.vertices.row(corner) << (corner & 1 ? wide : -wide), (corner & 2 ? wide : -wide), (corner & 4 ? high : 0);
@@ -84,10 +84,10 @@ Surface plate() {
 }
 
 solve::CraniotomyLoad pressed_top() {
-  std::vector<Eigen::RowVector3d> places = {{0, 0, height}};
-  for (const double r : {radius / 3, 2 * radius / 3, radius}) {
+  std::vector<Eigen::RowVector3d> places = {{0, 0, full_height}};
+  for (const double r : {full_radius / 3, 2 * full_radius / 3, full_radius}) {
     for (int i = 0; i < 60; ++i) {
-      places.push_back(on_circle(r, i, 60, height));
+      places.push_back(on_circle(r, i, 60, full_height));
     }
   }
   const auto count = static_cast<Eigen::Index>(places.size());

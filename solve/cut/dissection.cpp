@@ -18,7 +18,7 @@ namespace brainshift::solve {
 namespace {
 
 // of the spacing: how far a cut goes on at a time
-constexpr double stride = 0.5;
+constexpr double cut_stride = 0.5;
 constexpr double tear_stride = 0.75;
 
 /// A copy of a node of the cut body as an ordered one, appended where it is new there.
@@ -84,7 +84,7 @@ Dissection::Dissection(const Model& model, const SolveOptions& options, CutBody 
       options_(options),
       now_{std::move(cut), std::move(parts)},
       spacing_(mean_spacing(model.cloud)),
-      times_(times_of_advance(model.cuts, stride * spacing_)),
+      times_(times_of_advance(model.cuts, cut_stride * spacing_)),
       cuts_(model.cuts) {
   if (model.rupture) {
     const OrderedCloud& cloud = now_.parts.cloud;
