@@ -53,6 +53,7 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                      {"mean_support", m.mean_support},
                      {"grown_supports", m.grown_supports},
                      {"outside_label", m.outside_label},
+                     {"precision", m.single_precision ? "single" : "double"},
                      {"consistency_iterations", m.consistency_iterations},
                      {"critical_step_s", m.critical_step},
                      {"largest_displacement_mm", m.largest_displacement},

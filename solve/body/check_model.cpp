@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "segmentation/geometry/neighbour_distance.hpp"
+#include "solve/body/check_discretisation.hpp"
 #include "solve/interface/option_table.hpp"
 
 namespace brainshift::solve {
@@ -67,21 +67,6 @@ void check_plane(const Model& model) {
   }
 }
 
-/// Nodes in nearly one place have nearly the same shape functions: their difference strains nothing, so it never comes
-/// to rest.
-void check_apart(const NodeCloud& cloud) {
-  constexpr double least = 0.01;  // of the spacing
-  const NearestNeighbours nearest = nearest_neighbours(cloud.positions, 1);
-  for (std::size_t a = 0; a < nearest.distance.size(); ++a) {
-    if (nearest.distance[a] < least * cloud.spacing[a]) {
-      std::ostringstream text;
-      text << "nodes " << a << " and " << nearest.index[a] << " lie only " << nearest.distance[a]
-           << " mm apart, where the spacing is " << cloud.spacing[a] << " mm; remove one of them";
-      throw std::invalid_argument(text.str());
-    }
-  }
-}
-
 /// Of each node the part that it belongs to, numbered from 0.
 std::vector<std::int32_t> parts_of(std::size_t nodes, const ShapeRows& rows) {
   std::vector<std::int32_t> part(nodes);
@@ -112,7 +97,7 @@ void check_model(const Model& model) {
     check_table(resection_options(), *model.resection);
   }
   check_plane(model);
-  check_apart(model.cloud);
+  check_cloud(model.cloud);
 }
 
 void check_held(const OrderedCloud& cloud, const Model& model) {

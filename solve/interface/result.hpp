@@ -83,6 +83,7 @@ struct SolveMeasures {
   std::size_t loaded_nodes = 0;
   std::size_t contact_nodes = 0;  ///< in touch at the end
   int steps = 0;
+  bool single_precision = false;  ///< of derivatives; double where materials differ too much, whatever was asked for
   bool converged = false;
   double error_bound = 0;           ///< mm
   double critical_step = 0;         ///< transient: as estimated for the undeformed body, s

@@ -2,8 +2,10 @@
 #include "solve/run/prepare.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
+#include "solve/body/check_discretisation.hpp"
 #include "solve/body/check_model.hpp"
 #include "solve/body/lay_out.hpp"
 #include "solve/cut/cut_patches.hpp"
@@ -122,6 +124,22 @@ void check_rupture(const Model& model, Dynamics dynamics) {
   }
 }
 
+/// Derivatives rounded to single precision err by 1e-7 of a strain, which K answers, and a stiff part hands on to a
+/// soft one: the bound of the error no longer holds beyond these (measured: tests/extremes, precision).
+constexpr double most_bulk_in_single = 400;       // K / µ of a material
+constexpr double most_contrast_in_single = 1000;  // largest over least µ
+
+bool single_serves(const Model& model) {
+  double bulk = 0, stiffest = 0, softest = std::numeric_limits<double>::infinity();
+  for (const auto& [label, material] : model.materials) {
+    const double shear = shear_modulus(material);
+    bulk = std::max(bulk, bulk_modulus(material) / shear);
+    stiffest = std::max(stiffest, shear);
+    softest = std::min(softest, shear);
+  }
+  return bulk <= most_bulk_in_single && stiffest <= most_contrast_in_single * softest;
+}
+
 bool cuts_go_on(const Model& model) {
   return last_time(model.cuts) > 0 || model.rupture;
 }
@@ -130,6 +148,9 @@ bool cuts_go_on(const Model& model) {
 
 SolveOptions completed(SolveOptions options, const Model& model) {
   options.shape.planar = model.plane != Plane::none;
+  if (!single_serves(model)) {
+    options.precision = Precision::double_precision;
+  }
   return options;
 }
 
@@ -164,8 +185,10 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   }
   parts.points = std::move(placed.points);
   parts.point_rows = std::move(placed.rows);
+  check_points(parts.cloud, parts.points, parts.point_rows, parts.nodal_rows);
   parts.materials = material_table(model.materials, parts.points.label);
   measure_sizes(parts, placed.capped, measures);
+  measures.single_precision = options.precision == Precision::single_precision;
   if (options.integration == Integration::consistent) {
     const ConsistencyMeasures done =
         make_derivatives_consistent(parts.cloud.positions, surface_nodes(parts.cloud), parts.nodal_rows,

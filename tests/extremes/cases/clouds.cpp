@@ -183,9 +183,9 @@ BackgroundCells with_slivers(const BackgroundCells& given, double aspect) {
 std::vector<Row> clouds(bool small) {
   const int n = small ? 6 : 9, wide = small ? 9 : 21;
   return {graded(small ? 20 : 12, small ? 10 : 14), twins(0.1, false, n, Must::answer),
-          twins(0.05, false, n, Must::answer),      twins(0.02, false, n, Must::answer),
+          twins(0.05, false, n, Must::refuse),      twins(0.02, false, n, Must::refuse),
           twins(1e-3, false, n, Must::refuse),      twins(1e-6, false, n, Must::refuse),
-          twins(0.1, true, n, Must::answer),        twins(0.05, true, n, Must::answer),
+          twins(0.1, true, n, Must::answer),        twins(0.05, true, n, Must::refuse),
           twins(1e-3, true, n, Must::refuse),       twins(1e-6, true, n, Must::refuse),
           slab(4, 6, wide, Must::answer),           slab(3, 0.6, wide, small ? Must::refuse : Must::answer),
           slab(3, 0.06, wide, Must::refuse)};

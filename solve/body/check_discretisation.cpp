@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/body/check_discretisation.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "segmentation/geometry/neighbour_distance.hpp"
+#include "solve/shape/support_search.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Nodes in nearly one place have nearly the same shape functions: their difference strains next to nothing, so it
+/// comes to rest late or never.
+void check_apart(const NodeCloud& cloud, const NearestNeighbours& nearest) {
+  constexpr double least = 0.1;  // of the spacing
+  for (std::size_t a = 0; a < nearest.distance.size(); ++a) {
+    if (nearest.distance[a] < least * cloud.spacing[a]) {
+      std::ostringstream text;
+      text << "nodes " << a << " and " << nearest.index[a] << " lie only " << nearest.distance[a]
+           << " mm apart, where the spacing is " << cloud.spacing[a] << " mm; remove one of them";
+      throw std::invalid_argument(text.str());
+    }
+  }
+}
+
+/// Supports are as wide as `spacing` says: too small a value makes them grow until they hold nodes enough and no more.
+void check_spacing(const NodeCloud& cloud, const NearestNeighbours& nearest) {
+  constexpr double most = 2.5;  // distance to the nearest node over the spacing; of a regular grid 1
+  std::vector<double> ratio(nearest.distance.size());
+  for (std::size_t a = 0; a < ratio.size(); ++a) {
+    ratio[a] = nearest.distance[a] / cloud.spacing[a];
+  }
+  if (const double typical = ratio.empty() ? 1 : median(ratio); typical > most) {
+    std::ostringstream text;
+    text << "the cloud's array 'spacing' does not fit its nodes: the nearest node is typically " << typical
+         << " spacings away; give the mean distance of neighbours, mm";
+    throw std::invalid_argument(text.str());
+  }
+}
+
+/// Motions that strain no point cost no energy. Measured on a pressed cube: with 0.7 points a node the force is right
+/// to 4 %, with 0.5 to a quarter.
+void check_number(std::size_t nodes, std::size_t points) {
+  constexpr double least = 0.65;  // points a node
+  if (static_cast<double>(points) < least * static_cast<double>(nodes)) {
+    throw std::invalid_argument("only " + std::to_string(points) + " integration points for " + std::to_string(nodes) +
+                                " nodes: motions between them would cost nothing; give smaller background cells or "
+                                "more points a cell, at least one point a node");
+  }
+}
+
+/// The same about each node: the points that see the node against the nodes in the support there.
+void check_everywhere(const OrderedCloud& cloud, const ShapeRows& point_rows, const ShapeRows& nodal_rows) {
+  constexpr double least = 0.3;
+  std::vector<double> seen(cloud.size(), 0);
+  for (const std::int32_t a : point_rows.node) {
+    ++seen[static_cast<std::size_t>(a)];
+  }
+  for (std::size_t a = 0; a < seen.size(); ++a) {
+    if (seen[a] > 0 && seen[a] < least * static_cast<double>(nodal_rows[a].size())) {
+      const auto x = cloud.positions.row(static_cast<Eigen::Index>(a));
+      std::ostringstream text;
+      text << "about the node at (" << x[0] << ", " << x[1] << ", " << x[2] << ") mm there are only " << seen[a]
+           << " integration points for " << nodal_rows[a].size()
+           << " nodes: motions between them would cost nothing; give smaller background cells there";
+      throw std::invalid_argument(text.str());
+    }
+  }
+}
+
+/// Supports grow until they reach the cloud: tissue where no node is would be invented.
+void check_within(const OrderedCloud& cloud, const IntegrationPoints& points) {
+  constexpr double farthest = 1.5;  // from every node, of the node's spacing; of our clouds below 1
+  const SupportSearch search(cloud.positions, cloud.spacing);
+  std::vector<std::int32_t> near;
+  std::size_t beyond = 0;
+  Eigen::Index first = 0;
+  for (Eigen::Index p = points.positions.rows(); p-- > 0;) {
+    search.find(points.positions.row(p), farthest, near);
+    if (near.empty()) {
+      ++beyond;
+      first = p;
+    }
+  }
+  if (beyond > 0) {
+    const auto x = points.positions.row(first);
+    std::ostringstream text;
+    text << "the background cells reach beyond the node cloud: " << beyond << " of " << points.size()
+         << " integration points lie over " << farthest << " spacings from every node, the first at (" << x[0] << ", "
+         << x[1] << ", " << x[2] << ") mm; make cells and cloud of the same body";
+    throw std::invalid_argument(text.str());
+  }
+}
+
+}  // namespace
+
+void check_cloud(const NodeCloud& cloud) {
+  const NearestNeighbours nearest = nearest_neighbours(cloud.positions, 1);
+  check_apart(cloud, nearest);
+  check_spacing(cloud, nearest);
+}
+
+void check_points(const OrderedCloud& cloud, const IntegrationPoints& points, const ShapeRows& point_rows,
+                  const ShapeRows& nodal_rows) {
+  check_within(cloud, points);
+  check_number(cloud.size(), points.size());
+  check_everywhere(cloud, point_rows, nodal_rows);
+}
+
+}  // namespace brainshift::solve
