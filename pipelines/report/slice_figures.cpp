@@ -68,7 +68,7 @@ Figure lettered(Sheet sheet, const std::string& title) {
   sheet.svg.text({w - 14 - length / 2, h - 30}, "20 mm",
                  {.fill = colour::white, .anchor = Anchor::centre, .halo = true});
   sheet.svg.text({10, 16}, title, {.size = 17, .fill = colour::white, .bold = true, .halo = true});
-  return {sheet.name, sheet.width, plane.height, std::move(sheet.svg).str()};
+  return {.name = sheet.name, .width = sheet.width, .height = plane.height, .svg = std::move(sheet.svg).str()};
 }
 
 bool in_opening(const View& view, const Vector3d& place) {

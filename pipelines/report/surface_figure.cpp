@@ -92,7 +92,7 @@ Figure surface_figure(const RunData& run, const View& view) {
   draw_view(svg, {0, 0}, run, view, view.inward, opened ? "seen through the opening" : "from above");
   draw_view(svg, {half_width, 0}, run, view, (0.5 * view.inward + 0.9 * side).normalized(), "from the side");
   draw_colour_bar(svg, view.shift, {2 * half_width + 16, 80}, height - 160, colour::ink);
-  return {name, width, height, std::move(svg).str()};
+  return {.name = name, .width = width, .height = height, .svg = std::move(svg).str()};
 }
 
 }  // namespace brainshift::pipelines

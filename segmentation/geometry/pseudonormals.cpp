@@ -36,7 +36,10 @@ std::vector<DirectedEdge> sorted_edges(const Triangles& triangles) {
   edges.reserve(static_cast<std::size_t>(triangles.rows()) * 3);
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int side = 0; side < 3; ++side) {
-      edges.push_back({triangles(t, side), triangles(t, (side + 1) % 3), static_cast<std::int32_t>(t), side});
+      edges.push_back({.from = triangles(t, side),
+                       .to = triangles(t, (side + 1) % 3),
+                       .triangle = static_cast<std::int32_t>(t),
+                       .side = side});
     }
   }
   std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });

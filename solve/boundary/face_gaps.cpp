@@ -153,7 +153,7 @@ void FaceGaps::append_links(Eigen::Index face, std::vector<Link>& links) const {
   double weight = 0;
   visit_opposite(face, [&](Eigen::Index other, double w, const Eigen::Vector3d& direction) {
     weight += w;
-    links.push_back({face, other, w, direction});
+    links.push_back({.face = face, .opposite = other, .share = w, .direction = direction});
   });
   for (std::size_t i = first; i < links.size(); ++i) {
     links[i].share /= weight;

@@ -117,7 +117,7 @@ class Faces {
       taken_.push_back(x);  // a node too near to the front is split later, and the place kept for it
     }
     if (clear) {
-      places_.push_back({node, like, x, normal(facet)});
+      places_.push_back({.node = node, .like = like, .x = x, .normal = normal(facet)});
     }
     if (node != none) {
       is_face_[static_cast<std::size_t>(node)] = 1;
@@ -163,7 +163,7 @@ class Faces {
       for (Eigen::Index f = 0; f < cut_.facets.rows(); ++f) {
         if (const auto x = crossing(f, a, b)) {
           const bool a_nearer = distance(a, *x) <= distance(b, *x);
-          mouths.push_back({length, f, a_nearer ? a : b, *x});
+          mouths.push_back({.length = length, .facet = f, .nearest = a_nearer ? a : b, .x = *x});
         }
       }
     }
