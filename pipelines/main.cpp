@@ -11,16 +11,21 @@
 // 128 + signal when interrupted.
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/runner/libraries.hpp"
+#include "pipelines/runner/processors.hpp"
 
 using namespace brainshift::pipelines;
 
 namespace {
+
+constexpr int most_threads = 1024;
 
 int say(int exit_code, const char* what) {
   std::fprintf(stderr, "brainshift: %s\n", what);
@@ -38,7 +43,7 @@ void add_settings(CLI::App& program, Settings& settings) {
   program
       .add_option_function<int>(
           "--threads", [](int threads) { set_threads(threads); }, "threads to use; results do not depend on it")
-      ->check(CLI::Range(1, 1024))
+      ->check(CLI::Range(1, most_threads))
       ->type_name("N")
       ->trigger_on_parse();
   program.set_version_flag("--version", "brainshift " BRAINSHIFT_VERSION);
@@ -74,7 +79,10 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A limit on file sizes is then a failed write like a full disk, not a killed program.
   std::signal(SIGXFSZ, SIG_IGN);
+  wait_asleep(argv);
   silence_libraries();
+  set_threads(std::getenv("OMP_NUM_THREADS") == nullptr ? available_threads()
+                                                        : std::min(threads_in_use(), most_threads));
   try {
     return run_program(argc, argv);
   } catch (const NotConverged& error) {

@@ -4,9 +4,18 @@
 #include <itkMultiThreaderBase.h>
 #include <itkObject.h>
 #include <omp.h>
+#include <unistd.h>
 #include <vtkObject.h>
 
+#include <cstdlib>
+
 namespace brainshift::pipelines {
+
+namespace {
+
+constexpr const char* spins = "1000";
+
+}  // namespace
 
 void set_threads(int threads) {
   const auto count = static_cast<itk::ThreadIdType>(threads);
@@ -17,6 +26,14 @@ void set_threads(int threads) {
 
 int threads_in_use() {
   return omp_get_max_threads();
+}
+
+void wait_asleep(char** arguments) {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) {
+    return;
+  }
+  setenv("GOMP_SPINCOUNT", spins, 1);
+  execv("/proc/self/exe", arguments);  // returns where there is no /proc: the threads then spin
 }
 
 void silence_libraries() {

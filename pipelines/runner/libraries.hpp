@@ -9,6 +9,11 @@ void set_threads(int threads);
 /// Threads that the stages use now.
 int threads_in_use();
 
+/// A thread that waits for others spins for some microseconds and then sleeps, so that another process on its processor
+/// does not hold up all of them. OpenMP reads this when it is loaded: the program starts anew with the setting, unless
+/// the user has one. `arguments` are those of main().
+void wait_asleep(char** arguments);
+
 /// The libraries' own warnings do not reach the screen: our sentence is what the user reads.
 void silence_libraries();
 
