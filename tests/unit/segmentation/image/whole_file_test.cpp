@@ -109,6 +109,19 @@ TEST(WholeFile, ThatWasShortBeforeItWasCompressedIsRefused) {
   expect_parts(fault(folder / "a.nii.gz"), {"a.nii.gz", "promises 1000 bytes", "holds 992"});
 }
 
+TEST(WholeFile, ThatIsShortIsRefusedWhateverItSaysOfTheBitsOfAVoxel) {
+  const ScratchFolder folder;
+  write_plain(folder / "a.nii", counted<float>());
+  std::string bytes = bytes_of(folder / "a.nii");
+  for (const int bits : {0, 8, 64}) {
+    bytes[72] = static_cast<char>(bits);
+    EXPECT_EQ(fault(folder.write("whole.nii", bytes)), "") << bits;
+    expect_parts(fault(folder.write("short.nii", bytes.substr(0, bytes.size() - 4))), {"promises 500", "holds 496"});
+    EXPECT_THROW(read_image(folder / "short.nii"), std::invalid_argument);
+    EXPECT_EQ(read_image(folder / "whole.nii").voxels, counted<float>().voxels);
+  }
+}
+
 TEST(WholeFile, OfLessThanAHeaderIsRefused) {
   const ScratchFolder folder;
   write_plain(folder / "a.nii", counted<float>());
