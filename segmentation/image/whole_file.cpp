@@ -55,6 +55,34 @@ void check_finite(const fs::path& file, ByteView values, bool swapped, const itk
   }
 }
 
+// NIfTI's codes.
+constexpr std::int16_t float32 = 16, float64 = 64;
+
+// Of one component. The reader, too, goes by the data type and not by the bits of a voxel that stand beside it.
+std::size_t bytes_of(std::int16_t datatype) {
+  constexpr std::int16_t uint8 = 2, int16 = 4, int32 = 8, rgb = 128, int8 = 256, uint16 = 512, uint32 = 768,
+                         int64 = 1024, uint64 = 1280;
+  switch (datatype) {
+    case uint8:
+    case int8:
+    case rgb:
+      return 1;
+    case int16:
+    case uint16:
+      return 2;
+    case int32:
+    case uint32:
+    case float32:
+      return 4;
+    case int64:
+    case uint64:
+    case float64:
+      return 8;
+    default:
+      return 0;  // the reader refuses it
+  }
+}
+
 void check_nifti(const fs::path& file, const itk::ImageIOBase& io) {
   const std::vector<std::uint8_t> bytes = uncompressed(file);
   constexpr std::size_t header_size = 352;
@@ -64,15 +92,12 @@ void check_nifti(const fs::path& file, const itk::ImageIOBase& io) {
   const bool swapped = number_at<std::int32_t>(bytes, 0, false) != 348;
   const auto stored_offset = number_at<float>(bytes, 108, swapped);
   const std::size_t offset = stored_offset > 352.0F ? static_cast<std::size_t>(stored_offset) : header_size;
-  const auto bytes_a_value = static_cast<std::size_t>(number_at<std::int16_t>(bytes, 72, swapped)) / 8;
-  const std::size_t expected = static_cast<std::size_t>(io.GetImageSizeInComponents()) * bytes_a_value;
+  const auto datatype = number_at<std::int16_t>(bytes, 70, swapped);
+  const std::size_t expected = static_cast<std::size_t>(io.GetImageSizeInComponents()) * bytes_of(datatype);
   const std::size_t found = bytes.size() > offset ? bytes.size() - offset : 0;
   if (found < expected) {
     refuse_short(file, expected, found);
   }
-  const auto datatype = number_at<std::int16_t>(bytes, 70, swapped);
-  constexpr std::int16_t float32 = 16;
-  constexpr std::int16_t float64 = 64;
   if (datatype == float32) {
     check_finite<float>(file, ByteView(bytes).subspan(offset, expected), swapped, io);
   }

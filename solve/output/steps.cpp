@@ -25,7 +25,12 @@ void write_state(const std::filesystem::path& file, const Snapshot& state) {
 }  // namespace
 
 void write_steps(const std::filesystem::path& folder, const SolveResult& result) {
-  std::filesystem::create_directories(folder / "steps");
+  const std::filesystem::path steps = folder / "steps";
+  std::error_code fault;
+  std::filesystem::create_directories(steps, fault);
+  if (fault) {
+    throw std::runtime_error(steps.string() + ": the folder cannot be made (" + fault.message() + ")");
+  }
   const std::filesystem::path collection = folder / "steps.pvd";
   std::ofstream out(collection);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";

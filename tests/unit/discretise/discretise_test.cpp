@@ -31,20 +31,6 @@ Discretisation with_nodes(const Surface& surface, std::size_t nodes, CellKind ki
   return discretise(surface, nullptr, options);
 }
 
-/// Distance of each node to its nearest, by looking at all pairs.
-std::vector<double> nearest_by_all_pairs(const Points& nodes) {
-  std::vector<double> nearest(static_cast<std::size_t>(nodes.rows()), std::numeric_limits<double>::infinity());
-  for (Eigen::Index a = 0; a < nodes.rows(); ++a) {
-    for (Eigen::Index b = 0; b < nodes.rows(); ++b) {
-      if (a != b) {
-        double& least = nearest[static_cast<std::size_t>(a)];
-        least = std::min(least, (nodes.row(a) - nodes.row(b)).norm());
-      }
-    }
-  }
-  return nearest;
-}
-
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -65,40 +51,6 @@ TEST(Discretise, MeetsTheAskedSpacing) {
   const Discretisation result = discretise(bumpy_brain(), nullptr, options);
   EXPECT_NEAR(mean(result.cloud.spacing), 7.0, 0.05 * 7.0);
   EXPECT_EQ(result.measures.spacing, 7.0);
-}
-
-TEST(Discretise, KeepsNodesApart) {
-  const Discretisation result = with_nodes(bumpy_brain(), 3000);
-  const std::vector<double> nearest = nearest_by_all_pairs(result.cloud.positions);
-  double smallest = 1;
-  for (std::size_t node = 0; node < nearest.size(); ++node) {
-    smallest = std::min(smallest, nearest[node] / result.cloud.spacing[node]);
-  }
-  EXPECT_GE(smallest, 0.5);
-  EXPECT_NEAR(result.measures.smallest_distance_ratio, smallest, 1e-12);
-}
-
-TEST(Discretise, KeepsNodesFartherApartWhereThatIsAsked) {
-  DiscretiseOptions options;
-  options.nodes = 2000;
-  options.minimum_distance = 0.7;
-  const Discretisation result = discretise(bumpy_brain(), nullptr, options);
-  EXPECT_GE(result.measures.smallest_distance_ratio, 0.7);
-  EXPECT_NEAR(static_cast<double>(result.cloud.size()), 2000.0, 100.0);
-}
-
-TEST(Discretise, SaysTheSpacingThatTheNodesHave) {
-  const Discretisation result = with_nodes(bumpy_brain(), 2000);
-  const Points& x = result.cloud.positions;
-  for (Eigen::Index node = 0; node < x.rows(); node += 7) {
-    std::vector<double> distances;
-    for (Eigen::Index other = 0; other < x.rows(); ++other) {
-      distances.push_back((x.row(node) - x.row(other)).norm());
-    }
-    std::sort(distances.begin(), distances.end());
-    const double six_nearest = std::accumulate(distances.begin() + 1, distances.begin() + 7, 0.0) / 6;
-    EXPECT_NEAR(result.cloud.spacing[static_cast<std::size_t>(node)], six_nearest, 0.25 * six_nearest);
-  }
 }
 
 TEST(Discretise, LeavesNoVoidForASupport) {
@@ -209,35 +161,9 @@ TEST(Discretise, IsReallyFinerInATumourAndAtATissueBoundary) {
   EXPECT_GT(spacings(28, 36), 0.9);
 }
 
-TEST(Discretise, RefusesOptionsOutOfRange) {
-  const Surface surface = ball(40, centre, 3);
-  const auto refused = [&](const auto& change) {
-    DiscretiseOptions options;
-    options.nodes = 500;
-    change(options);
-    return refusal([&] { discretise(surface, nullptr, options); });
-  };
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(refused([](auto& o) { o.spacing = 5.0; }).find("give one"), std::string::npos);
-  for (const double bad : {nan, -1.0, 0.0}) {
-    EXPECT_NE(refused([&](auto& o) { o.nodes.reset(), o.spacing = bad; }).find("spacing"), std::string::npos);
-    EXPECT_NE(refused([&](auto& o) { o.tumour_factor = bad; }).find("tumour_factor"), std::string::npos);
-    EXPECT_NE(refused([&](auto& o) { o.tissue_boundary_factor = bad; }).find("tissue_boundary"), std::string::npos);
-    EXPECT_NE(refused([&](auto& o) { o.cells_per_node = bad; }).find("cells_per_node"), std::string::npos);
-    EXPECT_NE(refused([&](auto& o) {
-                o.craniotomy = Refinement{Points::Zero(1, 3), 20, bad};
-              }).find("factor"),
-              std::string::npos);
-    EXPECT_NE(refused([&](auto& o) {
-                o.craniotomy = Refinement{Points::Zero(1, 3), bad, 0.5};
-              }).find("radius"),
-              std::string::npos);
-  }
-  EXPECT_NE(refused([&](auto& o) { o.minimum_distance = nan; }).find("minimum_distance"), std::string::npos);
-  EXPECT_NE(refused([](auto& o) { o.minimum_distance = 0.9; }).find("minimum_distance"), std::string::npos);
-  EXPECT_NE(refused([](auto& o) { o.nodes = 5; }).find("nodes"), std::string::npos);
-  EXPECT_NE(refused([](auto& o) { o.nodes.reset(), o.spacing = 60.0; }).find("too coarse"), std::string::npos);
-  EXPECT_NE(refused([](auto& o) { o.nodes.reset(), o.spacing = 0.1; }).find("million"), std::string::npos);
+TEST(Discretise, RefusesOptionsBeforeAllElse) {
+  EXPECT_NE(refusal([] { discretise({}, nullptr, {.spacing = 5.0, .nodes = 500}); }).find("give one"),
+            std::string::npos);
 }
 
 TEST(Discretise, RefusesASurfaceThatEnclosesNoBody) {

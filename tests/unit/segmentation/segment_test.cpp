@@ -5,8 +5,6 @@
 
 #include <numbers>
 
-#include "segmentation/files/surface_file.hpp"
-#include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/segmentation/builders.hpp"
 #include "tests/unit/segmentation/drawn_head.hpp"
 
@@ -104,21 +102,6 @@ TEST(Segment, TheSkullsInnerSurfaceComesFromItsLabel) {
   const auto radii = (result.skull.vertices.rowwise() - centre.transpose()).rowwise().norm();
   EXPECT_NEAR(radii.mean(), 32.0, 0.5);
   EXPECT_NEAR((result.brain.vertices.rowwise() - centre.transpose()).rowwise().norm().mean(), brain_radius, 0.5);
-}
-
-TEST(Segment, TheFilesThatItWritesAreReadBackTheSame) {
-  const ScratchFolder folder;
-  const Head drawn = head(oblique_left_handed());
-  SegmentInput input;
-  input.t1 = drawn.t1;
-  input.brain_mask = drawn.mask;
-  const Segmentation result = segment(input, two_labels());
-  write_segmentation(folder / "segment", result);
-  EXPECT_EQ(read_label_map(folder / "segment/labels.nii.gz").voxels, result.labels->voxels);
-  EXPECT_EQ(read_surface(folder / "segment/brain.vtp").vertices, result.brain.vertices);
-  for (const char* name : {"skull.vtp", "tissue_1.vtp", "tissue_2.vtp", "membership_0.nii.gz", "membership_2.nii.gz"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder / (std::string("segment/") + name))) << name;
-  }
 }
 
 TEST(Segment, TheSameInputGivesTheSameSurfaceBitForBit) {

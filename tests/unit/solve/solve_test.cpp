@@ -157,16 +157,4 @@ TEST(Solve, RefusesWhatCannotBeSolved) {
   EXPECT_THROW(solve(model, {}), std::invalid_argument);
 }
 
-TEST(Solution, SurvivesWritingAndReading) {
-  const SolveResult result = solve(uniaxial(1.1, 5), {});
-  const test::ScratchFolder folder;
-  const auto file = folder / "solution.vtu";
-  write_solution(file, result.solution);
-  const Solution read = read_solution(file);
-  EXPECT_EQ(read.displacement, result.solution.displacement);
-  EXPECT_EQ(read.reaction_force, result.solution.reaction_force);
-  EXPECT_EQ(read.spacing, result.solution.spacing);
-  EXPECT_EQ(read.shape.basis, result.solution.shape.basis);
-}
-
 }  // namespace brainshift::solve::solve_test

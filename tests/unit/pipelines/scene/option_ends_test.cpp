@@ -209,36 +209,4 @@ TEST_F(OptionEnds, OfCuts) {
   walk_one("direction", "<cuts><cut file=\"sheet.vtp\" speed=\"1\"@/></cuts>");
 }
 
-// A new member of a struct does not compile here. It goes into the struct's table, or into the number of those that the
-// scene or the stage fills in.
-TEST(OptionTables, HoldEveryMember) {
-  {
-    [[maybe_unused]] const auto& [edge_length, classes, ventricle_depth, brain_labels, skull_label] =
-        segmentation::SegmentOptions{};
-    EXPECT_EQ(segmentation::segment_options().size() + 2, 5U) << "beside the labels";
-  }
-  {
-    [[maybe_unused]] const auto& [spacing, nodes, minimum_distance, craniotomy, tumour_factor, tumour_label,
-                                  tissue_boundary_factor, cells, cells_per_node, brain_labels, seed] =
-        discretise::DiscretiseOptions{};
-    EXPECT_EQ(discretise::discretise_options().size() + 2, 11U) << "beside the craniotomy and the labels";
-  }
-  {
-    [[maybe_unused]] const auto& [basis, derivatives, dilatation, penalty, planar] = ShapeOptions{};
-    [[maybe_unused]] const auto& [shape, volumetric, nodes_per_patch, integration, consistency_defect, imposition,
-                                  integration_tolerance, integration_depth, precision, points_per_cell, dynamics,
-                                  tolerance, load_steps, start, time_step, damping, max_steps, region, snapshot_every] =
-        solve::SolveOptions{};
-    EXPECT_EQ(solve::solve_options().size() + 2, 4U + 1 + 18) << "beside planar and consistency_defect";
-  }
-  {
-    [[maybe_unused]] const auto& [fade, interpolation, inverse_tolerance] = registration::RegisterOptions{};
-    EXPECT_EQ(registration::register_options().size(), 3U);
-  }
-  {
-    [[maybe_unused]] const auto& [youngs_modulus, poisson_ratio, density, law, ogden, prony, own] = solve::Material{};
-    EXPECT_EQ(solve::material_options().size() + 1, 7U) << "beside the law that a program brings along";
-  }
-}
-
 }  // namespace brainshift::pipelines::option_ends_test

@@ -6,23 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "pipelines/scene/describe_scene.hpp"
-#include "pipelines/scene/scene_table.hpp"
-#include "solve/material/named_materials.hpp"
 #include "tests/unit/pipelines/scene_file.hpp"
 
 namespace brainshift::pipelines::parse_scene_test {
-
-TEST_F(SceneFile, EveryOptionReadsBackWhatItWrites) {
-  Scene scene;
-  for (const Element& element : scene_elements()) {
-    element.add(scene);
-    for (const auto& option : element.options) {
-      const std::string value = option.get(scene);
-      EXPECT_TRUE(set_option(option, scene, value)) << element.path << "." << option.name << " = '" << value << "'";
-      EXPECT_EQ(option.get(scene), value);
-    }
-  }
-}
 
 TEST_F(SceneFile, ValuesArriveWhereTheyBelong) {
   const Scene scene = parse(R"(<scene version="1">
@@ -71,19 +57,6 @@ TEST_F(SceneFile, MaterialsComeByNameThenByTheConstantsBesideIt) {
   EXPECT_EQ(scene.tissues.at(2).material.law, solve::Law::saint_venant_kirchhoff);
   EXPECT_EQ(scene.tissues.at(3).material.youngs_modulus, 9000);
   EXPECT_EQ(scene.tissues.at(3).material.density, 1100);
-}
-
-TEST_F(SceneFile, EveryTissueOptionReadsBackWhatItWrites) {
-  for (const std::string& name : solve::material_names()) {
-    Tissue tissue{1, "a name", name, *solve::named_material(name)};
-    Tissue copy;
-    for (const auto& option : tissue_options()) {
-      EXPECT_TRUE(set_option(option, copy, option.get(tissue))) << option.name;
-    }
-    for (const auto& option : tissue_options()) {
-      EXPECT_EQ(option.get(copy), option.get(tissue));
-    }
-  }
 }
 
 TEST_F(SceneFile, ThePhysicsOfTheSolveStageArrives) {

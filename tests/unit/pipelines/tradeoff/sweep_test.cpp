@@ -2,37 +2,18 @@
 #include "pipelines/tradeoff/sweep.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 
-#include "segmentation/files/surface_file.hpp"
-#include "solve/load/craniotomy_load.hpp"
-#include "tests/unit/pipelines/run_folder.hpp"
-#include "tests/unit/segmentation/shapes.hpp"
+#include "tests/unit/pipelines/ball_folder.hpp"
 
 namespace brainshift::pipelines::sweep_test {
 
 using brainshift::test::refusal;
 
-/// A ball of 20 mm whose top is pressed down, with lists of what is tried.
-class SweepTest : public RunFolder {
+/// With lists of what is tried.
+class SweepTest : public BallFolder {
  protected:
-  void SetUp() override {
-    omp_set_num_threads(1);  // of a few nodes each thread would mostly wait for the others
-    const Surface ball = brainshift::test::sphere({0, 0, 0}, 20, 3);
-    write_surface(folder_ / "ball.vtp", ball);
-    solve::CraniotomyLoad load{Points(0, 3), Points(0, 3)};
-    for (const auto& vertex : ball.vertices.rowwise()) {
-      if (vertex[2] > 16) {
-        load.positions.conservativeResize(load.positions.rows() + 1, 3);
-        load.positions.bottomRows(1) = vertex;
-      }
-    }
-    load.displacement = Eigen::RowVector3d(0, 0, -1).replicate(load.positions.rows(), 1);
-    solve::write_craniotomy_csv(folder_ / "load.csv", load);
-  }
-  void TearDown() override { omp_set_num_threads(threads_); }
   fs::path scene(const std::string& nodes, const std::string& reference, const std::string& more = "") const {
     return write("scene.xml", R"(<scene version="1"><image surface="ball.vtp"/>
       <tissues><tissue label="1" material="brain"/></tissues>
@@ -51,7 +32,6 @@ class SweepTest : public RunFolder {
                  });
   }
 
-  const int threads_ = omp_get_max_threads();
   std::size_t told_ = 0;
   TradeoffPoint last_;
 };

@@ -45,16 +45,4 @@ TEST(Remesh, LeavesAnOpenSurfaceOpen) {
   EXPECT_FALSE(measure(again).closed);
 }
 
-TEST(Wrap, EnclosesASurfaceWithAHoleAndLiesOutsideOfIt) {
-  constexpr double radius = 20, opening = 8;
-  const Eigen::Vector3d centre(-20, 30, 40);
-  Surface body = test::sphere(centre, radius, 3);
-  body.triangles = body.triangles.topRows(body.triangles.rows() - 4).eval();
-  const Surface around = wrapped(body, opening);
-  EXPECT_TRUE(measure(around).is_sound());
-  EXPECT_GT(volume(around), volume(test::sphere(centre, radius, 3)));
-  const double farthest = (around.vertices.rowwise() - centre.transpose()).rowwise().norm().maxCoeff();
-  EXPECT_NEAR(farthest, radius + opening / 30, 0.05);
-}
-
 }  // namespace brainshift::segmentation::remesh_test

@@ -41,6 +41,23 @@ std::string refusal(const Solution& solution) {
   return {};
 }
 
+TEST(Solution, SurvivesWritingAndReading) {
+  const NodeCloud cloud = test::irregular_box(5, 60);
+  Solution solution{.positions = cloud.positions,
+                    .displacement = test::random_points(125, 3, 1),
+                    .reaction_force = test::random_points(125, 1, 2),
+                    .spacing = cloud.spacing,
+                    .shape = {.basis = Basis::linear, .dilatation = 1.7}};
+  const Solution read = read_back(solution);
+  EXPECT_EQ(read.positions, solution.positions);
+  EXPECT_EQ(read.displacement, solution.displacement);
+  EXPECT_EQ(read.reaction_force, solution.reaction_force);
+  EXPECT_EQ(read.spacing, solution.spacing);
+  EXPECT_EQ(read.shape.basis, Basis::linear);
+  EXPECT_EQ(read.shape.dilatation, 1.7);
+  EXPECT_FALSE(read.shape.planar);
+}
+
 TEST(PlanarSolution, GivesItsFieldBackAfterWritingAndReading) {
   const Solution solution = planar_solution();
   const Solution read = read_back(solution);

@@ -3,70 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "solve/body/ordered_cloud.hpp"
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/pressed_bar.hpp"
 
 namespace brainshift::solve::coarse_test {
 
-TEST(CoarseStart, EndsWhereTheStartFromRestEndsInFewerSteps) {
-  const Model model = pressed_bar();
-  SolveOptions options;
-  options.tolerance = 0.001;
-  const SolveResult from_rest = solve(model, options);
-  options.start = Start::coarse;
-  const SolveResult from_coarse = solve(model, options);
-  ASSERT_TRUE(from_coarse.failure.empty()) << from_coarse.failure;
-  EXPECT_LT(from_coarse.measures.steps, 3 * from_rest.measures.steps / 4);
-  EXPECT_LT(largest_difference_of(from_coarse, from_rest), 2 * options.tolerance);
-  EXPECT_GT(from_coarse.measures.seconds_coarse, 0);
-  EXPECT_EQ(from_rest.measures.seconds_coarse, 0);
-  EXPECT_NEAR(from_coarse.history.back().strain_energy, from_rest.history.back().strain_energy,
-              0.01 * from_rest.history.back().strain_energy);
-}
-
-TEST(CoarseStart, IsFromRestWhereTheWayThereIsWanted) {
-  const Model model = pressed_bar();
-  SolveOptions options;
-  options.start = Start::coarse;
-  options.snapshot_every = 100;
-  const SolveResult result = solve(model, options);
-  EXPECT_EQ(result.measures.seconds_coarse, 0);
-  EXPECT_LT(result.history.front().time, 1);
-}
-
-TEST(CoarseStart, IsFromRestWhereTheLoadDoesNotEndInFull) {
-  Model model = pressed_bar();
-  model.curve = LoadCurve({0, 1}, {0, 0.5}, LoadCurve::Join::smooth);
-  SolveOptions options;
-  const SolveResult from_rest = solve(model, options);
-  options.start = Start::coarse;
-  const SolveResult result = solve(model, options);
-  EXPECT_TRUE(result.failure.empty()) << result.failure;
-  EXPECT_EQ(result.measures.seconds_coarse, 0);
-  EXPECT_EQ(largest_difference_of(result, from_rest), 0);
-}
-
-/// Held at three neighbours, of which a coarse cloud has one.
-TEST(CoarseStart, IsFromRestWhereTheCoarseCloudIsNotHeld) {
-  Model model = pressed_bar();
-  const Eigen::Index corner = 9 * 9 * 20;
-  model.conditions.displacement.setConstant(std::nan(""));
-  for (const Eigen::Index node : {corner, corner + 1, corner + 9}) {
-    model.conditions.displacement.row(node).setZero();
-  }
-  model.gravity = {0, 0, 0.01};
-  SolveOptions options;
-  options.max_steps = 40;  // it need not come to rest
-  const SolveResult from_rest = solve(model, options);
-  options.start = Start::coarse;
-  const SolveResult result = solve(model, options);
-  EXPECT_GT(result.measures.seconds_coarse, 0);
-  EXPECT_GT(result.measures.largest_displacement, 0);
-  EXPECT_EQ(largest_difference_of(result, from_rest), 0);
-}
-
-TEST(Region, CoarseNodesAreAnEvenEighth) {
+TEST(CoarseNodes, AreAnEvenEighth) {
   const NodeCloud cloud = test::irregular_box(21, 100);
   const std::vector<std::int32_t> nodes = coarse_nodes(cloud, {});
   EXPECT_GT(nodes.size(), cloud.size() / 12);
@@ -77,6 +23,42 @@ TEST(Region, CoarseNodesAreAnEvenEighth) {
       EXPECT_GT((coarse.positions.row(a) - coarse.positions.row(b)).norm(), 1.4 * 5);
     }
   }
+}
+
+TEST(CoarseNodes, HoldTheLoadedOnesFirst) {
+  const NodeCloud cloud = test::irregular_box(11, 100);
+  Conditions conditions = test::all_free(cloud);
+  const std::int32_t loaded = 5 * 121 + 5 * 11 + 4;  // beside the inner node that is chosen else
+  conditions.displacement.row(loaded).setConstant(1);
+  const std::vector<std::int32_t> nodes = coarse_nodes(cloud, conditions);
+  EXPECT_TRUE(std::ranges::binary_search(nodes, loaded));
+  EXPECT_TRUE(std::ranges::is_sorted(nodes));
+}
+
+TEST(CoarseDisplacement, IsNearTheSolutionAndAsPrescribedWhereItIs) {
+  const Model model = uniaxial(1.1, 11);
+  const auto coarse = coarse_displacement(model, {}, {});
+  ASSERT_TRUE(coarse);
+  const Points& prescribed = model.conditions.displacement;
+  ASSERT_EQ(coarse->rows(), prescribed.rows());
+  for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!std::isnan(prescribed(a, axis))) {
+        EXPECT_EQ((*coarse)(a, axis), prescribed(a, axis));
+      }
+    }
+  }
+  const double lateral = uniaxial_answer(model.materials.at(1), 1.1).second;
+  const Eigen::RowVector3d strain(lateral - 1, lateral - 1, 0.1);
+  const Points exact = model.cloud.positions.array().rowwise() * strain.array();
+  EXPECT_LT((*coarse - exact).rowwise().norm().maxCoeff(), 1.5) << "of 6 mm";
+}
+
+TEST(CoarseDisplacement, IsNoneWhereTheCoarseCloudCannotBeSolved) {
+  EXPECT_FALSE(coarse_displacement(uniaxial(1.1, 3), {}, {})) << "too few nodes";
+  Model unheld = pressed_bar();
+  unheld.conditions = test::all_free(unheld.cloud);
+  EXPECT_FALSE(coarse_displacement(unheld, {}, {}));
 }
 
 }  // namespace brainshift::solve::coarse_test

@@ -122,4 +122,48 @@ TEST(ShapeFunctions, AreTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.derivative, three.derivative);
 }
 
+/// Largest difference at a place between the field found together with its neighbours and alone, mm. Cubes of places a
+/// millimetre apart, from the middle of the cloud to a little outside it, where supports are grown.
+double together_and_alone(const NodeCloud& cloud, const ShapeOptions& options,
+                          std::shared_ptr<const Visibility> visibility = nullptr) {
+  const ShapeFunctions shape(cloud.positions, cloud.spacing, options, std::move(visibility));
+  const Points values = cloud.positions.array().sin();
+  const Eigen::RowVector3d middle = Eigen::RowVector3d::Constant(side / 2);
+  double largest = 0;
+  for (double way = 0; way < 0.75 * side; way += 1.7) {
+    Points places(27, 3);
+    for (int n = 0; n < 27; ++n) {
+      places.row(n) = middle + way * Eigen::RowVector3d(1, 0.6, -0.7).normalized() +
+                      Eigen::RowVector3d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+    }
+    const Points together = shape.interpolate(places, values);
+    for (Eigen::Index n = 0; n < places.rows(); ++n) {
+      largest = std::max(largest, (together.row(n) - shape.interpolate(places.row(n), values)).norm());
+    }
+  }
+  return largest;
+}
+
+TEST_P(EveryBasis, GivesTheFieldOfManyPlacesAsOfEachAlone) {
+  EXPECT_EQ(together_and_alone(irregular_box(11, side), options()), 0);
+}
+
+TEST(ShapeFunctions, GiveTheFieldOfManyPlacesAsOfEachAloneWithAHighPenaltyAndSpacingsThatDiffer) {
+  NodeCloud cloud = irregular_box(11, side);
+  for (std::size_t n = 0; n < cloud.spacing.size(); ++n) {
+    cloud.spacing[n] *= n % 3 == 0 ? 1.3 : 1;
+  }
+  EXPECT_EQ(together_and_alone(cloud, {.basis = Basis::modified_quadratic, .penalty = 1e-5}), 0);
+}
+
+TEST(ShapeFunctions, GiveTheFieldOfManyPlacesAsOfEachAloneBesideACut) {
+  CutFacets cut;
+  cut.vertices.resize(3, 3);
+  cut.vertices << 33, 25, -10, 33, -20, 60, 33, 70, 60;
+  cut.facets.resize(1, 3);
+  cut.facets << 0, 1, 2;
+  cut.front = {{0, 1}, {1, 2}, {2, 0}};
+  EXPECT_EQ(together_and_alone(irregular_box(11, side), {}, std::make_shared<const Visibility>(cut)), 0);
+}
+
 }  // namespace brainshift::solve::shape_functions_test

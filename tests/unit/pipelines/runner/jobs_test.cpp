@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/jobs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/expect_parts.hpp"
+#include "tests/unit/markup_texts.hpp"
+#include "tests/unit/pipelines/ball_folder.hpp"
+
+namespace brainshift::pipelines::jobs_test {
+
+using brainshift::test::expect_parts;
+using brainshift::test::mrk_json;
+using brainshift::test::refusal;
+
+class JobsTest : public BallFolder {
+ protected:
+  Load measured() const {
+    Load load;
+    load.craniotomy = folder_ / "load.csv";
+    return load;
+  }
+  /// The ball's nodes and cells in the folder, and the job that solves them.
+  SolveJob solve_job() const {
+    DiscretiseJob cells;
+    cells.surface = folder_ / "ball.vtp";
+    cells.options.nodes = 60;
+    run_job(cells, folder_, {});
+    SolveJob job{.nodes = folder_ / "nodes.vtu",
+                 .cells = folder_ / "cells.vtu",
+                 .labels = {},
+                 .skull = {},
+                 .surface = folder_ / "ball.vtp",
+                 .load = measured(),
+                 .materials = {{1, solve::Material{}}},
+                 .options = {},
+                 .loading = {}};
+    job.options.shape.basis = Basis::linear;
+    job.options.points_per_cell = 1;
+    job.options.tolerance = 0.1;
+    return job;
+  }
+  /// An image over the ball, 2.5 mm a voxel; shift: of its place, mm.
+  ScalarImage image(double shift = 0) const {
+    ScalarImage t1;
+    t1.geometry.size = {20, 20, 20};
+    t1.geometry.spacing.setConstant(2.5);
+    t1.geometry.origin.setConstant(-23.75 + shift);
+    for (std::size_t voxel = 0; voxel < t1.geometry.voxel_count(); ++voxel) {
+      t1.voxels.push_back(static_cast<float>(voxel % 7));
+    }
+    return t1;
+  }
+};
+
+TEST_F(JobsTest, ALoadIsReadFromWhereItIsMeasured) {
+  EXPECT_EQ(read_load(measured(), {}).displacement.row(3), Eigen::RowVector3d(0, 0, -1));
+  Load markups;
+  markups.markups = {write("before.mrk.json", mrk_json("\"LPS\"", {{"a", "1, 2, 3"}})),
+                     write("after.mrk.json", mrk_json("\"LPS\"", {{"a", "1, 2, 5"}}))};
+  EXPECT_EQ(read_load(markups, {}).displacement, Eigen::RowVector3d(0, 0, 2));
+  Load surfaces;
+  surfaces.surfaces = {folder_ / "ball.vtp", folder_ / "ball.vtp"};
+  EXPECT_NEAR(read_load(surfaces, {}).displacement.norm(), 0, 1e-6);
+  Load simulated;
+  simulated.simulated = solve::SimulatedCraniotomy{.centre = {0, 0, 20}, .radius = 12, .depth = 3};
+  EXPECT_NEAR(read_load(simulated, folder_ / "ball.vtp").displacement.rowwise().norm().maxCoeff(), 3, 0.3);
+  expect_parts(refusal([] { read_load({}, {}); }), {"no load is named"});
+}
+
+TEST_F(JobsTest, ASegmentationTakesLabelsOnTheGridOfTheImageAlone) {
+  LabelMap labels{image().geometry, std::vector<std::int16_t>(image().voxels.size(), 0)};
+  for (int k = 4; k < 16; ++k) {
+    for (int j = 4; j < 16; ++j) {
+      for (int i = 4; i < 16; ++i) {
+        labels.at(i, j, k) = 1;
+      }
+    }
+  }
+  write_image(folder_ / "labels.nii.gz", labels);
+  write_image(folder_ / "t1.nii.gz", image());
+  write_image(folder_ / "moved.nii.gz", image(0.1));
+  SegmentJob job;
+  job.image.labels = folder_ / "labels.nii.gz";
+  job.image.t1 = folder_ / "moved.nii.gz";
+  job.options.brain_labels = {1};
+  expect_parts(refusal([&] { run_job(job, folder_ / "out", {}); }),
+               {"labels.nii.gz: its grid", "is not that of", "moved.nii.gz", "resample it"});
+  job.image.t1 = folder_ / "t1.nii.gz";
+  const StageReport report = run_job(job, folder_ / "out", {});
+  EXPECT_EQ(report.sizes["voxels"], 8000);
+  EXPECT_TRUE(fs::exists(folder_ / "out/brain.vtp"));
+}
+
+TEST_F(JobsTest, ADiscretisationIsFinerWhereTheLoadIs) {
+  DiscretiseJob job;
+  job.surface = folder_ / "ball.vtp";
+  job.options.nodes = 200;
+  job.load = measured();
+  job.refinement = {.centres = {}, .radius = 8, .factor = 0.4};
+  const auto near_the_top = [&] {
+    run_job(job, folder_, {});
+    return (read_node_cloud(folder_ / "nodes.vtu").positions.col(2).array() > 12).count();
+  };
+  const auto refined = near_the_top();
+  job.refinement.factor = 1;
+  EXPECT_GT(refined, 1.5 * static_cast<double>(near_the_top()));
+}
+
+TEST_F(JobsTest, WhatASolveJobNamesIsInItsModel) {
+  SolveJob job = solve_job();
+  job.loading = {.duration = 2, .curve = {}, .gravity = {0, 0, -9.81}};
+  job.skull = folder_ / "ball.vtp";
+  job.resection = solve::Resection{{3}, 20};
+  const SolveInput input = read_input(job);
+  EXPECT_EQ(input.model.gravity, Eigen::Vector3d(0, 0, -9.81));
+  EXPECT_EQ(input.model.curve.duration(), 2);
+  EXPECT_EQ(input.model.skull->triangles.rows(), read_surface(folder_ / "ball.vtp").triangles.rows());
+  EXPECT_EQ(input.model.resection->labels, std::vector<std::int32_t>{3});
+  EXPECT_EQ(input.model.materials.size(), 1U);
+  EXPECT_FALSE(input.model.labels);
+  EXPECT_EQ(input.options.tolerance, 0.1);
+  const Points& prescribed = input.model.conditions.displacement;
+  for (Eigen::Index node = 0; node < prescribed.rows(); ++node) {
+    EXPECT_TRUE(std::isnan(prescribed(node, 2)) || input.model.cloud.positions(node, 2) > 10);
+  }
+  EXPECT_TRUE((prescribed.col(2).array() == -1).any());
+}
+
+TEST_F(JobsTest, WithoutALoadTheNodesPrescribeTheirOwn) {
+  SolveJob job = solve_job();
+  NodeCloud cloud = read_node_cloud(job.nodes);
+  solve::Conditions conditions;
+  conditions.displacement = Points::Constant(cloud.positions.rows(), 3, std::nan(""));
+  conditions.displacement.row(5).setConstant(0.25);
+  solve::write_nodes(folder_ / "own.vtu", cloud, conditions);
+  job.nodes = folder_ / "own.vtu";
+  job.load.reset();
+  const SolveInput input = read_input(job);
+  EXPECT_EQ(input.model.conditions.displacement.row(5), Eigen::RowVector3d(0.25, 0.25, 0.25));
+  EXPECT_FALSE(input.load);
+}
+
+TEST_F(JobsTest, ASolveWritesTheLoadBesideTheSolution) {
+  const StageReport report = run_job(solve_job(), folder_ / ".", {});
+  EXPECT_EQ(report.failure, "");
+  EXPECT_EQ(report.sizes["nodes"], read_node_cloud(folder_ / "nodes.vtu").size());
+  EXPECT_EQ(read(folder_ / "load.csv").find("# frame: LPS"), 0U);
+  EXPECT_TRUE(fs::exists(folder_ / "solution.vtu"));
+}
+
+TEST_F(JobsTest, ARegistrationWarpsMoreFilesButNoTwoOfOneName) {
+  run_job(solve_job(), folder_, {});
+  write_image(folder_ / "t1.nii.gz", image());
+  fs::create_directories(folder_ / "other");
+  fs::create_directories(folder_ / "out");
+  write_image(folder_ / "flair.nii.gz", image());
+  write_image(folder_ / "other/flair.nii.gz", image());
+  RegisterJob job{.solution = folder_ / "solution.vtu",
+                  .surface = folder_ / "ball.vtp",
+                  .t1 = folder_ / "t1.nii.gz",
+                  .labels = {},
+                  .landmarks = {},
+                  .warp = {folder_ / "flair.nii.gz", folder_ / "other/flair.nii.gz"},
+                  .warp_labels = {},
+                  .options = {}};
+  expect_parts(refusal([&] { run_job(job, folder_ / "out", {}); }),
+               {"other/flair.nii.gz: there is a warped_flair.nii.gz already", "rename"});
+  EXPECT_EQ(read_image(folder_ / "out/warped_flair.nii.gz").voxels, read_image(folder_ / "out/warped.nii.gz").voxels);
+}
+
+}  // namespace brainshift::pipelines::jobs_test

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/run/whole_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/pressed_bar.hpp"
+
+namespace brainshift::solve::whole_body_test {
+
+TEST(CoarseStart, EndsWhereTheStartFromRestEndsInFewerSteps) {
+  const Model model = pressed_bar();
+  SolveOptions options;
+  options.shape.basis = Basis::linear;
+  options.tolerance = 0.02;
+  const SolveResult from_rest = solve_whole_body(model, options, {});
+  options.start = Start::coarse;
+  const SolveResult from_coarse = solve_whole_body(model, options, {});
+  ASSERT_TRUE(from_coarse.failure.empty()) << from_coarse.failure;
+  EXPECT_LT(from_coarse.measures.steps, 3 * from_rest.measures.steps / 4);
+  EXPECT_LT(largest_difference_of(from_coarse, from_rest), 2 * options.tolerance);
+  EXPECT_GT(from_coarse.measures.seconds_coarse, 0);
+  EXPECT_EQ(from_rest.measures.seconds_coarse, 0);
+  EXPECT_NEAR(from_coarse.history.back().strain_energy, from_rest.history.back().strain_energy,
+              0.01 * from_rest.history.back().strain_energy);
+}
+
+TEST(CoarseStart, IsFromRestWhereTheWayThereIsWanted) {
+  const Model model = pressed_bar();
+  SolveOptions options;
+  options.start = Start::coarse;
+  options.snapshot_every = 100;
+  options.max_steps = 50;  // it need not come to rest
+  const SolveResult result = solve_whole_body(model, options, {});
+  EXPECT_EQ(result.measures.seconds_coarse, 0);
+  EXPECT_LT(result.history.front().time, 1);
+}
+
+TEST(CoarseStart, IsFromRestWhereTheLoadDoesNotEndInFull) {
+  Model model = pressed_bar();
+  model.curve = LoadCurve({0, 1}, {0, 0.5}, LoadCurve::Join::smooth);
+  SolveOptions options;
+  options.max_steps = 50;
+  const SolveResult from_rest = solve_whole_body(model, options, {});
+  options.start = Start::coarse;
+  const SolveResult result = solve_whole_body(model, options, {});
+  EXPECT_EQ(result.measures.seconds_coarse, 0);
+  EXPECT_EQ(largest_difference_of(result, from_rest), 0);
+}
+
+/// Held at three neighbours, of which a coarse cloud has one.
+TEST(CoarseStart, IsFromRestWhereTheCoarseCloudIsNotHeld) {
+  Model model = pressed_bar();
+  const Eigen::Index corner = 9 * 9 * 20;
+  model.conditions.displacement.setConstant(std::nan(""));
+  for (const Eigen::Index node : {corner, corner + 1, corner + 9}) {
+    model.conditions.displacement.row(node).setZero();
+  }
+  model.gravity = {0, 0, 0.01};
+  SolveOptions options;
+  options.max_steps = 40;  // it need not come to rest
+  const SolveResult from_rest = solve_whole_body(model, options, {});
+  options.start = Start::coarse;
+  const SolveResult result = solve_whole_body(model, options, {});
+  EXPECT_GT(result.measures.seconds_coarse, 0);
+  EXPECT_GT(result.measures.largest_displacement, 0);
+  EXPECT_EQ(largest_difference_of(result, from_rest), 0);
+}
+
+TEST(WholeBody, SaysWhatItDoesAndHowLongItTook) {
+  SolveOptions options;
+  options.start = Start::coarse;
+  options.shape.basis = Basis::linear;
+  options.tolerance = 0.1;
+  std::vector<std::string> told;
+  double last = 0;
+  const SolveResult result = solve_whole_body(pressed_bar(), options, [&](double fraction, std::string_view what) {
+    EXPECT_TRUE(fraction >= 0 && fraction <= 1);
+    last = fraction;
+    if (told.empty() || told.back() != what) {
+      told.emplace_back(what);
+    }
+  });
+  EXPECT_NE(std::find(told.begin(), told.end(), "solving a coarse cloud"), told.end());
+  EXPECT_GT(last, 0.5);
+  for (const double seconds :
+       {result.measures.seconds_setup, result.measures.seconds_coarse, result.measures.seconds_stepping}) {
+    EXPECT_GT(seconds, 0);
+  }
+}
+
+TEST(WholeBody, WithoutItsResectionIsTheRest) {
+  Model model = uniaxial(1.1, 7);
+  for (std::size_t cell = 0; cell < model.cells.size(); ++cell) {
+    const Eigen::Index corner = model.cells.connectivity[8 * cell];
+    model.cells.label[cell] = model.cells.vertices(corner, 2) > 0.7 * model_side ? 2 : 1;
+  }
+  model.materials[2] = model.materials[1];
+  EXPECT_FALSE(solve_whole_body(model, {}, {}).measures.resection);
+  model.resection = Resection{.labels = {2}};
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    if (model.cloud.positions(a, 2) > 0.7 * model_side) {
+      model.conditions.displacement.row(a).setConstant(std::nan(""));
+    }
+  }
+  const SolveResult result = solve_whole_body(model, {}, {});
+  ASSERT_TRUE(result.measures.resection);
+  EXPECT_NEAR(result.measures.resection->removed_volume, std::pow(model_side, 3) / 6, 1e-6);
+  EXPECT_EQ(result.measures.resection->removed_nodes + result.measures.nodes, model.cloud.size());
+  EXPECT_GT(result.measures.resection->removed_nodes, 0U);
+  EXPECT_LT(result.measures.largest_displacement, 0.01) << "nothing pulls at what is left";
+}
+
+}  // namespace brainshift::solve::whole_body_test
