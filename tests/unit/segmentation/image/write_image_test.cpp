@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "segmentation/image/image.hpp"
+#include "segmentation/image/itk_bridge.hpp"
 
 #include <gtest/gtest.h>
 #include <itkImageFileReader.h>
@@ -8,8 +8,8 @@
 
 #include <csignal>
 
-#include "segmentation/image/itk_bridge.hpp"
 #include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::write_image_test {
 
