@@ -17,8 +17,17 @@ namespace brainshift::segmentation {
 namespace {
 
 // Lengths in metres make a brain of a fifth of a millimetre, and everything after this would go on in earnest.
-void check_size(const Mask& brain) {
+void check_across(double across, const std::string& advice) {
   constexpr double smallest = 20, largest = 500;  // mm
+  if (!(across >= smallest && across <= largest)) {
+    std::ostringstream text;
+    text << "the brain is " << across << " mm across, where " << smallest << " to " << largest
+         << " mm are expected: " << advice;
+    throw std::invalid_argument(text.str());
+  }
+}
+
+void check_size(const Mask& brain) {
   const Eigen::Vector3d& spacing = brain.geometry.spacing;
   Eigen::Array3i low = brain.geometry.size, high = Eigen::Array3i::Zero();
   for (int k = 0; k < brain.geometry.size.z(); ++k) {
@@ -31,14 +40,10 @@ void check_size(const Mask& brain) {
       }
     }
   }
-  const double across = ((high - low).cast<double>() * spacing.array()).maxCoeff();
-  if (across < smallest || across > largest) {
-    std::ostringstream text;
-    text << "the brain is " << across << " mm across, where " << smallest << " to " << largest
-         << " mm are expected: are the image's lengths in metres, centimetres or micrometres? Voxels of " << spacing.x()
-         << " x " << spacing.y() << " x " << spacing.z() << " mm are what its header says; correct it";
-    throw std::invalid_argument(text.str());
-  }
+  std::ostringstream advice;
+  advice << "are the image's lengths in metres, centimetres or micrometres? Voxels of " << spacing.x() << " x "
+         << spacing.y() << " x " << spacing.z() << " mm are what its header says; correct it";
+  check_across(((high - low).cast<double>() * spacing.array()).maxCoeff(), advice.str());
 }
 
 // The brain as one body. Throws when there is none, or when the image cuts it off.
@@ -189,6 +194,10 @@ Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options
 }
 
 Segmentation segment_surface(const SegmentInput& input, const SegmentOptions& options) {
+  if (input.surface->triangles.rows() > 0) {
+    check_across(extent(*input.surface),
+                 "is the surface in metres or micrometres, or has it a stray vertex? Scale it, or remove that vertex");
+  }
   CheckedSurface checked = checked_surface(*input.surface, options.edge_length);
   Segmentation result;
   result.brain = std::move(checked.surface);

@@ -35,6 +35,17 @@ void warp_file(const fs::path& file, const fs::path& out, const registration::Wa
   registration::warp_any(file, out, target, options);
 }
 
+/// The stage knows no files; what it refuses is what one of them holds.
+segmentation::Segmentation segment_files(const SegmentJob& job, const segmentation::SegmentInput& input,
+                                         const Progress& progress) {
+  const fs::path& file = input.labels ? job.image.labels : input.surface ? job.image.surface : job.image.brain_mask;
+  try {
+    return segmentation::segment(input, job.options, progress);
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument(file.empty() ? fault.what() : file.string() + ": " + fault.what());
+  }
+}
+
 void read_cuts(const SolveJob& job, solve::Model& model) {
   model.cuts = job.cut_paths;
   if (job.cuts) {
@@ -80,7 +91,7 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
     need_same_grid(input.t1->geometry, job.image.t1, input.brain_mask, job.image.brain_mask);
     need_same_grid(input.t1->geometry, job.image.t1, input.tumour_mask, job.image.tumour_mask);
   }
-  const segmentation::Segmentation result = segmentation::segment(input, job.options, progress);
+  const segmentation::Segmentation result = segment_files(job, input, progress);
   segmentation::write_segmentation(out, result);
   return report_of(result);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/libraries.hpp"
 
+#include <gdcmTrace.h>
 #include <itkMultiThreaderBase.h>
 #include <itkObject.h>
 #include <omp.h>
@@ -39,6 +40,9 @@ void wait_asleep(char** arguments) {
 void silence_libraries() {
   itk::Object::SetGlobalWarningDisplay(false);
   vtkObject::SetGlobalWarningDisplay(0);
+  gdcm::Trace::DebugOff();
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
 }
 
 }  // namespace brainshift::pipelines

@@ -44,6 +44,10 @@ class Sha256 {
 };
 
 void add_file(Sha256& hash, const std::filesystem::path& file) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown)) {  // a pipe or a device may never end
+    throw std::invalid_argument(file.string() + ": cannot be read; check that it exists and is a regular file");
+  }
   std::ifstream stream(file, std::ios::binary);
   std::vector<char> piece(1 << 20);
   while (stream) {
@@ -65,7 +69,8 @@ std::string sha256_of_text(std::string_view text) {
 
 std::string sha256_of_file(const std::filesystem::path& file) {
   Sha256 hash;
-  if (!std::filesystem::is_directory(file)) {
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(file, unknown)) {
     add_file(hash, file);
     return hash.hex();
   }

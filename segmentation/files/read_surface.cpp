@@ -14,8 +14,10 @@
 #include <stdexcept>
 
 #include "segmentation/files/read_obj.hpp"
+#include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/files/vtk_bridge.hpp"
+#include "segmentation/files/vtk_claims.hpp"
 
 namespace brainshift {
 namespace {
@@ -28,15 +30,6 @@ std::string ending_of(const fs::path& file) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return ending;
-}
-
-void check_present(const fs::path& file) {
-  if (!fs::is_regular_file(file)) {
-    throw std::invalid_argument(file.string() + ": no such file; check the path");
-  }
-  if (fs::file_size(file) == 0) {
-    throw std::invalid_argument(file.string() + ": the file is empty; copy it again");
-  }
 }
 
 PolygonSoup read_with_cgal(const fs::path& file, const std::string& ending) {
@@ -84,6 +77,7 @@ void note_fault(vtkObject*, unsigned long, void* failed, void*) {
 }
 
 vtkSmartPointer<vtkPolyData> read_vtp(const fs::path& file) {
+  check_vtk_claims(file);
   bool failed = false;
   vtkNew<vtkCallbackCommand> observer;
   observer->SetCallback(note_fault);
@@ -129,6 +123,11 @@ void check_values(const fs::path& file, const Surface& surface) {
   if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.vertices.rows()) {
     throw std::invalid_argument(file.string() + ": a face names a vertex that the file lacks");
   }
+  const double across = extent(surface);
+  if (!(area(surface) > 1e-12 * across * across)) {
+    throw std::invalid_argument(file.string() +
+                                ": its faces lie in one point or line; a surface with an area is needed");
+  }
 }
 
 vtkSmartPointer<vtkPolyData> read_polygons(const fs::path& file) {
@@ -148,7 +147,7 @@ vtkSmartPointer<vtkPolyData> read_polygons(const fs::path& file) {
 }  // namespace
 
 Surface read_surface(const fs::path& file) {
-  check_present(file);
+  check_readable(file);
   const auto polygons = read_polygons(file);
   vtkNew<vtkTriangleFilter> triangulate;
   triangulate->SetInputData(polygons);

@@ -1,9 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/geometry/surface.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 namespace brainshift {
+
+namespace {
+
+// Three rows a triangle; vertices of no triangle are left out.
+Points corners_of(const Surface& surface) {
+  Points corners(surface.triangles.size(), 3);
+  for (Eigen::Index t = 0; t < surface.triangles.size(); ++t) {
+    corners.row(t) = surface.vertices.row(surface.triangles.data()[t]);
+  }
+  return corners;
+}
+
+}  // namespace
 
 Eigen::Vector3d Triangle::area_vector() const {
   return 0.5 * (b - a).cross(c - a);
@@ -32,6 +46,29 @@ double volume(const Surface& surface) {
     six_volumes += a.dot(b.cross(c));
   }
   return six_volumes / 6.0;
+}
+
+double extent(const Surface& surface) {
+  if (surface.triangles.rows() == 0) {
+    return 0;
+  }
+  const Points corners = corners_of(surface);
+  return (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).maxCoeff();
+}
+
+bool is_flat(const Surface& surface) {
+  const double across = extent(surface);
+  if (!(across > 0)) {
+    return true;
+  }
+  Points corners = corners_of(surface);
+  corners.rowwise() -= Eigen::RowVector3d(corners.row(0));
+  corners /= across;
+  corners.rowwise() -= Eigen::RowVector3d(corners.colwise().mean());
+  const Eigen::Matrix3d spread = corners.transpose() * corners / static_cast<double>(corners.rows());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread, Eigen::EigenvaluesOnly);
+  constexpr double least = 1e-6;
+  return !(axes.eigenvalues().minCoeff() > least * least);
 }
 
 double area(const Surface& surface) {

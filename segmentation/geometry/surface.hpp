@@ -35,6 +35,12 @@ Points vertex_normals(const Surface& surface);
 /// Volume enclosed by a closed surface, mm³, by the divergence theorem; positive when the triangles face outward.
 double volume(const Surface& surface);
 
+/// The longest edge, mm, of the box around the triangles, along x, y and z; 0 without a triangle.
+double extent(const Surface& surface);
+
+/// Whether the triangles lie in one plane, line or point, to a millionth of their extent.
+bool is_flat(const Surface& surface);
+
 /// Area of the triangles, mm².
 double area(const Surface& surface);
 

@@ -44,13 +44,4 @@ itk::ImageIOBase::Pointer make_image_io(ImageFormat format) {
   throw std::logic_error("unknown image format");
 }
 
-std::string reason_of(const std::exception& fault) {
-  const auto* itk_fault = dynamic_cast<const itk::ExceptionObject*>(&fault);
-  std::string text = itk_fault != nullptr ? itk_fault->GetDescription() : fault.what();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  const auto begin = text.find("ERROR: ");  // of ITK's macros: then come the class and an address
-  const auto end = text.find("): ");
-  return begin < 10 && end != std::string::npos ? text.substr(end + 3) : text;
-}
-
 }  // namespace brainshift

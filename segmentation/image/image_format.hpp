@@ -18,7 +18,4 @@ ImageFormat image_format(const std::filesystem::path& file);
 
 itk::ImageIOBase::Pointer make_image_io(ImageFormat format);
 
-/// What ITK says of a fault, without its file and line, as the end of a sentence.
-std::string reason_of(const std::exception& fault);
-
 }  // namespace brainshift

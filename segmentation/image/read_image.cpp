@@ -2,16 +2,16 @@
 #include "segmentation/image/itk_bridge.hpp"
 
 #include <itkGDCMImageIO.h>
-#include <itkGDCMSeriesFileNames.h>
 #include <itkImageFileReader.h>
 #include <itkImageSeriesReader.h>
-#include <itkMetaDataObject.h>
 
 #include <cmath>
 #include <limits>
 #include <span>
 #include <stdexcept>
 
+#include "segmentation/files/readable_file.hpp"
+#include "segmentation/image/dicom_series.hpp"
 #include "segmentation/image/image_format.hpp"
 #include "segmentation/image/whole_file.hpp"
 
@@ -20,59 +20,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_present(const fs::path& file) {
-  if (!fs::exists(file)) {
-    throw std::invalid_argument(file.string() + ": no such file; check the path");
-  }
-  if (fs::is_regular_file(file) && fs::file_size(file) == 0) {
-    throw std::invalid_argument(file.string() + ": the file is empty; copy it again");
-  }
-}
-
-void check_shape(const fs::path& file, const itk::ImageIOBase& io, unsigned components) {
-  const unsigned dimensions = io.GetNumberOfDimensions();
-  bool one_volume = dimensions >= 3;
-  for (unsigned axis = 3; axis < dimensions; ++axis) {
-    one_volume = one_volume && io.GetDimensions(axis) == 1;
-  }
-  if (!one_volume) {
-    std::string size;
-    for (unsigned axis = 0; axis < dimensions; ++axis) {
-      size += (axis == 0 ? "" : " x ") + std::to_string(io.GetDimensions(axis));
-    }
-    throw std::invalid_argument(file.string() + ": one 3-D volume is needed, the file holds " + size +
-                                " voxels; extract one volume");
-  }
-  if (io.GetNumberOfComponents() != components) {
-    throw std::invalid_argument(file.string() + ": " + std::to_string(components) +
-                                " value(s) a voxel are needed, the file holds " +
-                                std::to_string(io.GetNumberOfComponents()));
-  }
-}
-
-void check_geometry(const fs::path& file, const ImageGeometry& geometry) {
-  const bool finite = geometry.spacing.allFinite() && geometry.origin.allFinite() && geometry.direction.allFinite();
-  if (!finite || !(geometry.spacing.minCoeff() > 0)) {
-    throw std::invalid_argument(
-        file.string() +
-        ": the header's spacing, origin or direction is not finite or the spacing is not positive; repair the header");
-  }
-}
-
 template <class Pixel>
 using Pointer = typename itk::Image<Pixel, 3>::Pointer;
 
+// What the library makes of a file must be what we checked.
+void check_agreement(const fs::path& file, const itk::ImageIOBase& io, const ImageHeader& header) {
+  bool same = io.GetNumberOfComponents() == header.components && io.GetNumberOfDimensions() >= 2;
+  for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis) {
+    same = same && io.GetDimensions(axis) == (axis < header.size.size() ? header.size[axis] : 1);
+  }
+  if (!same) {
+    refuse(file, "the header contradicts itself on the size of the image; convert it to .nii.gz");
+  }
+}
+
 template <class Pixel>
 Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
+  check_readable(file);
   const ImageFormat format = image_format(file);
+  const ImageHeader header = check_whole(file, format, components);
   const auto io = make_image_io(format);
-  if (!io->CanReadFile(file.c_str())) {
-    throw std::invalid_argument(file.string() + ": is not an image of the kind that its ending says, or is damaged");
-  }
   io->SetFileName(file.string());
   io->ReadImageInformation();
-  check_shape(file, *io, components);
-  check_whole(file, format, *io);
+  check_agreement(file, *io, header);
   auto reader = itk::ImageFileReader<itk::Image<Pixel, 3>>::New();
   reader->SetImageIO(io);
   reader->SetFileName(file.string());
@@ -80,53 +50,55 @@ Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
   return reader->GetOutput();
 }
 
-std::vector<std::string> dicom_slices(const fs::path& folder) {
-  auto names = itk::GDCMSeriesFileNames::New();
-  names->SetUseSeriesDetails(false);
-  names->SetDirectory(folder.string());
-  const auto& series = names->GetSeriesUIDs();
-  if (series.size() != 1) {
-    throw std::invalid_argument(folder.string() +
-                                ": a folder with exactly one DICOM series is needed, this one holds " +
-                                std::to_string(series.size()));
-  }
-  return names->GetFileNames(series.front());
-}
-
 template <class Pixel>
 Pointer<Pixel> read_dicom(const fs::path& folder, unsigned components) {
-  const auto slices = dicom_slices(folder);
+  if (components != 1) {
+    refuse(folder,
+           "a folder with a DICOM series holds one value a voxel; " + std::to_string(components) + " are needed");
+  }
+  const DicomSeries series = read_dicom_series(folder);
   auto io = itk::GDCMImageIO::New();
-  io->SetFileName(slices.front());
+  io->SetFileName(series.files.front());
   io->ReadImageInformation();
-  if (components != 1 || io->GetNumberOfComponents() != 1) {
-    throw std::invalid_argument(folder.string() + ": a DICOM series of one value a voxel is needed");
+  if (io->GetNumberOfComponents() != 1 || io->GetDimensions(0) != series.header.size[0] ||
+      io->GetDimensions(1) != series.header.size[1]) {
+    refuse(folder, "a DICOM series of one value a voxel is needed");
   }
   auto reader = itk::ImageSeriesReader<itk::Image<Pixel, 3>>::New();
   reader->SetImageIO(io);
-  reader->SetFileNames(slices);
+  reader->SetFileNames(series.files);
   reader->Update();
-  double deviation = 0;
-  itk::ExposeMetaData(reader->GetOutput()->GetMetaDataDictionary(), "ITK_non_uniform_sampling_deviation", deviation);
-  const double allowed = 0.1 * reader->GetOutput()->GetSpacing()[2];
-  if (!(deviation <= allowed)) {
-    throw std::invalid_argument(folder.string() + ": the DICOM slices are not evenly spaced (off by " +
-                                std::to_string(deviation) + " mm); is a slice missing?");
-  }
   return reader->GetOutput();
+}
+
+// ITK's NIfTI and DICOM readers choose between parts of the header, so what they took is looked at again.
+void check_read_geometry(const fs::path& file, const ImageGeometry& geometry) {
+  ImageHeader taken;
+  for (const int along : geometry.size) {
+    taken.size.push_back(static_cast<std::uint64_t>(along));
+  }
+  taken.spacing = geometry.spacing;
+  taken.origin = geometry.origin;
+  taken.direction = geometry.direction;
+  check_volume(file, taken, 1);
 }
 
 template <class Pixel>
 Pointer<Pixel> read_any(const fs::path& file, unsigned components) {
-  check_present(file);
+  std::error_code unknown;
   try {
-    auto image = fs::is_directory(file) ? read_dicom<Pixel>(file, components) : read_file<Pixel>(file, components);
-    check_geometry(file, geometry_of(*image));
+    auto image =
+        fs::is_directory(file, unknown) ? read_dicom<Pixel>(file, components) : read_file<Pixel>(file, components);
+    check_read_geometry(file, geometry_of(*image));
     return image;
   } catch (const std::invalid_argument&) {
     throw;
-  } catch (const std::exception& fault) {
-    throw std::invalid_argument(file.string() + ": cannot be read, damaged or truncated (" + reason_of(fault) + ")");
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const itk::MemoryAllocationError&) {
+    throw std::bad_alloc();
+  } catch (const std::exception&) {
+    refuse(file, "cannot be read, damaged or truncated; copy it again, or convert it to .nii.gz");
   }
 }
 

@@ -2,43 +2,22 @@
 #include "segmentation/image/whole_file.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <span>
 #include <stdexcept>
 #include <vector>
 
+#include "segmentation/files/refuse.hpp"
+#include "segmentation/image/bytes.hpp"
 #include "segmentation/image/gzip_file.hpp"
 
 namespace brainshift {
 namespace {
 
 namespace fs = std::filesystem;
-using ByteView = std::span<const std::uint8_t>;
-
-void refuse_short(const fs::path& file, std::uintmax_t expected, std::uintmax_t found) {
-  throw std::invalid_argument(file.string() + ": truncated: the header promises " + std::to_string(expected) +
-                              " bytes of voxels, the file holds " + std::to_string(found) + "; copy the file again");
-}
-
-// A number at a place in the bytes, which may be in the other byte order.
-template <class T>
-T number_at(ByteView bytes, std::size_t place, bool swapped) {
-  std::array<std::uint8_t, sizeof(T)> raw{};
-  std::memcpy(raw.data(), bytes.data() + place, sizeof(T));
-  if (swapped) {
-    std::reverse(raw.begin(), raw.end());
-  }
-  return std::bit_cast<T>(raw);
-}
 
 template <class T>
-void check_finite(const fs::path& file, ByteView values, bool swapped, const itk::ImageIOBase& io) {
+void check_finite(const fs::path& file, ByteView values, bool swapped, const ImageHeader& header) {
   std::ptrdiff_t bad = 0;
   std::size_t first = 0;
   for (std::size_t i = 0; i < values.size() / sizeof(T); ++i) {
@@ -48,94 +27,64 @@ void check_finite(const fs::path& file, ByteView values, bool swapped, const itk
     }
   }
   if (bad > 0) {
-    const Eigen::Array3i size(static_cast<int>(io.GetDimensions(0)), static_cast<int>(io.GetDimensions(1)),
-                              static_cast<int>(io.GetDimensions(2)));
+    const Eigen::Array3i size(static_cast<int>(header.size[0]), static_cast<int>(header.size[1]),
+                              static_cast<int>(header.size[2]));
     const auto voxels = static_cast<std::size_t>(size.cast<long>().prod());  // components lie one behind the other
     refuse_not_finite(file, bad, size, first % voxels);
   }
 }
 
-// NIfTI's codes.
-constexpr std::int16_t float32 = 16, float64 = 64;
-
-// Of one component. The reader, too, goes by the data type and not by the bits of a voxel that stand beside it.
-std::size_t bytes_of(std::int16_t datatype) {
-  constexpr std::int16_t uint8 = 2, int16 = 4, int32 = 8, rgb = 128, int8 = 256, uint16 = 512, uint32 = 768,
-                         int64 = 1024, uint64 = 1280;
-  switch (datatype) {
-    case uint8:
-    case int8:
-    case rgb:
-      return 1;
-    case int16:
-    case uint16:
-      return 2;
-    case int32:
-    case uint32:
-    case float32:
-      return 4;
-    case int64:
-    case uint64:
-    case float64:
-      return 8;
-    default:
-      return 0;  // the reader refuses it
+void check_nifti_voxels(const fs::path& file, const ImageHeader& header) {
+  constexpr std::size_t padding = std::size_t{1} << 20;
+  const std::size_t end = header.voxels_at + header.bytes();
+  const std::vector<std::uint8_t> bytes =
+      header.compressed ? uncompressed(file, end + padding) : first_uncompressed(file, end);
+  if (bytes.size() < end) {
+    refuse(file, "truncated: the header promises " + std::to_string(header.bytes()) +
+                     " bytes of voxels, the file holds " +
+                     std::to_string(bytes.size() - std::min<std::size_t>(bytes.size(), header.voxels_at)) +
+                     "; copy the file again");
   }
-}
-
-void check_nifti(const fs::path& file, const itk::ImageIOBase& io) {
-  const std::vector<std::uint8_t> bytes = uncompressed(file);
-  constexpr std::size_t header_size = 352;
-  if (bytes.size() < header_size) {
-    throw std::invalid_argument(file.string() + ": truncated within the header; copy the file again");
-  }
-  const bool swapped = number_at<std::int32_t>(bytes, 0, false) != 348;
-  const auto stored_offset = number_at<float>(bytes, 108, swapped);
-  const std::size_t offset = stored_offset > 352.0F ? static_cast<std::size_t>(stored_offset) : header_size;
+  const bool swapped = number_at<std::int32_t>(bytes, 0) != 348;
   const auto datatype = number_at<std::int16_t>(bytes, 70, swapped);
-  const std::size_t expected = static_cast<std::size_t>(io.GetImageSizeInComponents()) * bytes_of(datatype);
-  const std::size_t found = bytes.size() > offset ? bytes.size() - offset : 0;
-  if (found < expected) {
-    refuse_short(file, expected, found);
-  }
+  const ByteView voxels = ByteView(bytes).subspan(header.voxels_at, header.bytes());
+  constexpr std::int16_t float32 = 16, float64 = 64;
   if (datatype == float32) {
-    check_finite<float>(file, ByteView(bytes).subspan(offset, expected), swapped, io);
+    check_finite<float>(file, voxels, swapped, header);
   }
   if (datatype == float64) {
-    check_finite<double>(file, ByteView(bytes).subspan(offset, expected), swapped, io);
+    check_finite<double>(file, voxels, swapped, header);
   }
 }
 
-// The data begin after the line that says LOCAL.
-void check_meta(const fs::path& file, const itk::ImageIOBase& io) {
-  std::ifstream in(file, std::ios::binary);
-  auto expected = static_cast<std::uintmax_t>(io.GetImageSizeInBytes());
-  std::string line;
-  while (std::getline(in, line) && !line.starts_with("ElementDataFile")) {
-    if (line.starts_with("CompressedDataSize")) {
-      const std::size_t number = std::min(line.find_first_of("0123456789"), line.size());
-      std::from_chars(line.data() + number, line.data() + line.size(), expected);
-    }
+ImageHeader read_header(const fs::path& file, ImageFormat format) {
+  switch (format) {
+    case ImageFormat::nifti:
+      if (is_gzip(file)) {
+        refuse(file, "is compressed; name it .nii.gz");
+      }
+      return read_nifti_header(file);
+    case ImageFormat::nifti_gz:
+      return read_nifti_header(file);
+    case ImageFormat::meta:
+      return read_meta_header(file);
+    case ImageFormat::nrrd:
+      return read_nrrd_header(file);
   }
-  const auto begin = in.tellg();
-  const auto found = begin < 0 ? 0 : fs::file_size(file) - static_cast<std::uintmax_t>(begin);
-  if (found < expected) {
-    refuse_short(file, expected, found);
-  }
+  throw std::logic_error("unknown image format");
 }
 
 }  // namespace
 
-void check_whole(const fs::path& file, ImageFormat format, const itk::ImageIOBase& io) {
-  switch (format) {
-    case ImageFormat::nifti:
-    case ImageFormat::nifti_gz:
-      return check_nifti(file, io);
-    case ImageFormat::meta:
-      return check_meta(file, io);
-    case ImageFormat::nrrd:
-      return;  // its reader notices
+ImageHeader check_whole(const fs::path& file, ImageFormat format, std::uint64_t components) {
+  ImageHeader header = read_header(file, format);
+  check_header(file, header, components);
+  if (format == ImageFormat::nifti || format == ImageFormat::nifti_gz) {
+    check_nifti_voxels(file, header);
+  } else if (header.compressed) {
+    check_inflates(file, header.voxels_at, header.bytes());
   }
+  return header;
 }
 
 std::string voxel_name(const Eigen::Array3i& size, std::size_t offset) {

@@ -9,12 +9,14 @@
 #include <string>
 
 #include "segmentation/image/image_format.hpp"
+#include "segmentation/image/image_header.hpp"
 
 namespace brainshift {
 
-/// Throws std::invalid_argument when the file holds fewer voxels than its header says, or, in NIfTI, values that are
-/// not finite: ITK's reader takes zeros for both. io must have read the header.
-void check_whole(const std::filesystem::path& file, ImageFormat format, const itk::ImageIOBase& io);
+/// Reads the header, checks it (image_header.hpp), and that the voxels it promises are there: whole after decompression
+/// and, in NIfTI, finite. ITK's readers take zeros, or memory that nobody set, for what is not. Throws
+/// std::invalid_argument, naming the file.
+ImageHeader check_whole(const std::filesystem::path& file, ImageFormat format, std::uint64_t components);
 
 /// "voxel (i, j, k)" of an offset into the voxels.
 std::string voxel_name(const Eigen::Array3i& size, std::size_t offset);

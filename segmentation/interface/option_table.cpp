@@ -6,7 +6,7 @@ namespace brainshift::segmentation {
 const OptionTable<SegmentOptions>& segment_options() {
   using Options = SegmentOptions;
   static const OptionTable<Options> table = {
-      number_option<Options>("edge_length", &Options::edge_length, above_zero, "mm",
+      number_option<Options>("edge_length", &Options::edge_length, {.low = 0.5}, "mm",
                              "target edge of the remeshed surfaces"),
       number_option<Options>("classes", &Options::classes, {.low = 2, .high = 10}, "",
                              "fuzzy c-means classes (CSF, grey, white) when there are no labels"),

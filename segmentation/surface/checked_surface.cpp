@@ -42,6 +42,10 @@ CheckedSurface checked_surface(const Surface& surface, double edge_length) {
   if (surface.triangles.rows() == 0) {
     throw std::invalid_argument("the surface holds no triangle; a closed, triangulated surface is needed");
   }
+  if (is_flat(surface)) {
+    throw std::invalid_argument(
+        "the surface's triangles lie in one point, line or plane; a closed surface around a brain is needed");
+  }
   SurfaceMeasures given = measure(surface);
   const bool inside_out = given.closed && !given.self_intersecting && given.volume < 0;
   const Surface outward = inside_out ? turned(surface) : surface;

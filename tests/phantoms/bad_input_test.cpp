@@ -241,7 +241,8 @@ TEST_F(BadInput, CommandLinesThatMakeNoSense) {
   expect_refused("brainshift run --threads 0 " + at("scene.xml") + " --out " + at("out"), {"threads"});
   expect_refused("brainshift run --quiet " + at("scene.xml") + " --until lunch --out " + at("out"),
                  {"lunch", "discretise"});
-  expect_refused("brainshift segment --edge-length -3 --labels a --out " + at("out"), {"--edge-length", "-3", "> 0"});
+  expect_refused("brainshift segment --edge-length -3 --labels a --out " + at("out"),
+                 {"--edge-length", "-3", ">= 0.5"});
   expect_refused(solve_ball("--material 1:3000"), {"--material", "LABEL:E_Pa,nu"});
   expect_refused(solve_ball("--material 1:3000,0.7"), {"poisson_ratio", "0.7"});
 }

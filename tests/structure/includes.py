@@ -15,7 +15,7 @@ from collections import defaultdict
 from pathlib import Path
 
 STAGES = ["segmentation", "discretise", "solve", "register", "pipelines"]
-GROUND = ["segmentation/progress", "segmentation/options", "segmentation/geometry", "segmentation/image", "segmentation/files"]
+GROUND = ["segmentation/progress", "segmentation/options", "segmentation/geometry", "segmentation/files", "segmentation/image"]
 SOLVE_ROOMS = [
     "solve/" + room
     for room in (

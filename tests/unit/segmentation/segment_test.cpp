@@ -104,6 +104,17 @@ TEST(Segment, TheSkullsInnerSurfaceComesFromItsLabel) {
   EXPECT_NEAR((result.brain.vertices.rowwise() - centre.transpose()).rowwise().norm().mean(), brain_radius, 0.5);
 }
 
+TEST(Segment, AGivenSurfaceOfAnotherUnitOrWithAStrayVertexIsRefused) {
+  Surface metres = tetrahedron(), stray = tetrahedron();
+  metres.vertices /= 1000;
+  stray.vertices(3, 2) = 1e9;
+  for (const Surface& surface : {metres, stray}) {
+    SegmentInput input;
+    input.surface = surface;
+    EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(input, {}); }, {"mm across", "20 to 500 mm"}));
+  }
+}
+
 TEST(Segment, TheSameInputGivesTheSameSurfaceBitForBit) {
   SegmentInput input;
   input.labels = head(oblique()).labels;

@@ -135,8 +135,8 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
       {"<image/>\n<image/>", {at + "3", "twice"}},
       {"<stage name=\"segmnet\"/>", {at + "2", "segmnet", "segment, discretise"}},
       {"<stage/>", {at + "2", "name"}},
-      {"<stage name=\"segment\"\n edge_length=\"-1\"/>", {at + "3", "edge_length", "'-1'", "> 0", "mm"}},
-      {"<stage name=\"segment\" edge_length=\"nan\"/>", {at + "2", "'nan'", "> 0"}},
+      {"<stage name=\"segment\"\n edge_length=\"-1\"/>", {at + "3", "edge_length", "'-1'", ">= 0.5", "mm"}},
+      {"<stage name=\"segment\" edge_length=\"nan\"/>", {at + "2", "'nan'", ">= 0.5"}},
       {"<stage name=\"segment\" edge_length=\"5mm\"/>", {at + "2", "'5mm'", "> 0"}},
       {"<stage name=\"segment\" classes=\"2.5\"/>", {at + "2", "'2.5'", "whole number from 2 to 10"}},
       {"<stage name=\"solve\" basis=\"cubic\"/>", {at + "2", "'cubic'", "linear | quadratic | modified_quadratic"}},
@@ -182,7 +182,7 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
 TEST_F(SceneFile, FaultsOfOverridesNameThePath) {
   expect_parts(fault("<scene/>", {"segment.edge=4"}), {"--set", "edge", "edge_length"});
   expect_parts(fault("<scene/>", {"segmentation.edge_length=4"}), {"--set", "segmentation", "segment"});
-  expect_parts(fault("<scene/>", {"segment.edge_length=0"}), {"--set", "'0'", "> 0"});
+  expect_parts(fault("<scene/>", {"segment.edge_length=0"}), {"--set", "'0'", ">= 0.5"});
   expect_parts(fault("<scene/>", {"segment.edge_length"}), {"--set", "PATH=VALUE"});
   expect_parts(fault("<scene/>", {"tissues.3.density=1"}), {"--set", "no tissue of label '3'"});
   expect_parts(fault("<scene/>", {"load.simulated.depth=4"}), {"--set", "load.simulated.centre"});

@@ -89,6 +89,34 @@ TEST(SurfaceIo, ACoordinateThatIsNotFiniteIsNamedWithItsVertex) {
   EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_surface(file); }, {"vertex 3", "finite"}));
 }
 
+// CGAL's wrapping ends the program on a soup without extent.
+TEST(SurfaceIo, FacesInOnePointOrLineAreNoSurface) {
+  const ScratchFolder folder;
+  for (const std::string text :
+       {"v 0 0 0\nf 1 1 1\n", "v 0 0 0\nv 30 0 0\nf 1 2 1\n", "v 5 5 5\nv 5 5 5\nv 5 5 5\nv 5 5 5\nf 1 2 3\nf 1 2 4\n",
+        "v 0.1 0.1 0.1\nv 0.2 0.2 0.2\nv 0.3 0.3 0.3\nf 1 2 3\n"}) {
+    const auto file = folder.write("a.obj", text);
+    EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_surface(file); }, {"a.obj", "line"})) << text;
+  }
+}
+
+TEST(SurfaceIo, AVtpThatClaimsMoreThanItsLengthAllowsIsRefusedBeforeAnythingIsAllocated) {
+  const ScratchFolder folder;
+  const auto file = folder / "a.vtp";
+  write_surface(file, tetrahedron());
+  const std::string sound = bytes_of(file);
+  for (const std::string name : {"NumberOfPoints=\"", "NumberOfPolys=\"", "NumberOfComponents=\""}) {
+    for (const std::string number : {"1000000000", "99999999999999999999"}) {
+      std::string text = sound;
+      const std::size_t place = text.find(name) + name.size();
+      text.replace(place, text.find('"', place) - place, number);
+      EXPECT_TRUE(
+          throws_saying<std::invalid_argument>([&] { read_surface(folder.write("b.vtp", text)); }, {"b.vtp", "length"}))
+          << name << number;
+    }
+  }
+}
+
 TEST(SurfaceIo, AModelThatSaysRasIsTurnedToLps) {
   const ScratchFolder folder;
   std::ofstream(folder / "r.obj") << "# 3D Slicer output. SPACE=RAS\nv 1 2 3\nv 4 0 0\nv 0 5 0\nf 1 2 3\n";

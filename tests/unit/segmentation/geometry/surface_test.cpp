@@ -41,6 +41,21 @@ TEST(SurfaceGeometry, VolumeAndAreaOfABoxDoNotDependOnWhereItLies) {
   }
 }
 
+TEST(SurfaceGeometry, ExtentAndFlatnessAreThoseOfTheTriangles) {
+  Surface body = box({900, -700, 60}, {902, -697, 65});
+  body.vertices.conservativeResize(body.vertices.rows() + 1, 3);
+  body.vertices.bottomRows<1>() << 1e9, 0, 0;  // of no triangle
+  EXPECT_NEAR(extent(body), 5, 1e-9);
+  EXPECT_FALSE(is_flat(body));
+  Surface sheet = body;
+  sheet.triangles.conservativeResize(2, 3);
+  EXPECT_TRUE(is_flat(sheet));
+  sheet.triangles.setConstant(3);
+  EXPECT_TRUE(is_flat(sheet));
+  EXPECT_EQ(extent(sheet), 0);
+  EXPECT_TRUE(is_flat({}));
+}
+
 TEST(SurfaceGeometry, VolumeAndAreaOfATurnedBodyAreTheSame) {
   Surface body = sphere({3, 4, 5}, 10, 2);
   const double before = volume(body), area_before = area(body);

@@ -32,12 +32,4 @@ TEST(ImageFormat, HasTheReaderOfItsName) {
   EXPECT_STREQ(make_image_io(ImageFormat::meta)->GetNameOfClass(), "MetaImageIO");
 }
 
-TEST(ImageFormat, AFaultOfItkIsToldWithoutItsClassAndAddress) {
-  const itk::ExceptionObject fault("reader.cxx", 12, "ITK ERROR: NiftiImageIO(0x5581): no header\nwas found");
-  EXPECT_EQ(reason_of(fault), "no header was found");
-  EXPECT_EQ(reason_of(itk::ExceptionObject("reader.cxx", 12, "no header (of 348): bytes")),
-            "no header (of 348): bytes");
-  EXPECT_EQ(reason_of(std::runtime_error("the disk\nis full")), "the disk is full");
-}
-
 }  // namespace brainshift::test::image_format_test

@@ -2,11 +2,8 @@
 #include "segmentation/image/itk_bridge.hpp"  // before ITK's headers
 
 #include <gtest/gtest.h>
-#include <itkGDCMImageIO.h>
 #include <itkImageFileWriter.h>
-#include <itkImageSeriesWriter.h>
 #include <itkNiftiImageIO.h>
-#include <itkNumericSeriesFileNames.h>
 #include <sys/resource.h>
 
 #include <csignal>
@@ -93,29 +90,6 @@ TEST_P(EveryFormat, LeavesNoFileWhenTheDiskIsFull) {
   std::signal(SIGXFSZ, old_handler);
   EXPECT_TRUE(result);
   EXPECT_TRUE(std::filesystem::is_empty(file.parent_path()));
-}
-
-TEST(ImageIo, ADicomFolderIsOneImage) {
-  const ScratchFolder folder;
-  const auto geometry = grid_around({5.0, 6.0, 7.0}, 12, {0.8, 0.8, 2.0}, Eigen::Matrix3d::Identity());
-  auto labels = image_by<std::int16_t>(
-      geometry, [](const Eigen::Vector3d& x) { return static_cast<std::int16_t>(100 + std::lround(x.z() + x.x())); });
-  auto names = itk::NumericSeriesFileNames::New();
-  names->SetSeriesFormat((folder / "slice%03d.dcm").string());
-  names->SetStartIndex(1);
-  names->SetEndIndex(12);
-  auto writer = itk::ImageSeriesWriter<ItkImage<std::int16_t>, itk::Image<std::int16_t, 2>>::New();
-  auto io = itk::GDCMImageIO::New();
-  io->SetKeepOriginalUID(false);
-  writer->SetInput(seen_by_itk(labels));
-  writer->SetImageIO(io);
-  writer->SetFileNames(names->GetFileNames());
-  writer->Update();
-  const ScalarImage image = read_image(folder / "");
-  ASSERT_TRUE((image.geometry.size == geometry.size).all());
-  for (std::size_t i = 0; i < image.voxels.size(); ++i) {
-    ASSERT_EQ(image.voxels[i], static_cast<float>(labels.voxels[i]));
-  }
 }
 
 TEST(ImageIo, ASingleVolumeOfAFourDimensionalImageIsTakenAndTwoAreRefused) {

@@ -23,16 +23,9 @@ using std::filesystem::resize_file;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int size = 5;
 
-itk::ImageIOBase::Pointer header_of(const fs::path& file) {
-  const auto io = make_image_io(image_format(file));
-  io->SetFileName(file.string());
-  io->ReadImageInformation();
-  return io;
-}
-
 /// The sentence about a file; empty when it is whole.
-std::string fault(const fs::path& file) {
-  return refusal([&] { check_whole(file, image_format(file), *header_of(file)); });
+std::string fault(const fs::path& file, std::uint64_t components = 1) {
+  return refusal([&] { check_whole(file, image_format(file), components); });
 }
 
 /// Voxels 0, 1, 2, ... as they are in memory, not compressed.
@@ -84,7 +77,7 @@ TEST(WholeFile, OfEveryFormatIsAccepted) {
     write_image(folder / name, counted<std::int16_t>());
     EXPECT_EQ(fault(folder / name), "");
     write_image(folder / name, vectors);
-    EXPECT_EQ(fault(folder / name), "");
+    EXPECT_EQ(fault(folder / name, 3), "");
   }
 }
 
@@ -125,10 +118,8 @@ TEST(WholeFile, ThatIsShortIsRefusedWhateverItSaysOfTheBitsOfAVoxel) {
 TEST(WholeFile, OfLessThanAHeaderIsRefused) {
   const ScratchFolder folder;
   write_plain(folder / "a.nii", counted<float>());
-  const auto header = header_of(folder / "a.nii");
   resize_file(folder / "a.nii", 351);
-  expect_parts(refusal([&] { check_whole(folder / "a.nii", ImageFormat::nifti, *header); }),
-               {"a.nii", "truncated within the header"});
+  expect_parts(fault(folder / "a.nii"), {"a.nii", "header"});
 }
 
 TEST(WholeFile, NamesTheFirstValueThatIsNotFiniteAndCountsThem) {
@@ -148,7 +139,7 @@ TEST(WholeFile, NamesTheVoxelOfAVectorWhicheverComponentIsNotFinite) {
   VectorImage vectors{counted<float>().geometry, std::vector<std::array<float, 3>>(size * size * size)};
   vectors.at(1, 2, 3)[2] = static_cast<float>(nan);
   write_image(folder / "v.nii", vectors);
-  expect_parts(fault(folder / "v.nii"), {"1 value(s)", "voxel (1, 2, 3)"});
+  expect_parts(fault(folder / "v.nii", 3), {"1 value(s)", "voxel (1, 2, 3)"});
 }
 
 TEST(WholeFile, InTheOtherByteOrderIsTheSame) {

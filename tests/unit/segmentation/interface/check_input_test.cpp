@@ -44,7 +44,7 @@ TEST(Segment, InputThatDoesNotFitIsRefusedInASentence) {
   SegmentOptions bad = two_labels();
   bad.edge_length = std::nan("");
   EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(lacking, bad); },
-                                                   {"edge_length is 'nan', but must be a number > 0 (mm)"}));
+                                                   {"edge_length is 'nan', but must be a number >= 0.5 (mm)"}));
 }
 
 TEST(Segment, RefusesABrainWhoseLengthsAreInMetres) {

@@ -28,14 +28,14 @@ TEST(SegmentOptions, AreAllInTheTable) {
 
 TEST(SegmentOptions, AreAllowedAsTheyAreByDefaultAndAtTheirEnds) {
   EXPECT_EQ(refusal([] { check_options({}); }), "");
-  EXPECT_EQ(fault(1e-9, 2, 0), "");
+  EXPECT_EQ(fault(0.5, 2, 0), "");
   EXPECT_EQ(fault(1e9, 10, 15), "");
 }
 
 TEST(SegmentOptions, OutOfRangeAreRefusedWithTheirUnit) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(fault(0, 3, 15), "edge_length is '0', but must be a number > 0 (mm)");
-  EXPECT_EQ(fault(std::nan(""), 3, 15), "edge_length is 'nan', but must be a number > 0 (mm)");
+  EXPECT_EQ(fault(0, 3, 15), "edge_length is '0', but must be a number >= 0.5 (mm)");
+  EXPECT_EQ(fault(std::nan(""), 3, 15), "edge_length is 'nan', but must be a number >= 0.5 (mm)");
   EXPECT_EQ(fault(5, 1, 15), "classes is '1', but must be a whole number from 2 to 10");
   EXPECT_EQ(fault(5, 11, 15), "classes is '11', but must be a whole number from 2 to 10");
   EXPECT_EQ(fault(5, 3, -1), "ventricle_depth is '-1', but must be a number >= 0 (mm)");

@@ -80,6 +80,9 @@ TEST(CheckedSurface, AFlatSheetIsRefused) {
   sheet.triangles.conservativeResize(1, 3);
   EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { checked_surface(sheet, 5.0); }, {"surface"}));
   EXPECT_TRUE(throws_saying<std::invalid_argument>([] { checked_surface({}, 5.0); }, {"no triangle"}));
+  Surface flat = tetrahedron();
+  flat.vertices.col(2) = flat.vertices.col(0) + flat.vertices.col(1);
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { checked_surface(flat, 5.0); }, {"plane"}));
 }
 
 }  // namespace brainshift::test::checked_surface_test

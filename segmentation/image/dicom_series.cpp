@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/dicom_series.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <set>
+
+#include "segmentation/files/refuse.hpp"
+#include "segmentation/image/dicom_slice.hpp"
+
+namespace brainshift {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> dicom_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code fault;
+  for (const auto& entry : fs::directory_iterator(folder, fault)) {
+    if (is_dicom_slice(entry.path())) {
+      files.push_back(entry.path());
+    }
+  }
+  if (fault) {
+    refuse(folder, "the folder cannot be listed (" + fault.message() + "); change its permissions");
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<DicomSlice> read_slices(const fs::path& folder) {
+  std::vector<DicomSlice> slices;
+  std::set<std::string> series;
+  for (const fs::path& file : dicom_files(folder)) {
+    slices.push_back(read_dicom_slice(file));
+    series.insert(slices.back().series);
+  }
+  if (series.empty()) {
+    refuse(folder, "is a folder with no DICOM file (DICM at byte 128); name the folder of one DICOM series, or a file");
+  }
+  if (series.size() != 1) {
+    refuse(folder, "a folder with exactly one DICOM series is needed, this one holds " + std::to_string(series.size()));
+  }
+  return slices;
+}
+
+bool close(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double tolerance = 1e-4;
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) {
+           return std::abs(x - y) <= tolerance * std::max(1.0, std::abs(x));
+         });
+}
+
+void check_alike(const DicomSlice& slice, const DicomSlice& first) {
+  const auto need = [&](bool same, const char* name) {
+    if (!same) {
+      refuse(slice.file, std::string("its ") + name + " is not that of " + first.file.filename().string() +
+                             ", another slice of the series; one of the two is damaged or of another scan");
+    }
+  };
+  need(slice.rows == first.rows, "Rows");
+  need(slice.columns == first.columns, "Columns");
+  need(slice.bits_allocated == first.bits_allocated, "BitsAllocated");
+  need(slice.pixel_representation == first.pixel_representation, "PixelRepresentation");
+  need(close(slice.spacing, first.spacing), "PixelSpacing");
+  need(close(slice.orientation, first.orientation), "ImageOrientationPatient");
+  if (slice.frames != 1) {
+    refuse(slice.file, "holds " + std::to_string(slice.frames) +
+                           " frames and is not alone in its folder; leave it alone there, or take single slices");
+  }
+}
+
+Eigen::Vector3d position_of(const DicomSlice& slice) {
+  return Eigen::Vector3d::Map(slice.position.data());
+}
+
+// Sorts the slices along the normal; the distance of two neighbours.
+double in_order(const fs::path& folder, std::vector<DicomSlice>& slices, const Eigen::Vector3d& normal) {
+  const auto height = [&](const DicomSlice& slice) { return normal.dot(position_of(slice)); };
+  std::sort(slices.begin(), slices.end(),
+            [&](const DicomSlice& a, const DicomSlice& b) { return height(a) < height(b); });
+  const auto count = static_cast<double>(slices.size() - 1);
+  const Eigen::Vector3d step =
+      slices.size() > 1 ? Eigen::Vector3d((position_of(slices.back()) - position_of(slices.front())) / count) : normal;
+  const double distance = step.norm();
+  constexpr double tolerance = 0.1;  // of the distance
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    const Eigen::Vector3d even = position_of(slices.front()) + static_cast<double>(i) * step;
+    const double off = (position_of(slices[i]) - even).norm();
+    if (!(distance > 0) || !(off <= tolerance * distance)) {
+      refuse(folder, "the DICOM slices are not evenly spaced (" + slices[i].file.filename().string() + " is off by " +
+                         std::to_string(off) + " mm); is a slice missing, or there twice?");
+    }
+  }
+  if (!((step.normalized() - normal).norm() <= 0.01)) {
+    refuse(folder, "the DICOM slices are shifted against each other, as by a tilted gantry; resample the series");
+  }
+  return distance;
+}
+
+}  // namespace
+
+DicomSeries read_dicom_series(const fs::path& folder) {
+  std::vector<DicomSlice> slices = read_slices(folder);
+  const DicomSlice first = slices.front();
+  DicomSeries series;
+  series.header.size = {first.columns, first.rows, first.frames};
+  series.header.bytes_a_value = first.bits_allocated / 8;
+  if (slices.size() > 1 || first.frames == 1) {
+    for (const DicomSlice& slice : slices) {
+      check_alike(slice, first);
+    }
+    const Eigen::Vector3d row = Eigen::Vector3d::Map(first.orientation.data());
+    const Eigen::Vector3d column = Eigen::Vector3d::Map(first.orientation.data() + 3);
+    series.header.direction << row, column, row.cross(column);
+    series.header.size[2] = slices.size();
+    check_volume(first.file, series.header, 1);  // sorting needs a direction
+    const double distance = in_order(folder, slices, series.header.direction.col(2));
+    series.header.spacing = Eigen::Vector3d(first.spacing[1], first.spacing[0], distance);
+    series.header.origin = position_of(slices.front());
+  }
+  check_volume(folder, series.header, 1);
+  for (const DicomSlice& slice : slices) {
+    series.files.push_back(slice.file.string());
+  }
+  return series;
+}
+
+}  // namespace brainshift

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "segmentation/files/refuse.hpp"
+#include "segmentation/image/bytes.hpp"
+#include "segmentation/image/gzip_file.hpp"
+#include "segmentation/image/image_header.hpp"
+
+namespace brainshift {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t nifti_header_size = 348;
+constexpr std::size_t first_voxel = 352;
+
+/// The 348 bytes of a NIfTI-1 header, in either byte order.
+struct NiftiFields {
+  ByteView bytes;
+  bool swapped;
+
+  int whole(std::size_t place) const { return number_at<std::int16_t>(bytes, place, swapped); }
+  double real(std::size_t place) const { return number_at<float>(bytes, place, swapped); }
+  int dimension(int axis) const { return whole(40 + 2 * static_cast<std::size_t>(axis)); }
+  double step(int axis) const { return real(76 + 4 * static_cast<std::size_t>(axis)); }
+  int qform_code() const { return whole(252); }
+  int sform_code() const { return whole(254); }
+};
+
+std::uint64_t nifti_value_size(const fs::path& file, int datatype) {
+  switch (datatype) {
+    case 2:    // uint8
+    case 256:  // int8
+      return 1;
+    case 4:    // int16
+    case 512:  // uint16
+      return 2;
+    case 8:    // int32
+    case 16:   // float
+    case 768:  // uint32
+      return 4;
+    case 64:    // double
+    case 1024:  // int64
+    case 1280:  // uint64
+      return 8;
+    default:
+      refuse(file, "holds values of NIfTI's type " + std::to_string(datatype) +
+                       "; integers of 8 to 64 bits and floats of 32 or 64 are read");
+  }
+}
+
+// The fifth axis holds the components of a vector.
+void read_nifti_size(const fs::path& file, const NiftiFields& fields, ImageHeader& header) {
+  const int dimensions = fields.dimension(0);
+  if (dimensions < 1 || dimensions > 7) {
+    refuse(file, "the header says " + std::to_string(dimensions) + " dimensions; repair the header");
+  }
+  for (int axis = 1; axis <= dimensions; ++axis) {
+    const int along = axis > 3 ? std::max(1, fields.dimension(axis)) : fields.dimension(axis);
+    if (along < 1) {
+      refuse(file, "the header says " + std::to_string(along) + " voxels along axis " + std::to_string(axis) +
+                       "; repair the header");
+    }
+    (axis == 5 ? header.components : header.size.emplace_back()) = static_cast<std::uint64_t>(along);
+  }
+}
+
+Eigen::Matrix<double, 3, 4> sform(const NiftiFields& fields) {
+  Eigen::Matrix<double, 3, 4> result;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      result(row, column) = fields.real(280 + 4 * static_cast<std::size_t>(4 * row + column));
+    }
+  }
+  return result;
+}
+
+// NaN where one of them is not finite.
+template <class Matrix>
+double largest_of(const Matrix& values) {
+  return values.allFinite() ? values.cwiseAbs().maxCoeff() : std::nan("");
+}
+
+// Not finite where the three numbers of the quaternion are of no rotation.
+Eigen::Matrix3d qform_direction(const NiftiFields& fields) {
+  const Eigen::Vector3d axis(fields.real(256), fields.real(260), fields.real(264));
+  constexpr double tolerance = 1e-3;
+  if (!(axis.squaredNorm() <= 1 + tolerance)) {
+    return Eigen::Matrix3d::Constant(std::nan(""));
+  }
+  const double real_part = std::sqrt(std::max(0.0, 1 - axis.squaredNorm()));
+  Eigen::Matrix3d direction =
+      Eigen::Quaterniond(real_part, axis.x(), axis.y(), axis.z()).normalized().toRotationMatrix();
+  direction.col(2) *= fields.step(0) < 0 ? -1.0 : 1.0;
+  return direction;
+}
+
+// ITK's matrices end the program on what is not finite, in single precision.
+void check_finite_form(const fs::path& file, const char* name, double largest) {
+  constexpr double longest = 1e6;  // mm
+  if (!(largest < longest)) {
+    refuse(file, std::string("the header's ") + name + " is not finite or beyond a kilometre; repair the header");
+  }
+}
+
+void read_qform(const fs::path& file, const NiftiFields& fields, ImageHeader& header) {
+  header.direction = qform_direction(fields);
+  header.origin = Eigen::Vector3d(fields.real(268), fields.real(272), fields.real(276));
+  check_finite_form(file, "qform", largest_of(header.direction));
+  check_finite_form(file, "qform", largest_of(header.origin));
+}
+
+// ITK takes the spacing from pixdim, and the sform's directions where there is no other form or it is the scanner's.
+void read_sform(const fs::path& file, const NiftiFields& fields, ImageHeader& header) {
+  const auto form = sform(fields);
+  check_finite_form(file, "sform", largest_of(form));
+  ImageHeader by_sform;
+  set_axes(by_sform, form.leftCols<3>());
+  constexpr double itk_tolerance = 1e-4;
+  const bool sheared = !is_orthonormal(by_sform.direction, itk_tolerance);
+  if (sheared && fields.qform_code() > 0) {
+    return;
+  }
+  if (sheared) {
+    refuse(file, "the header's sform is sheared or singular; resample the image onto a grid at right angles");
+  }
+  const Eigen::Vector3d off = (by_sform.spacing - header.spacing).cwiseAbs();
+  const bool same_size = (off.array() <= 0.01 * header.spacing.array()).all();
+  if (!same_size && (fields.qform_code() <= 0 || fields.sform_code() == 1)) {
+    refuse(file, "the header's sform and pixdim differ on the size of a voxel; repair the header");
+  }
+  header.direction = by_sform.direction;
+  header.origin = form.col(3);
+}
+
+void read_nifti_geometry(const fs::path& file, const NiftiFields& fields, ImageHeader& header) {
+  header.spacing = Eigen::Vector3d(fields.step(1), fields.step(2), fields.step(3)).cwiseAbs();
+  if (fields.qform_code() > 0) {
+    read_qform(file, fields, header);
+  }
+  if (fields.sform_code() > 0) {
+    read_sform(file, fields, header);
+  }
+}
+
+}  // namespace
+
+ImageHeader read_nifti_header(const fs::path& file) {
+  const std::vector<std::uint8_t> bytes = first_uncompressed(file, nifti_header_size);
+  if (bytes.size() < nifti_header_size) {
+    refuse(file, "truncated within the header; copy the file again");
+  }
+  const bool swapped = number_at<std::int32_t>(bytes, 0) != static_cast<std::int32_t>(nifti_header_size);
+  const NiftiFields fields{bytes, swapped};
+  const std::string_view magic(reinterpret_cast<const char*>(bytes.data()) + 344, 3);
+  if (number_at<std::int32_t>(bytes, 0, swapped) != static_cast<std::int32_t>(nifti_header_size) || magic != "n+1") {
+    refuse(file, "is no NIfTI-1 image in one file, or its header is damaged; convert it to .nii.gz");
+  }
+  ImageHeader header;
+  header.bytes_a_value = nifti_value_size(file, fields.whole(70));
+  read_nifti_size(file, fields, header);
+  read_nifti_geometry(file, fields, header);
+  const double offset = fields.real(108);
+  if (!(offset >= 0 && offset < 1e9)) {
+    refuse(file, "the header's offset of the voxels is " + std::to_string(offset) + "; repair the header");
+  }
+  header.voxels_at = std::max(first_voxel, static_cast<std::size_t>(offset));
+  header.compressed = is_gzip(file);
+  return header;
+}
+
+}  // namespace brainshift

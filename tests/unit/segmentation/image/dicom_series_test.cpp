@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/dicom_series.hpp"
+
+#include <gtest/gtest.h>
+
+#include "segmentation/image/image.hpp"
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/segmentation/builders.hpp"
+
+namespace brainshift::test::dicom_series_test {
+
+std::string little_endian(std::uint64_t value, int bytes) {
+  std::string text;
+  for (int i = 0; i < bytes; ++i) {
+    text += static_cast<char>(value >> (8 * i) & 0xff);
+  }
+  return text;
+}
+
+std::string element(std::uint64_t group, std::uint64_t number, const std::string& kind, std::string value) {
+  value += value.size() % 2 == 0 ? "" : std::string(1, kind == "UI" ? '\0' : ' ');
+  const bool is_long = kind == "OB" || kind == "OW" || kind == "SQ";
+  return little_endian(group, 2) + little_endian(number, 2) + kind +
+         (is_long ? std::string(2, '\0') + little_endian(value.size(), 4) : little_endian(value.size(), 2)) + value;
+}
+
+/// A slice of an MR series in explicit little endian; pixel (i, j) holds value + i + 10 j.
+struct Drawn {
+  std::uint64_t rows = 3, columns = 4, bits = 16, value = 100;
+  std::string series = "1.2.3.4", spacing = "0.8\\0.7", orientation = "1\\0\\0\\0\\1\\0", position = "-1\\-2\\0";
+  std::string sequence;
+
+  std::string header() const {
+    const std::string meta = element(2, 2, "UI", "1.2.840.10008.5.1.4.1.1.4") +
+                             element(2, 3, "UI", "1.2.3.5." + position.substr(position.rfind('\\') + 1)) +
+                             element(2, 0x10, "UI", "1.2.840.10008.1.2.1");
+    return std::string(128, '\0') + "DICM" + element(2, 0, "UL", little_endian(meta.size(), 4)) + meta +
+           element(8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.4") +
+           element(8, 0x18, "UI", "1.2.3.5." + position.substr(position.rfind('\\') + 1)) +
+           element(8, 0x60, "CS", "MR") + sequence + element(0x20, 0xe, "UI", series) +
+           element(0x20, 0x32, "DS", position) + element(0x20, 0x37, "DS", orientation) +
+           element(0x28, 2, "US", little_endian(1, 2)) + element(0x28, 4, "CS", "MONOCHROME2") +
+           element(0x28, 0x10, "US", little_endian(rows, 2)) + element(0x28, 0x11, "US", little_endian(columns, 2)) +
+           element(0x28, 0x30, "DS", spacing) + element(0x28, 0x100, "US", little_endian(bits, 2)) +
+           element(0x28, 0x101, "US", little_endian(bits, 2)) + element(0x28, 0x102, "US", little_endian(bits - 1, 2)) +
+           element(0x28, 0x103, "US", little_endian(0, 2));
+  }
+  std::string bytes() const {
+    std::string pixels;
+    for (std::uint64_t j = 0; j < rows; ++j) {
+      for (std::uint64_t i = 0; i < columns; ++i) {
+        pixels += little_endian(value + i + 10 * j, static_cast<int>(bits / 8));
+      }
+    }
+    return header() + element(0x7fe0, 0x10, "OW", pixels);
+  }
+};
+
+std::string slice_name(int k) {
+  return "slice" + std::to_string(k) + ".dcm";
+}
+
+/// Five slices, 2 mm apart, that of the highest place first; a text lies beside them.
+struct Series {
+  ScratchFolder folder;
+
+  static Drawn slice(int k) {
+    Drawn drawn;
+    drawn.value += 100 * static_cast<std::uint64_t>(k);
+    drawn.position = "-1\\-2\\" + std::to_string(2 * k);
+    return drawn;
+  }
+  Series() {
+    for (int k = 0; k < 5; ++k) {
+      put(k, slice(k).bytes());
+    }
+    folder.write("notes", "Etc/UTC\n");
+  }
+  void put(int k, const std::string& bytes) { folder.write(slice_name(9 - k), bytes); }
+  std::string fault() const {
+    return refusal([&] { read_image(folder.path()); });
+  }
+};
+
+bool says(const std::string& sentence, const std::vector<std::string>& words) {
+  return std::all_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return sentence.find(word) != std::string::npos; });
+}
+
+TEST(DicomSeries, IsOneImageInTheOrderOfItsPlaces) {
+  const Series series;
+  const ScalarImage image = read_image(series.folder.path());
+  ASSERT_TRUE((image.geometry.size == Eigen::Array3i(4, 3, 5)).all());
+  EXPECT_TRUE(image.geometry.spacing.isApprox(Eigen::Vector3d(0.7, 0.8, 2.0), 1e-6)) << image.geometry.spacing;
+  EXPECT_TRUE(image.geometry.origin.isApprox(Eigen::Vector3d(-1, -2, 0), 1e-6));
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_EQ(image.at(3, 2, k), static_cast<float>(100 + 100 * k + 3 + 20));
+  }
+}
+
+TEST(DicomSeries, ASliceCutAnywhereIsNamed) {
+  Series series;
+  const std::string whole = Series::slice(2).bytes();
+  for (const std::size_t length : {whole.size() - 2, whole.size() - 30, whole.size() - 120, std::size_t{300},
+                                   std::size_t{140}, std::size_t{132}}) {
+    series.put(2, whole.substr(0, length));
+    EXPECT_TRUE(says(series.fault(), {"slice7.dcm", "copy it again"})) << length << series.fault();
+  }
+}
+
+TEST(DicomSeries, ASliceThatDiffersFromTheOthersIsNamed) {
+  for (const auto& [name, change] : std::vector<std::pair<std::string, std::function<void(Drawn&)>>>{
+           {"Rows", [](Drawn& drawn) { drawn.rows = 4; }},
+           {"Columns", [](Drawn& drawn) { drawn.columns = 3; }},
+           {"BitsAllocated", [](Drawn& drawn) { drawn.bits = 8; }},
+           {"PixelSpacing", [](Drawn& drawn) { drawn.spacing = "0.9\\0.7"; }},
+           {"ImageOrientationPatient", [](Drawn& drawn) { drawn.orientation = "0\\1\\0\\1\\0\\0"; }}}) {
+    Series series;
+    Drawn other = Series::slice(2);
+    change(other);
+    series.put(2, other.bytes());
+    EXPECT_TRUE(says(series.fault(), {"slice7.dcm", name + " is not that of slice5.dcm"})) << series.fault();
+  }
+}
+
+TEST(DicomSeries, AnOrientationThatIsNoneIsRefused) {
+  using namespace std::string_literals;
+  for (const std::string& orientation : {"1\\0\\0\\0\n\\0"s, "1\\0\\0\\0\\nan\\0"s, "1\\0\\0\\1\\0\\0"s, "1\\0\\0"s}) {
+    Series series;
+    for (int k = 0; k < 5; ++k) {
+      Drawn drawn = Series::slice(k);
+      drawn.orientation = orientation;
+      series.put(k, drawn.bytes());
+    }
+    EXPECT_TRUE(says(series.fault(), {".dcm"})) << orientation << series.fault();
+  }
+}
+
+TEST(DicomSeries, SlicesThatAreMissingTwiceThereOrShiftedAreRefused) {
+  Series gap, twice, tilted;
+  std::filesystem::remove(gap.folder / slice_name(7));
+  twice.put(7, Series::slice(2).bytes());
+  for (int k = 0; k < 5; ++k) {
+    Drawn drawn = Series::slice(k);
+    drawn.position = "-1\\" + std::to_string(k) + "\\" + std::to_string(2 * k);
+    tilted.put(k, drawn.bytes());
+  }
+  EXPECT_TRUE(says(gap.fault(), {"evenly spaced"}));
+  EXPECT_TRUE(says(twice.fault(), {"evenly spaced"}));
+  EXPECT_TRUE(says(tilted.fault(), {"shifted"}));
+}
+
+TEST(DicomSeries, NoneOrTwoInAFolderAreRefused) {
+  const ScratchFolder folder;
+  folder.write("timezone", "Etc/UTC\n");
+  EXPECT_TRUE(says(refusal([&] { read_image(folder.path()); }), {folder.path().string(), "no DICOM"}));
+  Series two;
+  Drawn other;
+  other.series = "1.2.3.9";
+  two.put(8, other.bytes());
+  EXPECT_TRUE(says(two.fault(), {"exactly one DICOM series", "2"}));
+}
+
+TEST(DicomSeries, NestedSequencesArePassedOverAndCutOnesRefused) {
+  const std::string unbounded("\xff\xff\xff\xff", 4);
+  const std::string begin = little_endian(8, 2) + little_endian(0x1140, 2) + "SQ" + std::string(2, '\0') + unbounded +
+                            little_endian(0xfffe, 2) + little_endian(0xe000, 2) + unbounded +
+                            element(8, 0x60, "CS", "CT");
+  const std::string end = little_endian(0xfffe, 2) + little_endian(0xe00d, 2) + std::string(4, '\0') +
+                          little_endian(0xfffe, 2) + little_endian(0xe0dd, 2) + std::string(4, '\0');
+  Series series;
+  Drawn drawn = Series::slice(2);
+  drawn.sequence = begin + end;
+  series.put(2, drawn.bytes());
+  EXPECT_EQ(series.fault(), "");
+  drawn.sequence = begin;
+  series.put(2, drawn.bytes());
+  EXPECT_TRUE(says(series.fault(), {"slice7.dcm"}));
+}
+
+}  // namespace brainshift::test::dicom_series_test

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/image/image_header.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <limits>
+
+#include "segmentation/image/gzip_file.hpp"
+#include "segmentation/image/image.hpp"
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/segmentation/builders.hpp"
+
+namespace brainshift::test::image_header_test {
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+template <class T>
+void put(std::string& bytes, std::size_t place, T value) {
+  std::memcpy(bytes.data() + place, &value, sizeof(T));
+}
+
+/// 3 x 4 x 5 voxels of 2 mm, as labels.
+std::string nifti_bytes() {
+  std::string bytes(352 + 60, '\0');
+  put<std::int32_t>(bytes, 0, 348);
+  const std::int16_t sizes[] = {3, 3, 4, 5};
+  std::memcpy(bytes.data() + 40, sizes, sizeof(sizes));
+  put<std::int16_t>(bytes, 70, 2);  // uint8
+  put<std::int16_t>(bytes, 72, 8);
+  const float steps[] = {1, 2, 2, 2};
+  std::memcpy(bytes.data() + 76, steps, sizeof(steps));
+  put<float>(bytes, 108, 352);
+  put<std::int16_t>(bytes, 252, 1);
+  put<std::int16_t>(bytes, 254, 1);
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    put<float>(bytes, 280 + 20 * axis, 2);
+  }
+  std::memcpy(bytes.data() + 344, "n+1", 4);
+  return bytes;
+}
+
+std::string meta_text(const std::string& changes = "", const std::string& data = "LOCAL") {
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\n" + changes +
+         "DimSize = 3 4 5\nElementType = MET_UCHAR\nElementDataFile = " + data + "\n";
+}
+
+std::string nrrd_text(const std::string& changes, const std::string& encoding = "raw") {
+  return "NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\nsizes: 3 4 5\n" + changes +
+         "encoding: " + encoding + "\n\n";
+}
+
+const std::string voxels(60, '\1');
+
+std::string fault_of(const std::filesystem::path& file) {
+  return refusal([&] { read_label_map(file); });
+}
+
+::testing::AssertionResult refused(const std::filesystem::path& file, const std::vector<std::string>& words) {
+  return throws_saying<std::invalid_argument>([&] { read_label_map(file); }, words);
+}
+
+TEST(ImageHeader, SoundOnesOfEveryFormatAreRead) {
+  const ScratchFolder folder;
+  EXPECT_EQ(fault_of(folder.write("a.nii", nifti_bytes())), "");
+  EXPECT_EQ(fault_of(folder.write("a.mha", meta_text() + voxels)), "");
+  EXPECT_EQ(fault_of(folder.write("a.nrrd", nrrd_text("space directions: (1,0,0) (0,0,2) (0,1,0)\n") + voxels)), "");
+  EXPECT_EQ(fault_of(folder.write("b.nrrd", nrrd_text("") + voxels)), "");
+  const ImageHeader header = read_nrrd_header(folder / "a.nrrd");
+  EXPECT_EQ(header.spacing, Eigen::Vector3d(1, 2, 1));
+  EXPECT_EQ(header.bytes(), 60U);
+}
+
+// Library and processor would end the program on them.
+TEST(ImageHeader, ANiftiFormThatIsNotFiniteIsRefused) {
+  const ScratchFolder folder;
+  for (const float bad : {not_a_number, infinite, 1e30F}) {
+    for (const std::size_t place : {256U, 268U, 280U, 292U, 324U}) {
+      std::string bytes = nifti_bytes();
+      put(bytes, place, bad);
+      EXPECT_TRUE(refused(folder.write("a.nii", bytes), {"a.nii", "form", "repair"})) << bad << place;
+    }
+    std::string bytes = nifti_bytes();
+    put(bytes, 80, bad);
+    EXPECT_TRUE(refused(folder.write("a.nii", bytes), {"a.nii", "repair"}));
+  }
+}
+
+TEST(ImageHeader, ANiftiFormThatIsShearedOrOfAnotherVoxelIsRefused) {
+  const ScratchFolder folder;
+  std::string sheared = nifti_bytes(), doubled = nifti_bytes();
+  put<std::int16_t>(sheared, 252, 0);
+  put<float>(sheared, 284, 1);
+  put<float>(doubled, 280, 4);
+  EXPECT_TRUE(refused(folder.write("a.nii", sheared), {"sheared"}));
+  EXPECT_TRUE(refused(folder.write("a.nii", doubled), {"pixdim"}));
+}
+
+TEST(ImageHeader, ANiftiFieldThatCannotBeIsRefused) {
+  const ScratchFolder folder;
+  const auto with = [&](std::size_t place, std::int16_t value) {
+    std::string bytes = nifti_bytes();
+    put(bytes, place, value);
+    return folder.write("a.nii", bytes);
+  };
+  EXPECT_TRUE(refused(with(40, 0), {"0 dimensions"}));
+  EXPECT_TRUE(refused(with(42, -3), {"-3 voxels"}));
+  EXPECT_TRUE(refused(with(46, 32767), {"truncated", "393204 bytes"}));
+  EXPECT_TRUE(refused(with(70, 32), {"type 32"}));
+  EXPECT_TRUE(refused(with(344, 0), {"no NIfTI-1"}));
+  std::string bytes = nifti_bytes();
+  put(bytes, 108, not_a_number);
+  EXPECT_TRUE(refused(folder.write("a.nii", bytes), {"offset"}));
+}
+
+TEST(ImageHeader, AMetaImageDirectionThatIsNoneIsRefused) {
+  const ScratchFolder folder;
+  for (const std::string matrix : {"1 0 0 0 1 0 0 0 1e308", "1 0 0 0 inf 0 0 0 1", "1 0 0 0 -32769 0 0 0 1",
+                                   "2 0 0 0 2 0 0 0 2", "1 0.5 0 0 1 0 0 0 1", "1 0 0 1 0 0 0 0 1", "1 0 0", "a"}) {
+    const auto file = folder.write("a.mha", meta_text("TransformMatrix = " + matrix + "\n") + voxels);
+    EXPECT_TRUE(refused(file, {"a.mha", "header"})) << matrix;
+  }
+  for (const std::string line : {"Offset = 0 nan 0", "Offset = 1e300 0 0", "ElementSpacing = 1 0 1",
+                                 "ElementSpacing = -1 1 1", "ElementSpacing = inf 1 1"}) {
+    EXPECT_TRUE(refused(folder.write("a.mha", meta_text(line + "\n") + voxels), {"a.mha", "header"})) << line;
+  }
+}
+
+// What is read from another file may be any file, and where it is too short memory that nobody set.
+TEST(ImageHeader, AMetaImageWhoseVoxelsAreElsewhereIsRefused) {
+  const ScratchFolder folder;
+  for (const std::string data : {"LIST", "other.raw", "/etc/passwd", "LOCALE", ""}) {
+    EXPECT_TRUE(refused(folder.write("a.mha", meta_text("", data) + voxels), {"a.mha", "LOCAL"})) << data;
+  }
+  EXPECT_TRUE(refused(folder.write("a.mha", meta_text("DimSize = 3 4 5\n") + voxels), {"DimSize twice"}));
+  EXPECT_TRUE(refused(folder.write("a.mhd", meta_text() + voxels), {"a.mhd: images end in"}));
+}
+
+TEST(ImageHeader, ANrrdHeaderWithALongLineIsRefusedButNotALongValueOfTheUser) {
+  const ScratchFolder folder;
+  const std::string length(1000, 'x');
+  for (const std::string& line : {length + ": 1\n", length + ":=1\n", "content: " + length + "\n"}) {
+    EXPECT_TRUE(refused(folder.write("a.nrrd", nrrd_text(line) + voxels), {"a.nrrd", "500 characters"}));
+  }
+  EXPECT_EQ(fault_of(folder.write("a.nrrd", nrrd_text("conversion:=" + length + "\n# " + length + "\n") + voxels)), "");
+}
+
+TEST(ImageHeader, ANrrdGeometryOrStorageThatCannotBeIsRefused) {
+  const ScratchFolder folder;
+  for (const std::string line :
+       {"space directions: (1,nan,0) (0,1,0) (0,0,1)", "space directions: (1,0,0) (0,1,0) (0,0,inf)",
+        "space directions: (1,0,0) (1,1,0) (0,0,1)", "space directions: (1,0,0) (0,1,0)", "space origin: (nan,0,0)",
+        "space directions: 1 2 3", "data file: other.raw", "byte skip: 5", "sizes: 3 4 5", "block size: 3"}) {
+    EXPECT_TRUE(refused(folder.write("a.nrrd", nrrd_text(line + "\n") + voxels), {"a.nrrd"})) << line;
+  }
+  EXPECT_TRUE(refused(folder.write("a.nrrd", nrrd_text("", "bzip2") + voxels), {"encoding"}));
+}
+
+TEST(ImageHeader, ThatPromisesMoreThanTheFileHoldsIsRefusedBeforeAnythingIsAllocated) {
+  const ScratchFolder folder;
+  const auto changed = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to) + voxels;
+  };
+  EXPECT_TRUE(refused(folder.write("a.mha", changed(meta_text("CompressedData = True\n"), "3 4 5", "800 800 800")),
+                      {"truncated", "512000000"}));
+  EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text(""), "3 4 5", "800 800 800")), {"truncated"}));
+  EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text("", "gzip"), "3 4 5", "800 800 800")), {"truncated"}));
+  EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text(""), "3 4 5", "90000 90000 90000")), {"more than"}));
+  EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text(""), "3 4 5", "3 4 99999999999999999999")), {"sizes"}));
+}
+
+TEST(ImageHeader, CompressedVoxelsMustGiveWhatItPromises) {
+  const ScratchFolder folder;
+  const auto deflated = [&](std::size_t size) {
+    write_gzip(folder / "z", folder.write("plain", std::string(size, '\1')));
+    return bytes_of(folder / "z");
+  };
+  const std::string mha = meta_text("CompressedData = True\n"), nrrd = nrrd_text("", "gzip");
+  EXPECT_EQ(fault_of(folder.write("a.nrrd", nrrd + deflated(60))), "");
+  for (const std::size_t size : {59U, 61U, 5000000U}) {
+    EXPECT_TRUE(refused(folder.write("a.nrrd", nrrd + deflated(size)), {"cut short or damaged"})) << size;
+    EXPECT_TRUE(refused(folder.write("a.mha", mha + deflated(size)), {"cut short or damaged"})) << size;
+  }
+  EXPECT_TRUE(refused(folder.write("a.mha", mha + deflated(60).substr(0, 15)), {"cut short or damaged"}));
+  write_gzip(folder / "bomb.nii.gz", folder.write("bomb", nifti_bytes() + std::string(5000000, '\0')));
+  EXPECT_TRUE(refused(folder / "bomb.nii.gz", {"bomb.nii.gz", "goes on"}));
+  write_gzip(folder / "padded.nii.gz", folder.write("padded", nifti_bytes() + std::string(1000, '\0')));
+  EXPECT_EQ(fault_of(folder / "padded.nii.gz"), "");
+}
+
+TEST(ImageHeader, WhatIsNoRegularFileIsNotOpened) {
+  const ScratchFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe.nii.gz").c_str(), 0600), 0);
+  EXPECT_TRUE(refused(folder / "pipe.nii.gz", {"pipe.nii.gz", "a pipe"}));
+  std::filesystem::create_symlink("/dev/zero", folder / "zero.nrrd");
+  EXPECT_TRUE(refused(folder / "zero.nrrd", {"zero.nrrd", "a device"}));
+  std::filesystem::create_symlink("loop.mha", folder / "loop.mha");
+  EXPECT_TRUE(refused(folder / "loop.mha", {"loop.mha: cannot be reached"}));
+  EXPECT_TRUE(refused(folder / std::string(300, 'a'), {"cannot be reached"}));
+}
+
+TEST(ImageHeader, AFileWithoutPermissionIsSaidToBeThat) {
+  const ScratchFolder folder;
+  const auto file = folder.write("a.mha", meta_text() + voxels);
+  std::filesystem::permissions(file, std::filesystem::perms::none);
+  if (::access(file.c_str(), R_OK) == 0) {
+    GTEST_SKIP() << "this user may read every file";
+  }
+  EXPECT_TRUE(refused(file, {"a.mha", "permission"}));
+}
+
+}  // namespace brainshift::test::image_header_test
