@@ -66,6 +66,11 @@ std::uint64_t meta_value_size(const fs::path& file, const std::string& type) {
 // MetaIO writes each axis as a row.
 void read_meta_geometry(const fs::path& file, const MetaFields& fields, ImageHeader& header) {
   const std::size_t dimensions = header.size.size();
+  for (const char* name : {"CenterOfRotation", "ElementSize", "ElementSpacing", "Offset", "Origin", "Position"}) {
+    if (const auto found = fields.values.find(name); found != fields.values.end()) {
+      numbers_in(file, name, found->second, dimensions);
+    }
+  }
   const auto spacing = fields.value({"ElementSpacing", "ElementSize"});
   const auto origin = fields.value({"Offset", "Position", "Origin"});
   const auto matrix = fields.value({"TransformMatrix", "Rotation", "Orientation"});

@@ -118,6 +118,11 @@ void read_qform(const fs::path& file, const NiftiFields& fields, ImageHeader& he
 void read_sform(const fs::path& file, const NiftiFields& fields, ImageHeader& header) {
   const auto form = sform(fields);
   check_finite_form(file, "sform", largest_of(form));
+  constexpr double smallest =
+      1e-30;  // below it ITK's decomposition of single numbers fails, and says so on the terminal
+  if ((form.array() != 0 && form.array().abs() < smallest).any()) {
+    refuse(file, "the header's sform holds a number that is next to nothing but not 0; repair the header");
+  }
   ImageHeader by_sform;
   set_axes(by_sform, form.leftCols<3>());
   constexpr double itk_tolerance = 1e-4;

@@ -137,7 +137,7 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
       {"<stage/>", {at + "2", "name"}},
       {"<stage name=\"segment\"\n edge_length=\"-1\"/>", {at + "3", "edge_length", "'-1'", ">= 0.5", "mm"}},
       {"<stage name=\"segment\" edge_length=\"nan\"/>", {at + "2", "'nan'", ">= 0.5"}},
-      {"<stage name=\"segment\" edge_length=\"5mm\"/>", {at + "2", "'5mm'", "> 0"}},
+      {"<stage name=\"segment\" edge_length=\"5mm\"/>", {at + "2", "'5mm'", ">= 0.5"}},
       {"<stage name=\"segment\" classes=\"2.5\"/>", {at + "2", "'2.5'", "whole number from 2 to 10"}},
       {"<stage name=\"solve\" basis=\"cubic\"/>", {at + "2", "'cubic'", "linear | quadratic | modified_quadratic"}},
       {"<tissues><tissue label=\"1\" poisson_ratio=\"0.5\"/></tissues>", {at + "2", "'0.5'", "< 0.5"}},

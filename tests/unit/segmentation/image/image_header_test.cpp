@@ -91,12 +91,14 @@ TEST(ImageHeader, ANiftiFormThatIsNotFiniteIsRefused) {
 
 TEST(ImageHeader, ANiftiFormThatIsShearedOrOfAnotherVoxelIsRefused) {
   const ScratchFolder folder;
-  std::string sheared = nifti_bytes(), doubled = nifti_bytes();
+  std::string sheared = nifti_bytes(), doubled = nifti_bytes(), tiny = nifti_bytes();
   put<std::int16_t>(sheared, 252, 0);
   put<float>(sheared, 284, 1);
   put<float>(doubled, 280, 4);
+  put<float>(tiny, 284, 1e-40F);
   EXPECT_TRUE(refused(folder.write("a.nii", sheared), {"sheared"}));
   EXPECT_TRUE(refused(folder.write("a.nii", doubled), {"pixdim"}));
+  EXPECT_TRUE(refused(folder.write("a.nii", tiny), {"sform"}));
 }
 
 TEST(ImageHeader, ANiftiFieldThatCannotBeIsRefused) {
@@ -124,7 +126,7 @@ TEST(ImageHeader, AMetaImageDirectionThatIsNoneIsRefused) {
     EXPECT_TRUE(refused(file, {"a.mha", "header"})) << matrix;
   }
   for (const std::string line : {"Offset = 0 nan 0", "Offset = 1e300 0 0", "ElementSpacing = 1 0 1",
-                                 "ElementSpacing = -1 1 1", "ElementSpacing = inf 1 1"}) {
+                                 "ElementSpacing = -1 1 1", "CenterOfRotation = 0 0", "ElementSpacing = inf 1 1"}) {
     EXPECT_TRUE(refused(folder.write("a.mha", meta_text(line + "\n") + voxels), {"a.mha", "header"})) << line;
   }
 }
