@@ -31,5 +31,4 @@ LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
   ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(nproc)"
 
 build build all "${developer[@]}" -DCMAKE_BUILD_TYPE=Release
-ctest --test-dir build --label-regex unit --output-on-failure --parallel "$(nproc)"
-ctest --test-dir build --label-exclude unit --output-on-failure
+ctest --test-dir build --output-on-failure --parallel "$(nproc)"
