@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <stdexcept>
-
+#include "segmentation/files/make_folder.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/segment.hpp"
 
 namespace brainshift::segmentation {
 
 void write_segmentation(const std::filesystem::path& folder, const Segmentation& segmentation) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) {
-    throw std::runtime_error(folder.string() + ": the folder cannot be made (" + failed.message() + ")");
-  }
+  make_folder(folder);
   if (segmentation.labels) {
     write_image(folder / "labels.nii.gz", *segmentation.labels);
   }

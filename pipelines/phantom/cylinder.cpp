@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipelines/runner/stage_folder.hpp"
+#include "segmentation/files/make_folder.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/geometry/surface.hpp"
 #include "solve/load/craniotomy_load.hpp"

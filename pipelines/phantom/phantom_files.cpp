@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "pipelines/phantom/phantom.hpp"
+#include "segmentation/files/make_folder.hpp"
 #include "segmentation/segment.hpp"
 
 namespace brainshift::pipelines {
@@ -114,11 +115,7 @@ std::string scene_text(const Phantom& phantom, bool has_gap) {
 
 void write_phantom(const PhantomOptions& options, const fs::path& out) {
   const Phantom phantom = make_phantom(options);
-  std::error_code fault;
-  fs::create_directories(out, fault);
-  if (fault) {
-    throw std::runtime_error("cannot make the folder " + out.string() + ": " + fault.message());
-  }
+  make_folder(out);
   write_image(out / "t1.nii.gz", sample_t1(phantom, options.seed));
   write_image(out / "labels.nii.gz", sample_labels(phantom));
   solve::write_craniotomy_csv(out / "craniotomy.csv", phantom.load);

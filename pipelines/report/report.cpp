@@ -14,6 +14,7 @@
 #include "pipelines/report/run_data.hpp"
 #include "pipelines/report/slice_figures.hpp"
 #include "pipelines/report/surface_figure.hpp"
+#include "segmentation/files/make_folder.hpp"
 
 namespace brainshift::pipelines {
 
@@ -79,11 +80,7 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
 void write_report(const fs::path& run_folder, const fs::path& out, const Progress& progress) {
   report(progress, 0, "reading the run");
   const RunData run = read_run(run_folder);
-  std::error_code fault;
-  fs::create_directories(out, fault);
-  if (fault) {
-    throw std::runtime_error("cannot make the folder " + out.string() + ": " + fault.message());
-  }
+  make_folder(out);
   PageContent content;
   content.record = run.record;
   content.has_image = run.t1.has_value() && run.warped.has_value();

@@ -12,6 +12,7 @@
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
+#include "segmentation/files/make_folder.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;

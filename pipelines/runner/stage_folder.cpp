@@ -6,6 +6,8 @@
 #include <string>
 #include <system_error>
 
+#include "segmentation/files/make_folder.hpp"
+
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
 namespace {
@@ -24,14 +26,6 @@ void move(const fs::path& from, const fs::path& to) {
 }
 
 }  // namespace
-
-void make_folder(const fs::path& folder) {
-  std::error_code fault;
-  fs::create_directories(folder, fault);
-  if (fault) {
-    fail(folder, "made", fault);
-  }
-}
 
 void write_whole(const fs::path& file, const std::string& text) {
   fs::path unfinished = file;

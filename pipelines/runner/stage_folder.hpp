@@ -29,9 +29,6 @@ class StageFolder {
   Interruption& interruption_;
 };
 
-/// Makes a folder and those above it. Throws std::runtime_error, naming it.
-void make_folder(const std::filesystem::path& folder);
-
 /// Writes a text file whole or not at all. Throws std::runtime_error, naming it.
 void write_whole(const std::filesystem::path& file, const std::string& text);
 

@@ -14,6 +14,7 @@
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
+#include "segmentation/files/make_folder.hpp"
 #include "segmentation/options/values.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/output/field_difference.hpp"

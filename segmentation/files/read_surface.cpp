@@ -9,10 +9,10 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <stdexcept>
 
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/read_obj.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/surface_file.hpp"
@@ -24,13 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using CgalPoint = CGAL::Simple_cartesian<double>::Point_3;
-
-std::string ending_of(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return ending;
-}
 
 PolygonSoup read_with_cgal(const fs::path& file, const std::string& ending) {
   std::vector<CgalPoint> points;

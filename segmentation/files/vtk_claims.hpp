@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string>
 
+#include "segmentation/files/deflated.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift {
@@ -16,8 +17,7 @@ namespace brainshift {
 /// Throws std::invalid_argument, naming the file, when a VTK XML file says to hold more points, cells or components
 /// than its length allows for even when compressed: VTK would allocate them.
 inline void check_vtk_claims(const std::filesystem::path& file) {
-  constexpr std::uintmax_t most_a_byte = 1032;  // deflate makes nothing smaller than by this factor
-  const std::uintmax_t most = most_a_byte * std::filesystem::file_size(file);
+  const std::uintmax_t most = most_deflated * std::filesystem::file_size(file);
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   const std::string begin = "NumberOf";

@@ -17,6 +17,10 @@ Points corners_of(const Surface& surface) {
   return corners;
 }
 
+double extent_of(const Points& corners) {
+  return corners.rows() == 0 ? 0.0 : (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).maxCoeff();
+}
+
 }  // namespace
 
 Eigen::Vector3d Triangle::area_vector() const {
@@ -49,19 +53,15 @@ double volume(const Surface& surface) {
 }
 
 double extent(const Surface& surface) {
-  if (surface.triangles.rows() == 0) {
-    return 0;
-  }
-  const Points corners = corners_of(surface);
-  return (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).maxCoeff();
+  return extent_of(corners_of(surface));
 }
 
 bool is_flat(const Surface& surface) {
-  const double across = extent(surface);
+  Points corners = corners_of(surface);
+  const double across = extent_of(corners);
   if (!(across > 0)) {
     return true;
   }
-  Points corners = corners_of(surface);
   corners.rowwise() -= Eigen::RowVector3d(corners.row(0));
   corners /= across;
   corners.rowwise() -= Eigen::RowVector3d(corners.colwise().mean());

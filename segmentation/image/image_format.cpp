@@ -5,16 +5,14 @@
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
 
-#include <algorithm>
-#include <cctype>
 #include <stdexcept>
+
+#include "segmentation/files/lower_case.hpp"
 
 namespace brainshift {
 
 ImageFormat image_format(const std::filesystem::path& file) {
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const std::string name = in_lower_case(file.filename().string());
   if (name.ends_with(".nii")) {
     return ImageFormat::nifti;
   }

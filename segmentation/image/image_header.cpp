@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "segmentation/files/deflated.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift {
@@ -54,7 +55,6 @@ void check_geometry(const fs::path& file, const ImageHeader& header) {
 }
 
 void check_length(const fs::path& file, const ImageHeader& header) {
-  constexpr std::uint64_t most_deflated = 1032;  // deflate makes nothing smaller than by this factor
   const std::uint64_t length = fs::file_size(file);
   const std::uint64_t stored = length > header.voxels_at ? length - header.voxels_at : 0;
   if (header.compressed ? header.bytes() > most_deflated * length : header.bytes() > stored) {

@@ -19,6 +19,8 @@ struct ImageHeader {
   Eigen::Matrix3d direction = Eigen::Matrix3d::Identity();  ///< columns: the axes, in the file's frame
   std::uint64_t voxels_at = 0;                              ///< where the voxels begin, bytes; uncompressed in .nii.gz
   bool compressed = false;
+  bool swapped = false;   ///< the other byte order than this machine's; NIfTI alone
+  bool floating = false;  ///< values are floating-point numbers; NIfTI alone
 
   std::uint64_t values() const;
   std::uint64_t bytes() const { return values() * bytes_a_value; }

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/text_lines.hpp"
 #include "segmentation/image/image_header.hpp"
 #include "segmentation/image/text_header.hpp"
 
@@ -10,40 +11,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The fields of a MetaImage's header, and its length.
-struct MetaFields {
-  std::map<std::string, std::string> values;
-  std::uint64_t length = 0;
-
-  /// Of the first of these names that is there; empty without one.
-  std::string value(std::initializer_list<const char*> names) const {
-    for (const char* name : names) {
-      if (const auto found = values.find(name); found != values.end()) {
-        return found->second;
-      }
-    }
-    return {};
-  }
-  bool is_true(const char* name) const {
-    const std::string word = value({name});
-    return !word.empty() && std::string_view("tT1").find(word.front()) != std::string_view::npos;
-  }
-};
+bool is_true(const std::string& word) {
+  return !word.empty() && std::string_view("tT1").find(word.front()) != std::string_view::npos;
+}
 
 // MetaIO takes lines into buffers of its own, and of two fields of one name the last.
-MetaFields read_meta_fields(const fs::path& file) {
+HeaderFields read_meta_fields(const fs::path& file) {
   constexpr std::size_t longest_name = 200, longest_line = 4000;
-  MetaFields fields;
+  HeaderFields fields;
   TextHeader header(file);
   std::string name;
   while (name != "ElementDataFile") {
     const std::string_view line = header.next_line();
     const std::size_t sign = line.find('=');
-    name = without_blanks(line.substr(0, sign));
+    name = trimmed(line.substr(0, sign));
     if (sign == std::string_view::npos || name.empty() || name.size() > longest_name || line.size() > longest_line) {
       refuse(file, "the header has a line that is no \"Name = value\" of a MetaImage; copy the file again");
     }
-    if (!fields.values.emplace(name, without_blanks(line.substr(sign + 1))).second) {
+    if (!fields.values.emplace(name, trimmed(line.substr(sign + 1))).second) {
       refuse(file, "the header names " + name + " twice; repair the header");
     }
   }
@@ -64,7 +49,7 @@ std::uint64_t meta_value_size(const fs::path& file, const std::string& type) {
 }
 
 // MetaIO writes each axis as a row.
-void read_meta_geometry(const fs::path& file, const MetaFields& fields, ImageHeader& header) {
+void read_meta_geometry(const fs::path& file, const HeaderFields& fields, ImageHeader& header) {
   const std::size_t dimensions = header.size.size();
   for (const char* name : {"CenterOfRotation", "ElementSize", "ElementSpacing", "Offset", "Origin", "Position"}) {
     if (const auto found = fields.values.find(name); found != fields.values.end()) {
@@ -92,15 +77,15 @@ void read_meta_geometry(const fs::path& file, const MetaFields& fields, ImageHea
   }
 }
 
-void check_meta_storage(const fs::path& file, const MetaFields& fields, const ImageHeader& header) {
-  if (fields.value({"ElementDataFile"}) != "LOCAL") {
+void check_meta_storage(const fs::path& file, const HeaderFields& fields, const ImageHeader& header) {
+  if (fields.value("ElementDataFile") != "LOCAL") {
     refuse(file, "its voxels are not in the file itself (ElementDataFile is not LOCAL); save it as one .mha");
   }
-  const std::string header_size = fields.value({"HeaderSize"});
-  if (!fields.is_true("BinaryData") || (!header_size.empty() && header_size != "0")) {
+  const std::string header_size = fields.value("HeaderSize");
+  if (!is_true(fields.value("BinaryData")) || (!header_size.empty() && header_size != "0")) {
     refuse(file, "its voxels are not binary (BinaryData), or a HeaderSize is given; save it as a plain .mha");
   }
-  const std::string stored = fields.value({"CompressedDataSize"});
+  const std::string stored = fields.value("CompressedDataSize");
   if (header.compressed && !stored.empty()) {
     const std::uint64_t promised = counts_in(file, "CompressedDataSize", stored, 1).front();
     const std::uint64_t found = fs::file_size(file) - header.voxels_at;
@@ -115,19 +100,19 @@ void check_meta_storage(const fs::path& file, const MetaFields& fields, const Im
 }  // namespace
 
 ImageHeader read_meta_header(const fs::path& file) {
-  const MetaFields fields = read_meta_fields(file);
+  const HeaderFields fields = read_meta_fields(file);
   ImageHeader header;
-  const std::uint64_t dimensions = counts_in(file, "NDims", fields.value({"NDims"}), 1).front();
-  header.size = counts_in(file, "DimSize", fields.value({"DimSize"}), dimensions);
-  header.bytes_a_value = meta_value_size(file, fields.value({"ElementType"}));
-  if (const auto channels = fields.value({"ElementNumberOfChannels"}); !channels.empty()) {
+  const std::uint64_t dimensions = counts_in(file, "NDims", fields.value("NDims"), 1).front();
+  header.size = counts_in(file, "DimSize", fields.value("DimSize"), dimensions);
+  header.bytes_a_value = meta_value_size(file, fields.value("ElementType"));
+  if (const auto channels = fields.value("ElementNumberOfChannels"); !channels.empty()) {
     header.components = counts_in(file, "ElementNumberOfChannels", channels, 1).front();
   }
   if (header.size.size() >= 3) {
     read_meta_geometry(file, fields, header);
   }
   header.voxels_at = fields.length;
-  header.compressed = fields.is_true("CompressedData");
+  header.compressed = is_true(fields.value("CompressedData"));
   check_meta_storage(file, fields, header);
   return header;
 }

@@ -166,7 +166,10 @@ ImageHeader read_nifti_header(const fs::path& file) {
     refuse(file, "is no NIfTI-1 image in one file, or its header is damaged; convert it to .nii.gz");
   }
   ImageHeader header;
-  header.bytes_a_value = nifti_value_size(file, fields.whole(70));
+  const int datatype = fields.whole(70);
+  header.bytes_a_value = nifti_value_size(file, datatype);
+  header.floating = datatype == 16 || datatype == 64;
+  header.swapped = swapped;
   read_nifti_size(file, fields, header);
   read_nifti_geometry(file, fields, header);
   const double offset = fields.real(108);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <set>
 #include <sstream>
 
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/text_lines.hpp"
 #include "segmentation/image/image_header.hpp"
 #include "segmentation/image/text_header.hpp"
 
@@ -15,26 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The fields of a NRRD's header, their names in lower case, and its length.
-struct NrrdFields {
-  std::map<std::string, std::string> values;
-  std::uint64_t length = 0;
-
-  std::string value(const std::string& name) const {
-    const auto found = values.find(name);
-    return found == values.end() ? std::string{} : found->second;
-  }
-};
-
-std::string in_lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
-
 // Its library copies long fields past the end of a buffer. Values of users ("key:=value") it takes at any length, and
 // 3D Slicer's are long.
-void read_nrrd_line(const fs::path& file, std::string_view line, NrrdFields& fields) {
+void read_nrrd_line(const fs::path& file, std::string_view line, HeaderFields& fields) {
   constexpr std::size_t longest = 500;
   if (line.starts_with('#')) {
     return;
@@ -50,14 +34,15 @@ void read_nrrd_line(const fs::path& file, std::string_view line, NrrdFields& fie
   if (sign == std::string_view::npos) {
     refuse(file, "the header has a line that is no \"field: value\" of a NRRD; copy the file again");
   }
-  std::string name = in_lower_case(without_blanks(line.substr(0, sign)));
-  if (!fields.values.emplace(name, without_blanks(line.substr(sign + 1))).second) {
+  const std::string name = in_lower_case(std::string(trimmed(line.substr(0, sign))));
+  if (!fields.values.emplace(name, trimmed(line.substr(sign + 1))).second) {
     refuse(file, "the header has a field twice; repair the header");
   }
 }
 
-NrrdFields read_nrrd_fields(const fs::path& file) {
-  NrrdFields fields;
+// The names in lower case.
+HeaderFields read_nrrd_fields(const fs::path& file) {
+  HeaderFields fields;
   TextHeader header(file);
   if (!header.next_line().starts_with("NRRD000")) {
     refuse(file, "is no NRRD image, or its header is damaged; copy the file again");
@@ -120,7 +105,7 @@ bool is_component_kind(const std::string& kind) {
 }
 
 // Which axis holds the components of a voxel.
-std::optional<std::size_t> component_axis(const fs::path& file, const NrrdFields& fields, std::size_t dimensions) {
+std::optional<std::size_t> component_axis(const fs::path& file, const HeaderFields& fields, std::size_t dimensions) {
   std::optional<std::size_t> found;
   std::istringstream kinds(in_lower_case(fields.value("kinds")));
   std::string kind;
@@ -146,7 +131,7 @@ std::vector<NrrdVector> steps_along_axes(const std::vector<double>& spacings, st
   return steps;
 }
 
-void read_nrrd_geometry(const fs::path& file, const NrrdFields& fields, std::optional<std::size_t> components,
+void read_nrrd_geometry(const fs::path& file, const HeaderFields& fields, std::optional<std::size_t> components,
                         ImageHeader& header) {
   if (const auto origin = vectors_in(file, "space origin", fields.value("space origin")); !origin.empty()) {
     header.origin = origin.front().value_or(header.origin);
@@ -170,7 +155,7 @@ void read_nrrd_geometry(const fs::path& file, const NrrdFields& fields, std::opt
   set_axes(header, axes);
 }
 
-void check_nrrd_storage(const fs::path& file, const NrrdFields& fields) {
+void check_nrrd_storage(const fs::path& file, const HeaderFields& fields) {
   const auto is_zero = [&](const char* name) { return fields.value(name).empty() || fields.value(name) == "0"; };
   if (!fields.value("data file").empty() || !fields.value("datafile").empty() || !is_zero("line skip") ||
       !is_zero("lineskip") || !is_zero("byte skip") || !is_zero("byteskip")) {
@@ -191,7 +176,7 @@ bool is_compressed_nrrd(const fs::path& file, const std::string& encoding) {
 }  // namespace
 
 ImageHeader read_nrrd_header(const fs::path& file) {
-  const NrrdFields fields = read_nrrd_fields(file);
+  const HeaderFields fields = read_nrrd_fields(file);
   ImageHeader header;
   const std::uint64_t dimensions = counts_in(file, "dimension", fields.value("dimension"), 1).front();
   header.size = counts_in(file, "sizes", fields.value("sizes"), dimensions);

@@ -53,10 +53,13 @@ std::string_view TextHeader::next_line() {
   return line;
 }
 
-std::string without_blanks(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first == std::string_view::npos ? std::string{}
-                                         : std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
+std::string HeaderFields::value(std::initializer_list<const char*> names) const {
+  for (const char* name : names) {
+    if (const auto found = values.find(name); found != values.end()) {
+      return found->second;
+    }
+  }
+  return {};
 }
 
 std::vector<double> numbers_in(const std::filesystem::path& file, const std::string& field, const std::string& text,

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,8 +31,15 @@ class TextHeader {
   std::size_t place_ = 0;
 };
 
-/// Without blanks at both ends.
-std::string without_blanks(std::string_view text);
+/// The fields of such a header, and its length.
+struct HeaderFields {
+  std::map<std::string, std::string> values;
+  std::uint64_t length = 0;  ///< bytes
+
+  /// Of the first of these names that is there; empty without one.
+  std::string value(std::initializer_list<const char*> names) const;
+  std::string value(const char* name) const { return value({name}); }
+};
 
 /// Numbers between blanks, also those not finite. Throws std::invalid_argument, naming file and field, when one is none
 /// or there are not so many.

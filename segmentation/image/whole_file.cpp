@@ -17,11 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 template <class T>
-void check_finite(const fs::path& file, ByteView values, bool swapped, const ImageHeader& header) {
+void check_finite(const fs::path& file, ByteView values, const ImageHeader& header) {
   std::ptrdiff_t bad = 0;
   std::size_t first = 0;
   for (std::size_t i = 0; i < values.size() / sizeof(T); ++i) {
-    if (!std::isfinite(number_at<T>(values, i * sizeof(T), swapped))) {
+    if (!std::isfinite(number_at<T>(values, i * sizeof(T), header.swapped))) {
       first = bad == 0 ? i : first;
       ++bad;
     }
@@ -45,15 +45,11 @@ void check_nifti_voxels(const fs::path& file, const ImageHeader& header) {
                      std::to_string(bytes.size() - std::min<std::size_t>(bytes.size(), header.voxels_at)) +
                      "; copy the file again");
   }
-  const bool swapped = number_at<std::int32_t>(bytes, 0) != 348;
-  const auto datatype = number_at<std::int16_t>(bytes, 70, swapped);
   const ByteView voxels = ByteView(bytes).subspan(header.voxels_at, header.bytes());
-  constexpr std::int16_t float32 = 16, float64 = 64;
-  if (datatype == float32) {
-    check_finite<float>(file, voxels, swapped, header);
-  }
-  if (datatype == float64) {
-    check_finite<double>(file, voxels, swapped, header);
+  if (header.floating && header.bytes_a_value == sizeof(float)) {
+    check_finite<float>(file, voxels, header);
+  } else if (header.floating) {
+    check_finite<double>(file, voxels, header);
   }
 }
 

@@ -80,14 +80,21 @@ void check_everywhere(const OrderedCloud& cloud, const ShapeRows& point_rows, co
 }
 
 /// Supports grow until they reach the cloud: tissue where no node is would be invented.
-void check_within(const OrderedCloud& cloud, const IntegrationPoints& points) {
+void check_within(const OrderedCloud& cloud, const IntegrationPoints& points, const ShapeRows& point_rows) {
   constexpr double farthest = 1.5;  // from every node, of the node's spacing; of our clouds below 1
   const SupportSearch search(cloud.positions, cloud.spacing);
   std::vector<std::int32_t> near;
   std::size_t beyond = 0;
   Eigen::Index first = 0;
   for (Eigen::Index p = points.positions.rows(); p-- > 0;) {
-    search.find(points.positions.row(p), farthest, near);
+    const Eigen::RowVector3d x = points.positions.row(p);
+    const auto is_near = [&](std::int32_t a) {
+      return (cloud.positions.row(a) - x).norm() < farthest * cloud.spacing[static_cast<std::size_t>(a)];
+    };
+    if (std::ranges::any_of(point_rows[static_cast<std::size_t>(p)].node, is_near)) {
+      continue;
+    }
+    search.find(x, farthest, near);  // a cut may hide the near ones
     if (near.empty()) {
       ++beyond;
       first = p;
@@ -113,7 +120,7 @@ void check_cloud(const NodeCloud& cloud) {
 
 void check_points(const OrderedCloud& cloud, const IntegrationPoints& points, const ShapeRows& point_rows,
                   const ShapeRows& nodal_rows) {
-  check_within(cloud, points);
+  check_within(cloud, points, point_rows);
   check_number(cloud.size(), points.size());
   check_everywhere(cloud, point_rows, nodal_rows);
 }

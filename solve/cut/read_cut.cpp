@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <stdexcept>
 #include <string>
 
+#include "segmentation/files/lower_case.hpp"
 #include "solve/cut/cut_path.hpp"
 #include "solve/cut/cut_sheet.hpp"
 
@@ -17,9 +17,7 @@ Cut read_cut(const std::filesystem::path& file, const CutTiming& timing) {
   if (!std::filesystem::is_regular_file(file)) {
     throw std::invalid_argument(file.string() + ": there is no such file; a cut was expected");
   }
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  const std::string ending = ending_of(file);
   if (ending == ".csv") {
     return read_cut_path(file, timing);
   }

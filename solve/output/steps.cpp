@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "segmentation/files/make_folder.hpp"
 #include "segmentation/files/vtu_file.hpp"
 #include "solve/output/cut_surface.hpp"
 
@@ -26,11 +27,7 @@ void write_state(const std::filesystem::path& file, const Snapshot& state) {
 
 void write_steps(const std::filesystem::path& folder, const SolveResult& result) {
   const std::filesystem::path steps = folder / "steps";
-  std::error_code fault;
-  std::filesystem::create_directories(steps, fault);
-  if (fault) {
-    throw std::runtime_error(steps.string() + ": the folder cannot be made (" + fault.message() + ")");
-  }
+  make_folder(steps);
   const std::filesystem::path collection = folder / "steps.pvd";
   std::ofstream out(collection);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";

@@ -8,61 +8,45 @@
 #include <span>
 #include <utility>
 
-#include "solve/solve.hpp"
-#include "tests/unit/solve/all_free.hpp"
-#include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve::check_discretisation_test {
 
 using testing::HasSubstr;
 
-constexpr double side = 50;
 constexpr int n = 7;  // nodes along a side
 
-/// A cube between plates, pressed by a tenth, in n_cells³ cells of the side given.
-Model pressed(int n_cells, double side_of_cells) {
-  Model model;
-  model.cloud = test::irregular_box(n, side);
-  model.conditions = test::all_free(model.cloud);
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    const double z = model.cloud.positions(a, 2);
-    if (z == 0 || z == side) {
-      model.conditions.displacement.row(a) << 0, 0, -0.1 * z;
-    }
-  }
-  model.cells = test::box_cells(n_cells, side_of_cells);
-  model.materials[1] = {};
+/// A cube pressed by a tenth, in n_cells³ cells of the side given.
+Model pressed(int n_cells, double side = model_side) {
+  Model model = uniaxial(0.9, n);
+  model.cells = test::box_cells(n_cells);
   return model;
 }
 
 std::string refusal(const Model& model, std::optional<int> points_per_cell = {}) {
   SolveOptions options;
   options.points_per_cell = points_per_cell;
-  try {
-    solve(model, options);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal([&] { solve(model, options); });
 }
 
 TEST(CheckDiscretisation, TakesOnePointANode) {
-  EXPECT_EQ(refusal(pressed(4, side)), "");  // 512 points, 343 nodes
+  EXPECT_EQ(refusal(pressed(4)), "");  // 512 points, 343 nodes
 }
 
 TEST(CheckDiscretisation, RefusesHalfAPointANode) {
-  EXPECT_THAT(refusal(pressed(2, side)), HasSubstr("only 64 integration points for 343 nodes"));
-  EXPECT_THAT(refusal(pressed(5, side), 1), HasSubstr("only 125 integration points for 343 nodes"));
+  EXPECT_THAT(refusal(pressed(2)), HasSubstr("only 64 integration points for 343 nodes"));
+  EXPECT_THAT(refusal(pressed(5), 1), HasSubstr("only 125 integration points for 343 nodes"));
 }
 
 TEST(CheckDiscretisation, RefusesTooFewPointsInOnePlaceAlone) {
-  Model model = pressed(8, side);
+  Model model = pressed(8);
   const BackgroundCells all = std::exchange(model.cells, {});
   model.cells.vertices = all.vertices;
   for (std::size_t c = 0; c < all.size(); ++c) {
     const auto corners = std::span(all.connectivity).subspan(8 * c, 8);
     const double farthest = all.vertices.row(corners[0]).maxCoeff();  // of the lowest vertex, from the box's corner
-    if (farthest == 0 || farthest > 0.4 * side) {
+    if (farthest == 0 || farthest > 0.4 * model_side) {
       model.cells.connectivity.insert(model.cells.connectivity.end(), corners.begin(), corners.end());
       model.cells.inside_fraction.push_back(1);
       model.cells.label.push_back(1);
@@ -72,11 +56,11 @@ TEST(CheckDiscretisation, RefusesTooFewPointsInOnePlaceAlone) {
 }
 
 TEST(CheckDiscretisation, RefusesCellsThatReachBeyondTheCloud) {
-  EXPECT_THAT(refusal(pressed(8, 1.5 * side)), HasSubstr("the background cells reach beyond the node cloud"));
+  EXPECT_THAT(refusal(pressed(8, 1.5 * model_side)), HasSubstr("the background cells reach beyond the node cloud"));
 }
 
 TEST(CheckDiscretisation, RefusesASpacingThatIsNotTheNodes) {
-  Model model = pressed(8, side);
+  Model model = pressed(8);
   for (double& s : model.cloud.spacing) {
     s *= 0.1;
   }
@@ -84,8 +68,9 @@ TEST(CheckDiscretisation, RefusesASpacingThatIsNotTheNodes) {
 }
 
 TEST(CheckDiscretisation, RefusesTwinsBelowATenthOfASpacing) {
-  Model model = pressed(8, side);
-  model.cloud.positions.row(100) = model.cloud.positions.row(101) + Eigen::RowVector3d(0.05 * side / (n - 1), 0, 0);
+  Model model = pressed(8);
+  model.cloud.positions.row(100) =
+      model.cloud.positions.row(101) + Eigen::RowVector3d(0.05 * model_side / (n - 1), 0, 0);
   EXPECT_THAT(refusal(model), HasSubstr("mm apart"));
 }
 

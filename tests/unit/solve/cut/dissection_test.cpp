@@ -10,6 +10,7 @@
 #include "solve/cut/cut_body.hpp"
 #include "solve/output/field_difference.hpp"
 #include "solve/shape/shape_functions.hpp"
+#include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/cut_bodies.hpp"
 
 namespace brainshift::solve::dissection_test {
@@ -20,12 +21,7 @@ using test::strip_length;
 using test::strip_width;
 
 std::string refusal(const Model& model, const SolveOptions& options = test::plane_options()) {
-  try {
-    solve(model, options);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal([&] { solve(model, options); });
 }
 
 TEST(Cut, AlongTheStretchChangesNothing) {

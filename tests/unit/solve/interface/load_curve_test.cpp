@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "solve/interface/load_curve.hpp"
-#include "tests/unit/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
-#include <functional>
 #include <limits>
+
+#include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::solve::load_curve_test {
 
@@ -65,17 +65,8 @@ TEST(LoadCurve, StaysWhatItIsOutsideItsRows) {
   }
 }
 
-std::string refusal(const std::function<void()>& make) {
-  try {
-    make();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 std::string refusal(const std::vector<double>& time, const std::vector<double>& factor) {
-  return refusal([&] { LoadCurve(time, factor, Join::straight); });
+  return test::refusal([&] { LoadCurve(time, factor, Join::straight); });
 }
 
 TEST(LoadCurve, RefusesATableWithTheRow) {
@@ -100,7 +91,7 @@ class LoadCurveFile : public testing::Test {
     return read_load_curve(file, Join::straight);
   }
   std::string refusal_of(const std::string& text) {
-    return refusal([&] { read(text); });
+    return test::refusal([&] { read(text); });
   }
 };
 
@@ -123,7 +114,7 @@ TEST_F(LoadCurveFile, IsRefusedWithFileAndLine) {
     EXPECT_NE(message.find(line), std::string::npos) << text << " gave: " << message;
   }
   EXPECT_NE(refusal_of("time,factor\n0,0\n").find(file.string()), std::string::npos);
-  EXPECT_NE(refusal([] { read_load_curve("no_such_curve.csv", Join::smooth); }).find("no_such_curve.csv"),
+  EXPECT_NE(test::refusal([] { read_load_curve("no_such_curve.csv", Join::smooth); }).find("no_such_curve.csv"),
             std::string::npos);
 }
 

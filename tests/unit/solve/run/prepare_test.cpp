@@ -26,6 +26,20 @@ Model strip_cut_at(std::optional<double> time) {
   return model;
 }
 
+/// What is measured (tests/extremes, precision): beyond these the bound of the error no longer holds in single.
+TEST(Completed, TakesDoublePrecisionWhereStiffnessDiffersMuch) {
+  SolveOptions options;
+  options.precision = Precision::single_precision;
+  Model model = uniaxial(1.02, 5);
+  const auto precision = [&] { return completed(options, model).precision; };
+  EXPECT_EQ(precision(), Precision::single_precision);
+  model.materials[1].poisson_ratio = 0.4999;
+  EXPECT_EQ(precision(), Precision::double_precision) << "of K and µ";
+  model.materials[1].poisson_ratio = 0.49;
+  model.materials[2] = {model.materials[1].youngs_modulus * 2000, 0.49, 1000};
+  EXPECT_EQ(precision(), Precision::double_precision) << "of one µ and another";
+}
+
 TEST(Prepare, HasNoContactWithoutASkull) {
   Model model = uniaxial(1.02, 5);
   EXPECT_FALSE(prepared(model).body.contact);
