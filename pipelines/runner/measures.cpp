@@ -64,6 +64,9 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                      {"compressed_share", m.compressed_share},
                      {"seconds_setup", m.seconds_setup},
                      {"seconds_stepping", m.seconds_stepping}};
+  if (!m.took.empty()) {
+    report.measures["took"] = m.took;
+  }
   if (m.region_nodes > 0) {
     report.measures["region"] = {{"nodes", m.region_nodes},
                                  {"share", static_cast<double>(m.region_nodes) / static_cast<double>(m.nodes)},

@@ -20,6 +20,7 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded) {
   moved_.push_back(moved);
   rates_.push_back(damping_rate);
   bounds_.push_back(std::numeric_limits<double>::infinity());
+  loaded_ = loaded ? loaded_ + 1 : 0;
   if (loaded && moved_.size() > recent_windows) {
     const double earlier = *(moved_.end() - 1 - recent_windows);
     const double measured = moved > 0 ? std::pow(moved / earlier, 1.0 / (recent_windows * window_)) : 0.0;
@@ -27,6 +28,17 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded) {
     bounds_.back() = rate < 1 ? rate / (1 - rate) * moved : bounds_.back();
     value_ = largest_recent(bounds_);
   }
+}
+
+bool ErrorBound::stands_still(double rounding) const {
+  constexpr std::ptrdiff_t long_time = 10;  // windows
+  constexpr double even = 0.9;
+  if (loaded_ < 2 * long_time) {
+    return false;
+  }
+  const double now = *std::max_element(moved_.end() - long_time, moved_.end());
+  const double before = *std::max_element(moved_.end() - 2 * long_time, moved_.end() - long_time);
+  return now <= rounding && now >= even * before && before >= even * now;
 }
 
 void ErrorBound::reset() {

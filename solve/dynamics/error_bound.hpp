@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -20,12 +21,17 @@ class ErrorBound {
   /// mm; infinite until there are enough windows under the whole load.
   double value() const { return value_; }
 
+  /// Whether steps under the whole load have stopped growing shorter: for ten windows they are as large as in the ten
+  /// before, and no larger than `rounding`, mm. The bound then stays what it is.
+  bool stands_still(double rounding) const;
+
   /// What was seen so far says nothing any more, as when the body has changed.
   void reset();
 
  private:
   int window_;
   std::vector<double> moved_, rates_, bounds_;
+  std::ptrdiff_t loaded_ = 0;  // windows under the whole load
   double value_ = std::numeric_limits<double>::infinity();
 };
 

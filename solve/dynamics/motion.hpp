@@ -75,7 +75,7 @@ class Motion {
   double fraction_before_ = 0;
   double work_rate_ = 0;
   double force_work_ = 0;    // of the forces over the last step
-  double damping_work_ = 0;  // over the last step
+  double damping_work_ = 0;  // from the middle of the step before to that of the last
   double external_work_ = 0;
   double dissipated_ = 0;
   double largest_energy_ = 0;    // mJ

@@ -17,7 +17,6 @@ namespace brainshift::solve {
 namespace {
 
 constexpr int window = 20;           // steps between looks at the state
-constexpr double open_part = 0.02;   // of the largest displacement: the error that may be left, whatever the tolerance
 constexpr double mass_margin = 1.1;  // stiffness may grow by this before the masses are made anew
 
 /// α of all steps. It stays the same: nodes in contact rest where a step's push and their way back cancel, which moves
@@ -67,6 +66,9 @@ class Relaxation {
         report_progress(progress);
         if (motion_.time >= 1 && bound_.value() <= tolerance() && no_change_is_left()) {
           return finish();
+        }
+        if (bound_.stands_still(rounding())) {
+          fail_at_standstill();
         }
       }
     }
@@ -155,6 +157,23 @@ class Relaxation {
   /// The bound that is wanted, mm: of a small load's answer not more than a small part is left open.
   double tolerance() const {
     return farthest_ > 0 ? std::min(options_.tolerance, open_part * farthest_) : options_.tolerance;
+  }
+
+  /// A step that is no longer than this is made of rounding, mm: of differences of sums of ten terms and more.
+  double rounding() const {
+    const bool single = points().precision() == Precision::single_precision;
+    constexpr double terms = 10;
+    return terms * farthest_ *
+           (single ? double{std::numeric_limits<float>::epsilon()} : std::numeric_limits<double>::epsilon());
+  }
+
+  void fail_at_standstill() {
+    std::ostringstream text;
+    text << "not converged: since step " << motion_.result.steps - 20 * window
+         << " the body moves by no more than rounding, with an error bound of " << bound_.value() << " mm where "
+         << tolerance() << " mm are wanted; take a larger tolerance"
+         << (points().precision() == Precision::single_precision ? " or double precision" : "");
+    motion_.result.failure = text.str();
   }
 
   /// What still accelerates, over the internal force or the largest at rest so far. Sums over the nodes, not of

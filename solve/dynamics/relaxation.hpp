@@ -12,6 +12,9 @@ namespace brainshift::solve {
 inline constexpr double residual_at_rest = 0.02;
 inline constexpr int rows_of_rest = 4;
 
+/// Of the largest displacement: the error that may be left, whatever the tolerance.
+inline constexpr double open_part = 0.02;
+
 /// How many rows up to one with this residual are calm, from how many up to the one before.
 inline int calm_rows(int before, double residual) {
   return residual <= residual_at_rest ? before + 1 : 0;

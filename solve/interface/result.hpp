@@ -85,6 +85,7 @@ struct SolveMeasures {
   int steps = 0;
   bool single_precision = false;  ///< of derivatives; double where materials differ too much, whatever was asked for
   bool converged = false;
+  std::string took;                 ///< what it was solved with after it had turned unstable as asked for; else empty
   double error_bound = 0;           ///< mm
   double critical_step = 0;         ///< transient: as estimated for the undeformed body, s
   int consistency_iterations = 0;   ///< of the correction of the derivatives
@@ -110,7 +111,8 @@ struct SolveResult {
   std::vector<StressStrainRow> stress_strain;  ///< of a model with a rupture
   CutSurface faces;                            ///< of the cut at the end; without vertices where nothing is cut
   SolveMeasures measures;
-  std::string failure;  ///< empty when converged; else one sentence: what went wrong, where and when (exit 3)
+  std::string failure;    ///< empty when converged; else one sentence: what went wrong, where and when (exit 3)
+  bool unstable = false;  ///< failed because it blew up, not for want of steps
 };
 
 }  // namespace brainshift::solve

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/material/material.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "solve/material/own_elasticity.hpp"
 
 namespace brainshift::solve {
@@ -22,6 +25,15 @@ double shear_modulus(const Material& material) {
 double bulk_modulus(const Material& material) {
   const double nu = material.poisson_ratio;
   return 2 * shear_modulus(material) * (1 + nu) / (3 * (1 - 2 * nu));
+}
+
+double stiffness_contrast(const std::map<std::int32_t, Material>& materials) {
+  double stiffest = 0, softest = std::numeric_limits<double>::infinity();
+  for (const auto& [label, material] : materials) {
+    stiffest = std::max(stiffest, shear_modulus(material));
+    softest = std::min(softest, shear_modulus(material));
+  }
+  return materials.empty() ? 1 : stiffest / softest;
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -44,6 +45,9 @@ double shear_modulus(const Material& material);
 
 /// K at rest, Pa: 2µ(1 + ν) / 3(1 − 2ν) = E / 3(1 − 2ν).
 double bulk_modulus(const Material& material);
+
+/// The largest shear modulus at rest over the least.
+double stiffness_contrast(const std::map<std::int32_t, Material>& materials);
 
 /// The elastic material that is left at t = ∞: µ times 1 − Σ g_i, the same K, no Prony terms.
 Material long_term(Material material);

@@ -2,7 +2,7 @@
 #include "solve/run/prepare.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <stdexcept>
 
 #include "solve/body/check_discretisation.hpp"
@@ -10,6 +10,7 @@
 #include "solve/body/lay_out.hpp"
 #include "solve/cut/cut_patches.hpp"
 #include "solve/cut/resection.hpp"
+#include "solve/dynamics/relaxation.hpp"
 #include "solve/quadrature/adaptive_points.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
@@ -128,16 +129,26 @@ void check_rupture(const Model& model, Dynamics dynamics) {
 /// soft one: the bound of the error no longer holds beyond these (measured: tests/extremes, precision).
 constexpr double most_bulk_in_single = 400;       // K / µ of a material
 constexpr double most_contrast_in_single = 1000;  // largest over least µ
+constexpr double finest_in_single = 1e-5;         // error that may be left, over the size of the body
 
-bool single_serves(const Model& model) {
-  double bulk = 0, stiffest = 0, softest = std::numeric_limits<double>::infinity();
-  for (const auto& [label, material] : model.materials) {
-    const double shear = shear_modulus(material);
-    bulk = std::max(bulk, bulk_modulus(material) / shear);
-    stiffest = std::max(stiffest, shear);
-    softest = std::min(softest, shear);
+/// The error that relaxation may leave open, mm, as far as the load says it beforehand.
+double error_wanted(const Model& model, double tolerance) {
+  double imposed = 0;
+  for (const double u : model.conditions.displacement.reshaped()) {
+    imposed = std::max(imposed, std::isnan(u) ? 0 : std::abs(u));
   }
-  return bulk <= most_bulk_in_single && stiffest <= most_contrast_in_single * softest;
+  return imposed > 0 ? std::min(tolerance, open_part * imposed) : tolerance;
+}
+
+bool single_serves(const Model& model, double tolerance) {
+  double bulk = 0;
+  for (const auto& [label, material] : model.materials) {
+    bulk = std::max(bulk, bulk_modulus(material) / shear_modulus(material));
+  }
+  const Points& x = model.cloud.positions;
+  const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
+  return bulk <= most_bulk_in_single && stiffness_contrast(model.materials) <= most_contrast_in_single &&
+         error_wanted(model, tolerance) >= finest_in_single * size;
 }
 
 bool cuts_go_on(const Model& model) {
@@ -148,7 +159,7 @@ bool cuts_go_on(const Model& model) {
 
 SolveOptions completed(SolveOptions options, const Model& model) {
   options.shape.planar = model.plane != Plane::none;
-  if (!single_serves(model)) {
+  if (!single_serves(model, options.tolerance)) {
     options.precision = Precision::double_precision;
   }
   return options;

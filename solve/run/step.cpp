@@ -109,6 +109,7 @@ SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepare
   SolveResult result;
   result.measures = measures;
   result.failure = stepped.failure;
+  result.unstable = stepped.unstable;
   measure(stepped, result.measures, result.failure);
   if (stepped.fault) {
     result.failure += ' ';

@@ -2,6 +2,8 @@
 #include "solve/run/whole_body.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/cut/resection.hpp"
@@ -12,6 +14,11 @@
 namespace brainshift::solve {
 
 namespace {
+
+struct Attempt {
+  SolveOptions options;
+  std::string what;
+};
 
 bool starts_coarse(const Model& model, const SolveOptions& options) {
   return options.start == Start::coarse && options.dynamics == Dynamics::relaxation && options.snapshot_every == 0 &&
@@ -34,19 +41,31 @@ NodalVectors coarse_start(const Model& model, SolveOptions options, const std::v
   return start;
 }
 
-}  // namespace
-
-SolveResult solve_whole_body(const Model& model, const SolveOptions& given, const Progress& progress) {
-  const Stopwatch start;
-  const SolveOptions options = completed(given, model);
-  SolveMeasures measures;
-  std::optional<Resected> resected;
-  if (model.resection) {
-    resected = resect(model, options);
-    measures.resection = resected->measures;
+/// What the body is tried with after stepping has turned unstable, in this order: none makes the answer looser.
+std::vector<Attempt> further_attempts(const SolveOptions& options) {
+  constexpr int slower = 5;
+  std::vector<Attempt> attempts(2, {.options = options, .what = {}});
+  for (Attempt& attempt : attempts) {
+    attempt.options.start = Start::rest;
+    attempt.options.load_steps *= slower;
+    attempt.what = std::to_string(attempt.options.load_steps) + " load steps";
   }
-  const Model& solved = resected ? resected->rest : model;
-  Prepared prepared = prepare(solved, options, {}, measures, progress);
+  attempts[1].options.shape.basis = Basis::linear;
+  attempts[1].what += ", linear shape functions";
+  return attempts;
+}
+
+/// Above some contrast of stiffness a slower load ends, but with an answer that is several times too stiff (measured:
+/// two layers of 1 : 10⁶).
+bool may_be_tried_again(const Model& model, const SolveOptions& options) {
+  constexpr double most_contrast = 1e5;
+  return options.dynamics == Dynamics::relaxation && !model.rupture &&
+         stiffness_contrast(model.materials) <= most_contrast;
+}
+
+SolveResult attempt(const Model& model, const SolveOptions& options, SolveMeasures measures, const Progress& progress) {
+  const Stopwatch start;
+  Prepared prepared = prepare(model, options, {}, measures, progress);
   measures.seconds_setup = start.seconds();
   NodalVectors coarse;
   if (starts_coarse(model, options)) {
@@ -55,7 +74,34 @@ SolveResult solve_whole_body(const Model& model, const SolveOptions& given, cons
     coarse = coarse_start(model, options, prepared.body.original);
     measures.seconds_coarse = begin.seconds();
   }
-  return step_to_end(solved, options, std::move(prepared), measures, std::move(coarse), progress);
+  return step_to_end(model, options, std::move(prepared), measures, std::move(coarse), progress);
+}
+
+}  // namespace
+
+SolveResult solve_whole_body(const Model& model, const SolveOptions& given, const Progress& progress) {
+  const SolveOptions options = completed(given, model);
+  SolveMeasures measures;
+  std::optional<Resected> resected;
+  if (model.resection) {
+    resected = resect(model, options);
+    measures.resection = resected->measures;
+  }
+  const Model& solved = resected ? resected->rest : model;
+  SolveResult result = attempt(solved, options, measures, progress);
+  if (!result.unstable || !may_be_tried_again(solved, options)) {
+    return result;
+  }
+  for (const auto& [slower, what] : further_attempts(options)) {
+    report(progress, 0, "unstable; once more with " + what);
+    SolveResult next = attempt(solved, slower, measures, progress);
+    if (!next.unstable) {
+      next.measures.took = what;
+      return next;
+    }
+  }
+  result.failure += "; a load five times as slow did not help, nor did linear shape functions";
+  return result;
 }
 
 }  // namespace brainshift::solve

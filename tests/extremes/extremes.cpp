@@ -18,19 +18,19 @@ namespace {
 using namespace brainshift::extremes;
 
 const std::pair<const char*, Case> cases[] = {
-    {"compression", compression},
-    {"incompressible", incompressible},
-    {"stiffness_ratio", stiffness_ratio},
-    {"clouds", clouds},
-    {"slivers", slivers},
-    {"far_away", far_away},
-    {"metres", metres},
-    {"time_step", time_step},
-    {"free_vibration", free_vibration},
-    {"precision", precision},
-    {"loads", loads},
-    {"rotation", rotation},
-    {"rest", rest},
+    {"compression", compression_cases::compression},
+    {"incompressible", stiffness_cases::incompressible},
+    {"stiffness_ratio", stiffness_cases::stiffness_ratio},
+    {"clouds", clouds_cases::clouds},
+    {"slivers", clouds_cases::slivers},
+    {"far_away", places_cases::far_away},
+    {"metres", places_cases::metres},
+    {"time_step", steps_cases::time_step},
+    {"free_vibration", steps_cases::free_vibration},
+    {"precision", precision_cases::precision},
+    {"loads", loads_cases::loads},
+    {"rotation", loads_cases::rotation},
+    {"rest", loads_cases::rest},
 };
 
 struct Arguments {

@@ -46,18 +46,39 @@ using Case = std::vector<Row> (*)(bool small);
 std::string markdown_table(const std::vector<Row>& rows);
 std::string csv_table(const std::vector<Row>& rows);
 
-std::vector<Row> compression(bool small);
-std::vector<Row> incompressible(bool small);
-std::vector<Row> stiffness_ratio(bool small);
+// A namespace a file.
+namespace clouds_cases {
 std::vector<Row> clouds(bool small);
 std::vector<Row> slivers(bool small);
-std::vector<Row> far_away(bool small);
-std::vector<Row> metres(bool small);
-std::vector<Row> time_step(bool small);
-std::vector<Row> free_vibration(bool small);
-std::vector<Row> precision(bool small);
+}  // namespace clouds_cases
+
+namespace compression_cases {
+std::vector<Row> compression(bool small);
+}  // namespace compression_cases
+
+namespace loads_cases {
 std::vector<Row> loads(bool small);
 std::vector<Row> rotation(bool small);
 std::vector<Row> rest(bool small);
+}  // namespace loads_cases
+
+namespace places_cases {
+std::vector<Row> far_away(bool small);
+std::vector<Row> metres(bool small);
+}  // namespace places_cases
+
+namespace precision_cases {
+std::vector<Row> precision(bool small);
+}  // namespace precision_cases
+
+namespace steps_cases {
+std::vector<Row> time_step(bool small);
+std::vector<Row> free_vibration(bool small);
+}  // namespace steps_cases
+
+namespace stiffness_cases {
+std::vector<Row> incompressible(bool small);
+std::vector<Row> stiffness_ratio(bool small);
+}  // namespace stiffness_cases
 
 }  // namespace brainshift::extremes

@@ -5,10 +5,9 @@
 #include "segmentation/geometry/surface.hpp"
 #include "tests/phantoms/bad_input.hpp"
 
-namespace brainshift {
-namespace {
+namespace brainshift::bad_cut_test {
 
-using bad_input::BadInput;
+using BadCut = bad_input::BadInput;
 
 Surface one_triangle() {
   Surface sheet{Points(3, 3), Triangles(1, 3)};
@@ -17,7 +16,7 @@ Surface one_triangle() {
   return sheet;
 }
 
-TEST_F(BadInput, CutsThatAreNone) {
+TEST_F(BadCut, CutsThatAreNone) {
   const std::string flat = "--material 1:brain --plane strain ";
   const std::pair<const char*, std::vector<std::string>> paths[] = {
       {"", {"empty"}},
@@ -43,7 +42,7 @@ TEST_F(BadInput, CutsThatAreNone) {
   expect_refused(solve_ball("--cut " + at("ball/skull.vtp")), {"skull.vtp", "closed"});
 }
 
-TEST_F(BadInput, OptionsOfCutsThatMakeNoSense) {
+TEST_F(BadCut, OptionsOfCutsThatMakeNoSense) {
   const std::string flat = "--material 1:brain --plane strain ", box = "--material 1:brain ";
   const std::string path = flat + "--cut-path '0,15; 20,15' ";
   expect_refused(solve_flat(flat + "--cut-path '0,15; 20'"), {"--cut-path", "'0,15; 20'", "x,y", "semicolons"});
@@ -65,7 +64,7 @@ TEST_F(BadInput, OptionsOfCutsThatMakeNoSense) {
   }
 }
 
-TEST_F(BadInput, RuptureThatMakesNoSense) {
+TEST_F(BadCut, RuptureThatMakesNoSense) {
   const std::string flat = "--material 1:brain --plane strain ";
   expect_refused(solve_box("--material 1:brain --rupture stretch=1.4"), {"--rupture", "--plane"});
   expect_refused(solve_flat(flat + "--rupture stretch=0.9"), {"--rupture", "stretch", "'0.9'", "> 1"});
@@ -79,7 +78,7 @@ TEST_F(BadInput, RuptureThatMakesNoSense) {
   expect_refused(solve_flat(flat + "--rupture stretch=1.4 --weak-spot -1,2,0,0.5"), {"--weak-spot", "-1,2,0,0.5"});
 }
 
-TEST_F(BadInput, ResectionsThatMakeNoSense) {
+TEST_F(BadCut, ResectionsThatMakeNoSense) {
   expect_refused(solve_box("--material 1:brain --resection 2"), {"label 2", "tissues' labels are 1"});
   expect_refused(solve_box("--material 1:brain --resection 1"), {"every tissue"});
   expect_refused(solve_box("--material 1:brain --resection tumour"), {"--resection", "'tumour'", "whole numbers"});
@@ -88,7 +87,7 @@ TEST_F(BadInput, ResectionsThatMakeNoSense) {
   expect_refused(run_scene("scene.xml") + " --set resection.labels=3", {"--set", "label 3", "tissues' labels are 1"});
 }
 
-TEST_F(BadInput, CutsOfASceneThatCannotBe) {
+TEST_F(BadCut, CutsOfASceneThatCannotBe) {
   const std::string scene = contents_of(at("scene.xml"));
   const auto with = [&](const std::string& cuts) {
     std::string text = scene;
@@ -104,5 +103,4 @@ TEST_F(BadInput, CutsOfASceneThatCannotBe) {
   expect_refused(with("<cuts/>"), {"bad.xml:5", "names no cut"});
 }
 
-}  // namespace
-}  // namespace brainshift
+}  // namespace brainshift::bad_cut_test

@@ -7,8 +7,7 @@
 #include "segmentation/geometry/surface.hpp"
 #include "tests/phantoms/bad_input.hpp"
 
-namespace brainshift {
-namespace {
+namespace brainshift::bad_input_test {
 
 using namespace bad_input;
 
@@ -247,5 +246,4 @@ TEST_F(BadInput, CommandLinesThatMakeNoSense) {
   expect_refused(solve_ball("--material 1:3000,0.7"), {"poisson_ratio", "0.7"});
 }
 
-}  // namespace
-}  // namespace brainshift
+}  // namespace brainshift::bad_input_test

@@ -17,8 +17,7 @@
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 
-namespace brainshift {
-namespace {
+namespace brainshift::physics_test {
 
 constexpr double side = 20;  // mm
 
@@ -191,5 +190,4 @@ TEST_F(Physics, MaterialsMeanTheSameHoweverTheyAreTyped) {
   EXPECT_NE(solution_of("1:brain_ogden"), solution_of("1:brain_ogden,poisson_ratio=0.45"));
 }
 
-}  // namespace
-}  // namespace brainshift
+}  // namespace brainshift::physics_test

@@ -9,8 +9,7 @@
 #include "pipelines/phantom/phantom.hpp"
 #include "tests/phantoms/program.hpp"
 
-namespace brainshift {
-namespace {
+namespace brainshift::resection_test {
 
 TEST(ResectedHead, IsSolvedAndRegistered) {
   const ScratchFolder scratch("resection");
@@ -32,5 +31,4 @@ TEST(ResectedHead, IsSolvedAndRegistered) {
   EXPECT_EQ(stages["register"]["status"], "done");
 }
 
-}  // namespace
-}  // namespace brainshift
+}  // namespace brainshift::resection_test

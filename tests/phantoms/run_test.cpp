@@ -11,8 +11,7 @@
 
 #include "tests/phantoms/program.hpp"
 
-namespace brainshift {
-namespace {
+namespace brainshift::run_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -288,5 +287,4 @@ TEST_F(Run, ReportCanBeMadeAgain) {
   EXPECT_TRUE(fs::exists(out / "page/index.html"));
 }
 
-}  // namespace
-}  // namespace brainshift
+}  // namespace brainshift::run_test

@@ -10,8 +10,7 @@
 
 #include "tests/phantoms/program.hpp"
 
-namespace brainshift {
-namespace {
+namespace brainshift::tolerance_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -128,5 +127,4 @@ TEST_F(Tolerance, PresetsTakeThePlaceOfTheScenesSettingsAndSetOverridesThem) {
   EXPECT_NE(unknown.err.find("fast | balanced | accurate"), std::string::npos) << unknown.err;
 }
 
-}  // namespace
-}  // namespace brainshift
+}  // namespace brainshift::tolerance_test

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr int divisions = 30;      // of a side
 constexpr int every = 5;           // of them a line is drawn
 constexpr double off_face = 1e-3;  // mm: which face of the cut a place belongs to
-constexpr int width = 820, height = 620, bar = 110;
+constexpr int picture_width = 820, picture_height = 620, bar = 110;
 
 /// A side of the block: a grid of places with vertices of its own, so that the block's edges are sharp.
 struct Side {
@@ -109,17 +109,18 @@ std::string picture_of_cut_block(const Solution& solution, const Vector3d& size,
   const DeformedBlock block = deformed(solution, sides);
   const Points& vertices = block.surface.vertices;
   const Vector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
-  const double scale = 1.03 * height / (high - low).norm();
+  const double scale = 1.03 * picture_height / (high - low).norm();
   const Vector3d towards = Vector3d(1, 0.8, -0.35).normalized();
-  const pipelines::Camera camera = pipelines::look_at((low + high) / 2, towards, scale, width, height);
+  const pipelines::Camera camera = pipelines::look_at((low + high) / 2, towards, scale, picture_width, picture_height);
   const double largest = *std::max_element(block.shift.begin(), block.shift.end());
   const pipelines::ColourScale colours{.high = pipelines::round_up(largest), .title = "shift, mm"};
   const pipelines::DepthCanvas picture = draw_surface(camera, block.surface, block.shift, colours);
-  pipelines::Svg svg("cut_block", "A block that is cut in its middle, coloured by displacement", width + bar, height);
-  svg.rectangle({0, 0}, {width + bar, height}, pipelines::colour::white);
+  pipelines::Svg svg("cut_block", "A block that is cut in its middle, coloured by displacement", picture_width + bar,
+                     picture_height);
+  svg.rectangle({0, 0}, {picture_width + bar, picture_height}, pipelines::colour::white);
   svg.image(picture.canvas, {0, 0});
   svg.lines(visible_grid(picture, camera, vertices), {.colour = {70, 70, 70}, .width = 1});
-  draw_colour_bar(svg, colours, {width + 8, 80}, height - 160, pipelines::colour::ink);
+  draw_colour_bar(svg, colours, {picture_width + 8, 80}, picture_height - 160, pipelines::colour::ink);
   return std::move(svg).str();
 }
 

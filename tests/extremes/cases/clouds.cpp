@@ -14,7 +14,7 @@
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/clouds.hpp"
 
-namespace brainshift::extremes {
+namespace brainshift::extremes::clouds_cases {
 
 namespace {
 
@@ -210,4 +210,4 @@ std::vector<Row> slivers(bool small) {
   return rows;
 }
 
-}  // namespace brainshift::extremes
+}  // namespace brainshift::extremes::clouds_cases

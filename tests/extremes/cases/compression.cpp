@@ -10,7 +10,7 @@
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 
-namespace brainshift::extremes {
+namespace brainshift::extremes::compression_cases {
 
 namespace {
 
@@ -65,4 +65,4 @@ std::vector<Row> compression(bool small) {
   return {cube(0.6, n), cube(0.5, n), cube(0.2, n), cube(0.1, n), cylinder(0.2, distance), cylinder(0.1, distance)};
 }
 
-}  // namespace brainshift::extremes
+}  // namespace brainshift::extremes::compression_cases

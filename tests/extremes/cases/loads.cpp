@@ -8,7 +8,7 @@
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/models.hpp"
 
-namespace brainshift::extremes {
+namespace brainshift::extremes::loads_cases {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::vector<Row> rest(bool) {
                 "the same load in 400 steps")};
 }
 
-}  // namespace brainshift::extremes
+}  // namespace brainshift::extremes::loads_cases

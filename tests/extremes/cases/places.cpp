@@ -6,7 +6,7 @@
 #include "segmentation/segment.hpp"
 #include "tests/extremes/brain.hpp"
 
-namespace brainshift::extremes {
+namespace brainshift::extremes::places_cases {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::vector<Row> metres(bool small) {
       image_in_metres()};
 }
 
-}  // namespace brainshift::extremes
+}  // namespace brainshift::extremes::places_cases

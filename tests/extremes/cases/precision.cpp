@@ -7,7 +7,7 @@
 #include "tests/extremes/brain.hpp"
 #include "tests/unit/solve/clouds.hpp"
 
-namespace brainshift::extremes {
+namespace brainshift::extremes::precision_cases {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::vector<Row> precision(bool small) {
   return rows;
 }
 
-}  // namespace brainshift::extremes
+}  // namespace brainshift::extremes::precision_cases

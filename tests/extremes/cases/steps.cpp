@@ -9,7 +9,7 @@
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/models.hpp"
 
-namespace brainshift::extremes {
+namespace brainshift::extremes::steps_cases {
 
 namespace {
 
@@ -128,4 +128,4 @@ std::vector<Row> free_vibration(bool small) {
                 "its energy after the push")};
 }
 
-}  // namespace brainshift::extremes
+}  // namespace brainshift::extremes::steps_cases

@@ -10,7 +10,7 @@
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
 
-namespace brainshift::extremes {
+namespace brainshift::extremes::stiffness_cases {
 
 namespace {
 
@@ -163,4 +163,4 @@ std::vector<Row> stiffness_ratio(bool small) {
           layers_row({1}, 0.49, 0.6, h, most)};
 }
 
-}  // namespace brainshift::extremes
+}  // namespace brainshift::extremes::stiffness_cases

@@ -13,7 +13,7 @@
 #include "tests/verification/reference.hpp"
 #include "tests/verification/slice.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::adaptive_cases {
 
 namespace {
 
@@ -173,4 +173,4 @@ Outcome adaptive_integration(bool small) {
   return table.outcome;
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::adaptive_cases

@@ -4,26 +4,26 @@
 namespace brainshift::verification {
 
 const std::vector<NamedCase>& all_cases() {
-  static const std::vector<NamedCase> cases = {{"homogeneous", homogeneous},
-                                               {"cantilever", cantilever},
-                                               {"pressurised_ball", pressurised_ball},
-                                               {"resection", resection},
-                                               {"manufactured", manufactured},
-                                               {"patch_test", patch_test},
-                                               {"step_estimate", step_estimate},
-                                               {"singular_clouds", singular_clouds},
-                                               {"cylinder_compression", cylinder_compression},
-                                               {"cylinder_shear", cylinder_shear},
-                                               {"cylinder_nu0499", cylinder_nearly_incompressible},
-                                               {"locking", locking},
-                                               {"there_and_back", there_and_back},
-                                               {"indentation", indentation},
-                                               {"extension", extension},
-                                               {"brain", brain},
-                                               {"adaptive_integration", adaptive_integration},
-                                               {"cut_path", cut_path},
-                                               {"cut_block", cut_block},
-                                               {"tear", tear}};
+  static const std::vector<NamedCase> cases = {{"homogeneous", analytic_cases::homogeneous},
+                                               {"cantilever", analytic_cases::cantilever},
+                                               {"pressurised_ball", analytic_cases::pressurised_ball},
+                                               {"resection", resection_cases::resection},
+                                               {"manufactured", convergence_cases::manufactured},
+                                               {"patch_test", convergence_cases::patch_test},
+                                               {"step_estimate", convergence_cases::step_estimate},
+                                               {"singular_clouds", singular_clouds_cases::singular_clouds},
+                                               {"cylinder_compression", cylinder_cases::cylinder_compression},
+                                               {"cylinder_shear", cylinder_cases::cylinder_shear},
+                                               {"cylinder_nu0499", cylinder_cases::cylinder_nearly_incompressible},
+                                               {"locking", cylinder_cases::locking},
+                                               {"there_and_back", large_strain_cases::there_and_back},
+                                               {"indentation", large_strain_cases::indentation},
+                                               {"extension", extension_cases::extension},
+                                               {"brain", brain_cases::brain},
+                                               {"adaptive_integration", adaptive_cases::adaptive_integration},
+                                               {"cut_path", cuts_cases::cut_path},
+                                               {"cut_block", cuts_cases::cut_block},
+                                               {"tear", tear_cases::tear}};
   return cases;
 }
 

@@ -15,7 +15,7 @@
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::analytic_cases {
 
 namespace {
 
@@ -268,4 +268,4 @@ Outcome pressurised_ball(bool small) {
       {}};
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::analytic_cases

@@ -10,7 +10,7 @@
 #include "tests/verification/loaded_brain.hpp"
 #include "tests/verification/reference.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::brain_cases {
 
 Outcome brain(bool small) {
   const Reference reference = read_reference("brain", "");
@@ -41,4 +41,4 @@ Outcome brain(bool small) {
   return outcome;
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::brain_cases

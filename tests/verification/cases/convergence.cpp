@@ -16,7 +16,7 @@
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::convergence_cases {
 
 namespace {
 
@@ -262,4 +262,4 @@ Outcome step_estimate(bool small) {
           {}};
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::convergence_cases

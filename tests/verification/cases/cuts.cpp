@@ -14,7 +14,7 @@
 #include "tests/verification/reference.hpp"
 #include "tests/verification/slice.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::cuts_cases {
 
 namespace {
 
@@ -222,4 +222,4 @@ Outcome cut_block(bool small) {
   return outcome;
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::cuts_cases

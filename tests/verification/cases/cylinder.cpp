@@ -8,7 +8,7 @@
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::cylinder_cases {
 
 namespace {
 
@@ -158,4 +158,4 @@ Outcome locking(bool small) {
   return outcome;
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::cylinder_cases

@@ -10,7 +10,7 @@
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::extension_cases {
 
 namespace {
 
@@ -92,4 +92,4 @@ Outcome extension(bool) {
   return outcome;
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::extension_cases

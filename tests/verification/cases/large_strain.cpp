@@ -10,7 +10,7 @@
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::large_strain_cases {
 
 namespace {
 
@@ -162,4 +162,4 @@ Outcome indentation(bool small) {
   return outcome;
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::large_strain_cases

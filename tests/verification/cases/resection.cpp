@@ -12,7 +12,7 @@
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::resection_cases {
 
 namespace {
 
@@ -128,4 +128,4 @@ Outcome resection(bool small) {
   return outcome;
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::resection_cases

@@ -11,7 +11,7 @@
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/reference.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::singular_clouds_cases {
 
 namespace {
 
@@ -93,4 +93,4 @@ Outcome singular_clouds(bool) {
   return outcome;
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::singular_clouds_cases

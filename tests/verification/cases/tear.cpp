@@ -10,7 +10,7 @@
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 
-namespace brainshift::verification {
+namespace brainshift::verification::tear_cases {
 
 namespace {
 
@@ -114,4 +114,4 @@ Outcome tear(bool small) {
   return outcome;
 }
 
-}  // namespace brainshift::verification
+}  // namespace brainshift::verification::tear_cases

@@ -49,6 +49,18 @@ TEST(ErrorBound, DoesNotCountUntilTheWholeLoadIsOn) {
   EXPECT_TRUE(std::isinf(bound.value()));
 }
 
+TEST(ErrorBound, StandsStillWhereRoundingKeepsTheStepsAlike) {
+  constexpr double rounding = 1e-6;
+  ErrorBound bound = after(10, 0.9);
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_FALSE(bound.stands_still(rounding)) << k;
+    bound.add(k % 3 == 0 ? 0.9e-6 : 0.5e-6, 0, true);
+  }
+  EXPECT_TRUE(bound.stands_still(rounding));
+  EXPECT_FALSE(bound.stands_still(0.8e-6)) << "larger than rounding: something else moves";
+  EXPECT_FALSE(after(100, 0.998).stands_still(1)) << "slow, but it comes nearer";
+}
+
 TEST(ErrorBound, TakesTheSlowerOfTheMeasuredRateAndThatOfTheDamping) {
   constexpr int looks = 12;
   const double moved = std::pow(0.9, (looks - 4) * window);

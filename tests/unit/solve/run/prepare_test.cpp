@@ -40,6 +40,19 @@ TEST(Completed, TakesDoublePrecisionWhereStiffnessDiffersMuch) {
   EXPECT_EQ(precision(), Precision::double_precision) << "of one µ and another";
 }
 
+/// Of a head ten metres long single precision resolves no hundredth of a millimetre.
+TEST(Completed, TakesDoublePrecisionWhereTheToleranceIsFineForTheSizeOfTheBody) {
+  SolveOptions options;
+  options.precision = Precision::single_precision;
+  Model model = uniaxial(1.02, 5);
+  options.tolerance = 1.2e-5 * model_side;
+  EXPECT_EQ(completed(options, model).precision, Precision::single_precision);
+  options.tolerance = 0.8e-5 * model_side;
+  EXPECT_EQ(completed(options, model).precision, Precision::double_precision);
+  options.tolerance = 0.01;
+  EXPECT_EQ(completed(options, uniaxial(1.0001, 5)).precision, Precision::double_precision) << "a small load";
+}
+
 TEST(Prepare, HasNoContactWithoutASkull) {
   Model model = uniaxial(1.02, 5);
   EXPECT_FALSE(prepared(model).body.contact);

@@ -28,6 +28,11 @@ TEST(CoarseStart, EndsWhereTheStartFromRestEndsInFewerSteps) {
   EXPECT_EQ(from_rest.measures.seconds_coarse, 0);
   EXPECT_NEAR(from_coarse.history.back().strain_energy, from_rest.history.back().strain_energy,
               0.01 * from_rest.history.back().strain_energy);
+  for (const HistoryRow& row : from_coarse.history) {
+    EXPECT_NEAR(row.strain_energy + row.kinetic_energy + row.dissipated_energy, row.external_work,
+                0.01 * row.external_work)
+        << "at step " << row.step;
+  }
 }
 
 TEST(CoarseStart, IsFromRestWhereTheWayThereIsWanted) {
@@ -70,6 +75,14 @@ TEST(CoarseStart, IsFromRestWhereTheCoarseCloudIsNotHeld) {
   EXPECT_GT(result.measures.seconds_coarse, 0);
   EXPECT_GT(result.measures.largest_displacement, 0);
   EXPECT_EQ(largest_difference_of(result, from_rest), 0);
+}
+
+TEST(WholeBody, IsLoadedMoreSlowlyBeforeItIsGivenUp) {
+  SolveOptions hasty;
+  hasty.load_steps = 10;
+  const SolveResult result = solve_whole_body(uniaxial(0.5, 5), hasty, {});
+  EXPECT_EQ(result.failure, "");
+  EXPECT_EQ(result.measures.took, "50 load steps");
 }
 
 TEST(WholeBody, SaysWhatItDoesAndHowLongItTook) {
