@@ -74,6 +74,17 @@ void Contact::apply(NodalVectors& parameters) {
   }
 }
 
+double Contact::push_work(const NodalVectors& before, const NodalVectors& after) const {
+  double work = 0;
+  for (std::size_t i = 0; i < allowed_.size(); ++i) {
+    const Eigen::Map<const Eigen::Vector3d> push(&correction_[3 * i]);
+    if (!push.isZero(0)) {
+      work += push.dot(place(i, after) - place(i, before)) / 2;
+    }
+  }
+  return work;
+}
+
 Contact::Measures Contact::measure(const NodalVectors& parameters) const {
   constexpr double rounding = 1e-4;  // mm, of samples in single precision
   Measures measures;

@@ -27,6 +27,10 @@ class Contact {
   /// Puts penetrating nodes back.
   void apply(NodalVectors& parameters);
 
+  /// Work of the pushes of the last apply(), times α: half their sum over the way from one step before the state that
+  /// they were applied to, to one after. Negative: they brake.
+  double push_work(const NodalVectors& before, const NodalVectors& after) const;
+
   struct Measures {
     std::size_t touching = 0;        ///< nodes within a hundredth of a millimetre of the skull or outside it
     double largest_penetration = 0;  ///< mm further outside the skull than at the start

@@ -106,9 +106,10 @@ void Motion::step(const PointLaws& laws, std::span<const double> mass, double al
   ++result.steps;
 }
 
-/// Work of the reactions and the forces by the trapezoidal rule, and what the damping takes, c m |û⁺ − û⁻|²/(4h): up to
-/// û, as the strain energy. The multipliers are the reactions at û, not at the end of the step. With the velocity over
-/// both steps the balance is exact for a linear body, in its fastest modes, too, which a coarse start is full of.
+/// Work of the reactions and the forces by the trapezoidal rule. Lost is what the skull's push takes, and the damping,
+/// c m |û⁺ − û⁻|²/(4h): up to û, as the strain energy. With the velocity over both steps the balance is exact for a
+/// linear body, in its fastest modes, too, which a coarse start is full of. The multipliers are the reactions at û, not
+/// at the end of the step.
 void Motion::add_energies(std::span<const double> mass, double alpha, double beta, double fraction) {
   const double rate = body.essential.multiplier_work() / alpha;
   external_work_ += (fraction_ - fraction_before_) * (rate + work_rate_) / 2 + force_work_;
@@ -118,13 +119,17 @@ void Motion::add_energies(std::span<const double> mass, double alpha, double bet
                     return at(body.external, a).dot(at(next, a) - at(now, a));
                   });
   }
+  dissipated_ += lost_work_ / 2;
+  lost_work_ = 0;
   if (beta < 1) {
-    dissipated_ += damping_work_ / 2;
-    damping_work_ = (1 - beta) / (4 * alpha) * sum_over_nodes(body.nodes(), [this, mass](std::size_t a) {
-                      return mass[a] * (at(next, a) - at(before, a)).squaredNorm();
-                    });
-    dissipated_ += damping_work_ / 2;
+    lost_work_ = (1 - beta) / (4 * alpha) * sum_over_nodes(body.nodes(), [this, mass](std::size_t a) {
+                   return mass[a] * (at(next, a) - at(before, a)).squaredNorm();
+                 });
   }
+  if (body.contact) {
+    lost_work_ -= body.contact->push_work(before, next) / alpha;
+  }
+  dissipated_ += lost_work_ / 2;
   if (beta != beta_ && alpha == alpha_) {  // relaxation damps anew: with h² = 2α/(1 + β) the energy of motion jumps
     dissipated_ += (beta_ - beta) / (4 * alpha) * sum_over_nodes(body.nodes(), [this, mass](std::size_t a) {
                      return mass[a] * (at(now, a) - at(before, a)).squaredNorm();

@@ -74,8 +74,8 @@ class Motion {
   double fraction_ = 0;          // of the load, at `now`
   double fraction_before_ = 0;
   double work_rate_ = 0;
-  double force_work_ = 0;    // of the forces over the last step
-  double damping_work_ = 0;  // from the middle of the step before to that of the last
+  double force_work_ = 0;  // of the forces over the last step
+  double lost_work_ = 0;   // in damping and contact, from the middle of the step before to that of the last
   double external_work_ = 0;
   double dissipated_ = 0;
   double largest_energy_ = 0;    // mJ

@@ -54,7 +54,8 @@ OptionTable<SolveOptions> integration_options() {
           {{"double", Precision::double_precision}, {"single", Precision::single_precision}},
           "of the derivatives while stepping and of the sums over pairs of points and nodes; "
           "stresses are double in any case. On the demo single is within 0.0001 mm of double. Double is "
-          "taken where K of a material is over 400 µ or the largest µ over 1000 times the least")};
+          "taken where K of a material is over 400 µ, the largest µ over 1000 times the least, or the tolerance "
+          "below a hundred thousandth of the body's size")};
 }
 
 OptionTable<SolveOptions> stepping_options() {
@@ -66,8 +67,10 @@ OptionTable<SolveOptions> stepping_options() {
                              "motion in time, with the physical mass"),
       number_option<Options>("tolerance", &Options::tolerance, above_zero, "mm",
                              "relaxation: stop when the bound of the remaining error is below this"),
-      number_option<Options>("load_steps", &Options::load_steps, {.low = 1}, "",
-                             "relaxation: steps over the load's curve"),
+      number_option<Options>(
+          "load_steps", &Options::load_steps, {.low = 1}, "",
+          "relaxation: steps over the load's curve. A body that turns unstable is tried again with five times as many, "
+          "then with linear shape functions, too"),
       choice_option<Options>("start", &Options::start, {{"coarse", Start::coarse}, {"rest", Start::rest}},
                              "of relaxation: under the full load, as a coarse cloud's solution lies, or undeformed, "
                              "with a history of the load; also where a body is cut or snapshots are wanted"),

@@ -18,7 +18,7 @@ struct HistoryRow {
   double external_work = 0;                            ///< mJ
   double strain_energy = 0;                            ///< mJ
   double kinetic_energy = 0;                           ///< mJ, fictitious in dynamic relaxation
-  double dissipated_energy = 0;                        ///< mJ, by the damping
+  double dissipated_energy = 0;                        ///< mJ, by the damping and the contact with the skull
   Eigen::Vector3d reaction = Eigen::Vector3d::Zero();  ///< N, sum over the nodes whose prescribed displacement is not 0
   double residual = 0;     ///< sum of |f_int - reactions| / sum of |f_int|, or the largest of that at rest so far
   double error_bound = 0;  ///< mm; infinite until it is estimated

@@ -115,7 +115,12 @@ TEST(Golden, StrainEnergyIsPaidForByExternalWork) {
   ASSERT_FALSE(history.empty());
   const double work = history.back().external_work;
   EXPECT_GT(work, 0);
-  EXPECT_LE(history.back().strain_energy, 1.01 * work);
+  for (const solve::HistoryRow& row : history) {
+    const bool rests = row.step > 20;  // before, the fastest motion is hardly seen at whole steps
+    EXPECT_NEAR(row.strain_energy + row.kinetic_energy + row.dissipated_energy, row.external_work,
+                (rests ? 0.01 : 0.05) * work)
+        << "at step " << row.step;
+  }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 //
 // Wittek et al., section 6.1: 20 % compression and shear of a soft cylinder between bonded faces.
 #include <cmath>
-#include <stdexcept>
 
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
@@ -80,14 +79,6 @@ Outcome compare(const std::string& name, double poisson_ratio, const Eigen::RowV
 }
 
 }  // namespace
-
-solve::SolveResult solved(const solve::Model& model, const solve::SolveOptions& options) {
-  solve::SolveResult result = solve::solve(model, options);
-  if (!result.failure.empty()) {
-    throw std::runtime_error(result.failure);
-  }
-  return result;
-}
 
 Outcome cylinder_compression(bool small) {
   return compare("cylinder_compression", 0.49, {0, 0, -imposed}, 2,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <stdexcept>
+
 #include "solve/solve.hpp"
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/verification/clouds.hpp"
@@ -39,6 +41,12 @@ inline solve::SolveOptions steady_options() {
 }
 
 /// Throws std::runtime_error with the solver's sentence when it failed.
-solve::SolveResult solved(const solve::Model& model, const solve::SolveOptions& options);
+inline solve::SolveResult solved(const solve::Model& model, const solve::SolveOptions& options) {
+  solve::SolveResult result = solve::solve(model, options);
+  if (!result.failure.empty()) {
+    throw std::runtime_error(result.failure);
+  }
+  return result;
+}
 
 }  // namespace brainshift::verification

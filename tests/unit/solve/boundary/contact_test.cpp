@@ -75,6 +75,20 @@ TEST_F(ContactWithABox, PutsPenetratingNodesBackAlongTheNormal) {
   EXPECT_LE(moved.rightCols<2>().cwiseAbs().maxCoeff(), 0.2);  // frictionless: only the normals at the rim are oblique
 }
 
+TEST_F(ContactWithABox, CountsTheWorkOfItsPushes) {
+  Contact contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows);
+  contact.weigh(cloud.mass);
+  const NodalVectors before = shifted({2.9, 0.2, 0}), free = shifted({3.0, 0, 0});
+  NodalVectors after = free;
+  contact.apply(after);
+  double work = 0;
+  for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
+    work += cloud.mass[a] * (at(after, a) - at(free, a)).dot(at(after, a) - at(before, a)) / 2;
+  }
+  EXPECT_NE(work, 0);
+  EXPECT_NEAR(contact.push_work(before, after), work, 1e-9 * std::abs(work));
+}
+
 TEST_F(ContactWithABox, SaysWhenANodeIsTooFarOutToBePushedBack) {
   SignedDistanceOptions near;
   near.far = false;
