@@ -15,9 +15,16 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <filesystem>
 #include <new>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "pipelines/commands/commands.hpp"
+#include "pipelines/commands/printable.hpp"
 #include "pipelines/runner/libraries.hpp"
 #include "pipelines/runner/processors.hpp"
 
@@ -27,9 +34,40 @@ namespace {
 
 constexpr int most_threads = 1024;
 
-int say(int exit_code, const char* what) {
-  std::fprintf(stderr, "brainshift: %s\n", what);
+int say(int exit_code, const std::string& what) {
+  std::fprintf(stderr, "brainshift: %s\n", printable(what).c_str());
   return exit_code;
+}
+
+/// The exit code of what is being thrown, which it tells.
+int tell_fault() {
+  try {
+    throw;
+  } catch (const NotConverged& error) {
+    return say(3, error.what());
+  } catch (const std::invalid_argument& error) {
+    return say(2, error.what());
+  } catch (const std::bad_alloc&) {
+    return say(1, "there is not enough memory; use fewer nodes or a smaller image");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return say(1, error.path1().string() + ": cannot be reached (" + error.code().message() +
+                      "); check the path, the disk and your rights");
+  } catch (const std::system_error& error) {
+    return say(1, "the system refuses a thread (" + error.code().message() +
+                      "); allow more memory or processes, or set --threads 1");
+  } catch (const std::runtime_error& error) {
+    return say(1, error.what());
+  } catch (...) {
+    return say(1, "a library failed in a way that is not foreseen; please report it with the command and its files");
+  }
+}
+
+/// What no handler can catch, as in a thread of OpenMP, ends like any other fault of ours.
+[[noreturn]] void leave_terminated() {
+  if (std::current_exception() != nullptr) {
+    tell_fault();
+  }
+  _exit(1);
 }
 
 [[noreturn]] void leave_interrupted(int signal) {
@@ -51,6 +89,16 @@ void add_settings(CLI::App& program, Settings& settings) {
   program.fallthrough();
 }
 
+/// CLI11 would say that a subcommand is required.
+std::string fault_of(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<std::string> unknown = program.remaining();
+  if (error.get_name() != "RequiredError" || !program.get_subcommands().empty()) {
+    return error.what();
+  }
+  return (unknown.empty() ? "a command is needed" : "there is no command '" + unknown.front() + "'") +
+         "; 'brainshift --help' lists the commands";
+}
+
 int run_program(int argc, char** argv) {
   CLI::App program("From a head MRI and measured displacements to a warped image.", "brainshift");
   Interruption interruption(leave_interrupted);
@@ -69,7 +117,7 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? program.exit(error) : say(2, error.what());
+    return error.get_exit_code() == 0 ? program.exit(error) : say(2, fault_of(program, error));
   }
   return 0;
 }
@@ -77,21 +125,18 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A limit on file sizes is then a failed write like a full disk, not a killed program.
+  // A limit on the size of files is then a failed write like a full disk, not a killed program.
   std::signal(SIGXFSZ, SIG_IGN);
+  // So is a reader of our output that has gone away.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::set_terminate(leave_terminated);
   wait_asleep(argv);
   silence_libraries();
   set_threads(std::getenv("OMP_NUM_THREADS") == nullptr ? available_threads()
                                                         : std::min(threads_in_use(), most_threads));
   try {
     return run_program(argc, argv);
-  } catch (const NotConverged& error) {
-    return say(3, error.what());
-  } catch (const std::invalid_argument& error) {
-    return say(2, error.what());
-  } catch (const std::bad_alloc&) {
-    return say(1, "there is not enough memory; use fewer nodes or a smaller image");
-  } catch (const std::exception& error) {
-    return say(1, error.what());
+  } catch (...) {
+    return tell_fault();
   }
 }

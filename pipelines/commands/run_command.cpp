@@ -33,7 +33,7 @@ void show(Console& console, const RunEvent& event) {
     case RunEvent::Kind::finished:
       return console.finished(event.stage, event.seconds);
     case RunEvent::Kind::kept:
-      return console.kept(event.stage);
+      return console.kept(event.stage, event.what);
     case RunEvent::Kind::failed:
       return console.failed(event.stage);
   }

@@ -20,7 +20,8 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
     console.progress(stage, fraction, fraction, what);
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_stage_record(folder.path(), {"", report.failure, stage_entry(report, seconds, peak_memory_mb())});
+  write_stage_record(folder.path(),
+                     {.stamp = "", .failure = report.failure, .entry = stage_entry(report, seconds, peak_memory_mb())});
   folder.merge();
   if (!report.failure.empty()) {
     console.failed(stage);

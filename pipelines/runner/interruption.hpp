@@ -11,9 +11,10 @@
 
 namespace brainshift::pipelines {
 
-/// Leaves nothing half-written when the user interrupts (SIGINT, SIGTERM, SIGHUP): the signals are taken by a thread of
-/// its own, which ends the external command that runs, removes the unfinished folder and calls `farewell`, which is to
-/// end the program. Make it before any other thread, and once.
+/// Leaves nothing half-written when the user interrupts (SIGINT, SIGTERM, SIGHUP, SIGQUIT) or the time that a limit
+/// allows is over (SIGXCPU): the signals are taken by a thread of its own, which ends the external command that runs,
+/// removes the unfinished folder and calls `farewell`, which is to end the program. Make it before any other thread,
+/// and once.
 class Interruption {
  public:
   explicit Interruption(std::function<void(int signal)> farewell);
