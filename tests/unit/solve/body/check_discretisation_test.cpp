@@ -20,7 +20,7 @@ constexpr int n = 7;  // nodes along a side
 /// A cube pressed by a tenth, in n_cells³ cells of the side given.
 Model pressed(int n_cells, double side = model_side) {
   Model model = uniaxial(0.9, n);
-  model.cells = test::box_cells(n_cells);
+  model.cells = test::box_cells(n_cells, side);
   return model;
 }
 
