@@ -20,6 +20,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -62,12 +63,21 @@ int tell_fault() {
   }
 }
 
-/// What no handler can catch, as in a thread of OpenMP, ends like any other fault of ours.
-[[noreturn]] void leave_terminated() {
-  if (std::current_exception() != nullptr) {
-    tell_fault();
+/// What nobody can catch: an exception in a thread of OpenMP, a crash in a library that did not see that its memory was
+/// refused. It ends as a fault of ours; the next run removes what it leaves.
+[[noreturn]] void leave_crashed(int) {
+  constexpr std::string_view what =
+      "brainshift: a library broke down, most often for want of memory: use fewer nodes, a smaller image or fewer "
+      "threads; where there is enough, please report the command and its files\n";
+  const auto written = write(STDERR_FILENO, what.data(), what.size());
+  _exit(written < 0 ? EXIT_FAILURE : 1);
+}
+
+void end_well_when_crashing() {
+  std::set_terminate([] { leave_crashed(SIGABRT); });
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+    std::signal(signal, leave_crashed);
   }
-  _exit(1);
 }
 
 [[noreturn]] void leave_interrupted(int signal) {
@@ -102,6 +112,8 @@ std::string fault_of(const CLI::App& program, const CLI::ParseError& error) {
 int run_program(int argc, char** argv) {
   CLI::App program("From a head MRI and measured displacements to a warped image.", "brainshift");
   Interruption interruption(leave_interrupted);
+  set_threads(std::getenv("OMP_NUM_THREADS") == nullptr ? available_threads()
+                                                        : std::min(threads_in_use(), most_threads));
   Settings settings;
   settings.interruption = &interruption;
   add_settings(program, settings);
@@ -129,11 +141,9 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   // So is a reader of our output that has gone away.
   std::signal(SIGPIPE, SIG_IGN);
-  std::set_terminate(leave_terminated);
+  end_well_when_crashing();
   wait_asleep(argv);
   silence_libraries();
-  set_threads(std::getenv("OMP_NUM_THREADS") == nullptr ? available_threads()
-                                                        : std::min(threads_in_use(), most_threads));
   try {
     return run_program(argc, argv);
   } catch (...) {

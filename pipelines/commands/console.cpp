@@ -80,6 +80,10 @@ void Console::progress(StageId stage, double fraction, double total, std::string
   on_line_ = true;
 }
 
+void Console::warned(StageId stage, std::string_view warning) {
+  line(std::string(stage_name(stage)) + ": warning: " + std::string(warning));
+}
+
 void Console::finished(StageId stage, double seconds) {
   line(std::string(stage_name(stage)) + ": done in " + duration(seconds));
 }

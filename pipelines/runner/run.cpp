@@ -142,6 +142,9 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
       const StageRecord record = make_stage(plan, out / name, states, interruption, progress);
       outcome.record["stages"][name] = record.entry;
       outcome.failure = record.failure;
+      for (const auto& warning : record.entry.value("warnings", std::vector<std::string>())) {
+        tally.tell(RunEvent::Kind::warned, stage, 1, warning);
+      }
       const auto kind = record.failure.empty() ? RunEvent::Kind::finished : RunEvent::Kind::failed;
       tally.tell(kind, stage, 1, {}, record.entry["seconds"]);
     }

@@ -25,6 +25,9 @@ nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, do
                                   {"peak_memory_mb", rounded(peak_memory_mb)},
                                   {"sizes", report.sizes},
                                   {"measures", report.measures}};
+  if (!report.warnings.empty()) {
+    entry["warnings"] = report.warnings;
+  }
   if (!report.failure.empty()) {
     entry["failure"] = report.failure;
   }

@@ -39,7 +39,7 @@ TEST(Printable, CutsAVeryLongTextInItsMiddle) {
   }
   const std::string begins = umlauts.substr(0, 1000) + "x" + umlauts;
   EXPECT_EQ(printable(begins).find('?'), std::string::npos);
-  EXPECT_EQ(printable(printable(begins).substr(4490, 20)).find('?'), std::string::npos) << "a character was cut in two";
+  EXPECT_EQ(printable(printable(begins)).find('?'), std::string::npos) << "a character was cut in two";
 }
 
 }  // namespace brainshift::pipelines::printable_test
