@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Every test, from a fresh Debian 12: installs what is missing, builds, checks the format, runs the unit tests under the
-# address and undefined-behaviour sanitizers and then all tests of the release build.
+# address and undefined-behaviour sanitizers, and a minute of fuzzing, and then all tests of the release build.
 #
 #   bash tests/run.sh [--no-install]
 set -euo pipefail
@@ -25,8 +25,9 @@ git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
 
 developer=(-DBRAINSHIFT_TESTS=ON -DBRAINSHIFT_DEVELOPER=ON)
 # Clang compiles the sanitizers' checks in half of GCC's time, and warns of other things.
-build build-sanitize unit_tests "${developer[@]}" -DBRAINSHIFT_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug \
-  -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1'
+build build-sanitize unit_tests "${developer[@]}" -DBRAINSHIFT_SANITIZE=ON -DBRAINSHIFT_FUZZ=ON \
+  -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' -DCMAKE_C_COMPILER=clang-14 \
+  -DCMAKE_CXX_COMPILER=clang++-14
 LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
   ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(nproc)"
 
