@@ -110,7 +110,7 @@ void note_unreached(nlohmann::ordered_json& stages, const Scene& scene, const fs
 }  // namespace
 
 RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& interruption, const RunObserver& observer) {
-  const fs::path out = fs::absolute(options.out).lexically_normal();
+  const fs::path out = place_of(options.out);
   const FolderLock lock(out);
   InputStates states;
   RunOutcome outcome{begin_run_record(scene, states), {}};

@@ -26,11 +26,6 @@ void move(const fs::path& from, const fs::path& to) {
   }
 }
 
-fs::path place_of(const fs::path& named) {
-  const fs::path place = fs::absolute(named).lexically_normal();
-  return place.has_filename() ? place : place.parent_path();  // a trailing slash
-}
-
 fs::path partial_of(const fs::path& place) {
   fs::path partial = place;
   partial += ".partial";
@@ -39,6 +34,14 @@ fs::path partial_of(const fs::path& place) {
 }
 
 }  // namespace
+
+fs::path place_of(const fs::path& named) {
+  if (named.empty()) {
+    throw std::invalid_argument("the folder to write to has no name; give one with --out");
+  }
+  const fs::path place = fs::absolute(named).lexically_normal();
+  return place.has_filename() ? place : place.parent_path();  // a trailing slash
+}
 
 fs::path old_of(const fs::path& place) {
   fs::path old = place;

@@ -33,6 +33,10 @@ class StageFolder {
   bool replaced_ = false;
 };
 
+/// The whole path of the folder that a user names, without a slash at its end. Throws std::invalid_argument when it is
+/// empty.
+std::filesystem::path place_of(const std::filesystem::path& named);
+
 /// Where the folder that is replaced waits until the new one stands in its place: FOLDER.old.
 std::filesystem::path old_of(const std::filesystem::path& place);
 

@@ -274,9 +274,9 @@ const tinyxml2::XMLElement& open_scene(tinyxml2::XMLDocument& document, const Sc
   if (root == nullptr || std::string(root->Name()) != "scene") {
     Where{source, root == nullptr ? 1 : root->GetLineNum(), ""}.fail("a scene begins with <scene version=\"1\">");
   }
-  for (const auto* after = root->NextSibling(); after != nullptr; after = after->NextSibling()) {
-    if (after->ToComment() == nullptr) {
-      Where{source, after->GetLineNum(), ""}.fail("there is something after the </scene>, which would be ignored");
+  for (const auto* node = document.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (node != root && (node->ToText() != nullptr || node->ToElement() != nullptr)) {
+      Where{source, node->GetLineNum(), ""}.fail("there is something beside the <scene>, which would be ignored");
     }
   }
   const char* version = root->Attribute("version");

@@ -192,7 +192,7 @@ void check_lists(const Scene& scene, const TradeoffLists& lists) {
 
 Sweep sweep(const fs::path& scene_file, const std::vector<std::string>& overrides, const fs::path& out,
             Interruption& interruption, const SweepObserver& observer) {
-  Sweeper sweeper(scene_file, overrides, out, interruption);
+  Sweeper sweeper(scene_file, overrides, place_of(out), interruption);
   Scene scene = sweeper.own_scene();
   const TradeoffLists lists = scene.tradeoff.value_or(TradeoffLists{});
   check_lists(scene, lists);

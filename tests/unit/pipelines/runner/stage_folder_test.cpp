@@ -51,6 +51,11 @@ TEST_F(StageFolderTest, TakesOverWhatAKilledRunLeft) {
   EXPECT_FALSE(fs::exists(folder.path() / "half"));
 }
 
+TEST_F(StageFolderTest, HasAPlaceWithAName) {
+  EXPECT_EQ(place_of(folder_ / "stage/"), folder_ / "stage");
+  brainshift::test::expect_parts(brainshift::test::refusal([] { place_of(""); }), {"no name", "--out"});
+}
+
 TEST_F(StageFolderTest, NoTwoWriteTheSameStage) {
   StageFolder first(folder_ / "stage", interruption_);
   std::ofstream(first.path() / "made") << "first";
