@@ -32,6 +32,14 @@ class Tally {
       observer_({kind, stage, fraction, (done_ + fraction * time_shares[index_of(stage)]) / whole_, what, seconds});
     }
   }
+  /// The warnings of the stage's entry, of a kept stage too: what they say still holds.
+  void warn(StageId stage, const nlohmann::ordered_json& entry) {
+    if (const auto warnings = entry.find("warnings"); warnings != entry.end() && warnings->is_array()) {
+      for (const auto& warning : *warnings) {
+        tell(RunEvent::Kind::warned, stage, 1, warning.is_string() ? warning.get<std::string>() : "");
+      }
+    }
+  }
   void finish(StageId stage) { done_ += time_shares[index_of(stage)]; }
 
  private:
@@ -134,6 +142,7 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
       outcome.record["stages"][name] = old->record.entry;
       outcome.record["stages"][name]["status"] = "kept";
       tally.tell(RunEvent::Kind::kept, stage, 0, listed(old->edited));
+      tally.warn(stage, old->record.entry);
     } else {
       tally.tell(RunEvent::Kind::started, stage);
       const Progress progress = [&](double fraction, std::string_view what) {
@@ -142,9 +151,7 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
       const StageRecord record = make_stage(plan, out / name, states, interruption, progress);
       outcome.record["stages"][name] = record.entry;
       outcome.failure = record.failure;
-      for (const auto& warning : record.entry.value("warnings", std::vector<std::string>())) {
-        tally.tell(RunEvent::Kind::warned, stage, 1, warning);
-      }
+      tally.warn(stage, record.entry);
       const auto kind = record.failure.empty() ? RunEvent::Kind::finished : RunEvent::Kind::failed;
       tally.tell(kind, stage, 1, {}, record.entry["seconds"]);
     }

@@ -172,6 +172,8 @@ TEST_F(RunTest, TellsAndRecordsItsWarnings) {
   EXPECT_EQ(told(Kind::warned), std::vector<StageId>{StageId::solve});
   ASSERT_EQ(outcome.record["stages"]["solve"]["warnings"].size(), 1U);
   expect_parts(outcome.record["stages"]["solve"]["warnings"][0], {"measured at 3 places"});
+  run_ball({"load.margin=8"});
+  EXPECT_EQ(told(Kind::warned), std::vector<StageId>{StageId::solve}) << "of the kept stage";
 }
 
 TEST_F(RunTest, DoesNotOverwriteAFolderOfSomebodyElse) {
