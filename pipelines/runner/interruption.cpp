@@ -39,7 +39,10 @@ Interruption::~Interruption() {
 }
 
 void Interruption::set_unfinished(const std::filesystem::path& folder) {
-  const std::lock_guard lock(mutex_);
+  set_unfinished(folder, hold());
+}
+
+void Interruption::set_unfinished(const std::filesystem::path& folder, const std::unique_lock<std::mutex>&) {
   unfinished_ = folder;
 }
 

@@ -22,8 +22,9 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// The folder that is being written; empty for none.
+  /// The folder that is being written; empty for none. The second is for who holds already.
   void set_unfinished(const std::filesystem::path& folder);
+  void set_unfinished(const std::filesystem::path& folder, const std::unique_lock<std::mutex>& hold);
   /// While this lives nobody is interrupted: for a few renames that belong together.
   [[nodiscard]] std::unique_lock<std::mutex> hold() { return std::unique_lock(mutex_); }
   /// The external command's process group; 0 for none.

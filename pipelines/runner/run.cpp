@@ -95,6 +95,11 @@ StageRecord make_stage(const StagePlan& plan, const fs::path& folder, InputState
   return record;
 }
 
+void write_record(const fs::path& out, const RunOutcome& outcome, Interruption& interruption) {
+  const auto hold = interruption.hold();
+  write_whole(out / "run.json", json_text(outcome.record));
+}
+
 /// Later stages of an earlier run that were not reached: told apart from those that still hold.
 void note_unreached(nlohmann::ordered_json& stages, const Scene& scene, const fs::path& out, StageId last,
                     InputStates& states, Interruption& interruption) {
@@ -156,10 +161,10 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
       tally.tell(kind, stage, 1, {}, record.entry["seconds"]);
     }
     tally.finish(stage);
-    write_whole(out / "run.json", json_text(outcome.record));
+    write_record(out, outcome, interruption);
   }
   note_unreached(outcome.record["stages"], scene, out, last, states, interruption);
-  write_whole(out / "run.json", json_text(outcome.record));
+  write_record(out, outcome, interruption);
   return outcome;
 }
 

@@ -65,8 +65,12 @@ void write_whole(const fs::path& file, const std::string& text) {
 }
 
 StageFolder::StageFolder(const fs::path& place, Interruption& interruption)
-    : place_(place_of(place)), partial_(partial_of(place_)), lock_(partial_), interruption_(interruption) {
-  interruption_.set_unfinished(partial_);
+    : place_(place_of(place)), partial_(partial_of(place_)), interruption_(interruption) {
+  {
+    const auto hold = interruption_.hold();  // who interrupts between the two would leave the folder
+    lock_.emplace(partial_);
+    interruption_.set_unfinished(partial_, hold);
+  }
   clear_own_folder(partial_);  // of a run that was killed
   write_whole(partial_ / unfinished_mark, "");
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "pipelines/runner/folder_lock.hpp"
 #include "pipelines/runner/interruption.hpp"
@@ -28,7 +30,7 @@ class StageFolder {
  private:
   std::filesystem::path place_;
   std::filesystem::path partial_;
-  FolderLock lock_;
+  std::optional<FolderLock> lock_;
   Interruption& interruption_;
   bool replaced_ = false;
 };

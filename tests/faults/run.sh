@@ -55,7 +55,9 @@ ends_well() { # WHAT CODE FOLDER EXPECTED...
   [ "$expected" = ok ] || fail "$what: code $code, expected one of: $*"
   [ "$(wc -l <said)" -le 1 ] || fail "$what: more than one line"
   [ "$code" = 0 ] || grep -q '^brainshift: ' said || fail "$what: code $code without a sentence"
-  [ -z "$(find "$folder" -name '*.partial' -o -name '*.old' 2>/dev/null)" ] || fail "$what: something is half-written"
+  local half
+  half=$(find "$folder" -name '*.partial' -o -name '*.old' 2>/dev/null)
+  [ -z "$half" ] || fail "$what: half-written: $half"
 }
 
 "$program" phantom --size 40 --spacing 6 --out head || exit 1
