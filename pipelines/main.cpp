@@ -15,9 +15,17 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <filesystem>
 #include <new>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
 #include "pipelines/commands/commands.hpp"
+#include "pipelines/commands/printable.hpp"
 #include "pipelines/runner/libraries.hpp"
 #include "pipelines/runner/processors.hpp"
 
@@ -27,9 +35,49 @@ namespace {
 
 constexpr int most_threads = 1024;
 
-int say(int exit_code, const char* what) {
-  std::fprintf(stderr, "brainshift: %s\n", what);
+int say(int exit_code, const std::string& what) {
+  std::fprintf(stderr, "brainshift: %s\n", printable(what).c_str());
   return exit_code;
+}
+
+/// The exit code of what is being thrown, which it tells.
+int tell_fault() {
+  try {
+    throw;
+  } catch (const NotConverged& error) {
+    return say(3, error.what());
+  } catch (const std::invalid_argument& error) {
+    return say(2, error.what());
+  } catch (const std::bad_alloc&) {
+    return say(1, "there is not enough memory; use fewer nodes or a smaller image");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return say(1, error.path1().string() + ": cannot be reached (" + error.code().message() +
+                      "); check the path, the disk and your rights");
+  } catch (const std::system_error& error) {
+    return say(1, "the system refuses a thread (" + error.code().message() +
+                      "); allow more memory or processes, or set --threads 1");
+  } catch (const std::runtime_error& error) {
+    return say(1, error.what());
+  } catch (...) {
+    return say(1, "a library failed in a way that is not foreseen; please report it with the command and its files");
+  }
+}
+
+/// What nobody can catch: an exception in a thread of OpenMP, a crash in a library that did not see that its memory was
+/// refused. It ends as a fault of ours; the next run removes what it leaves.
+[[noreturn]] void leave_crashed(int) {
+  constexpr std::string_view what =
+      "brainshift: a library broke down, most often for want of memory: use fewer nodes, a smaller image or fewer "
+      "threads; where there is enough, please report the command and its files\n";
+  const auto written = write(STDERR_FILENO, what.data(), what.size());
+  _exit(written < 0 ? EXIT_FAILURE : 1);
+}
+
+void end_well_when_crashing() {
+  std::set_terminate([] { leave_crashed(SIGABRT); });
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+    std::signal(signal, leave_crashed);
+  }
 }
 
 [[noreturn]] void leave_interrupted(int signal) {
@@ -51,9 +99,21 @@ void add_settings(CLI::App& program, Settings& settings) {
   program.fallthrough();
 }
 
+/// CLI11 would say that a subcommand is required.
+std::string fault_of(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<std::string> unknown = program.remaining();
+  if (error.get_name() != "RequiredError" || !program.get_subcommands().empty()) {
+    return error.what();
+  }
+  return (unknown.empty() ? "a command is needed" : "there is no command '" + unknown.front() + "'") +
+         "; 'brainshift --help' lists the commands";
+}
+
 int run_program(int argc, char** argv) {
   CLI::App program("From a head MRI and measured displacements to a warped image.", "brainshift");
   Interruption interruption(leave_interrupted);
+  set_threads(std::getenv("OMP_NUM_THREADS") == nullptr ? available_threads()
+                                                        : std::min(threads_in_use(), most_threads));
   Settings settings;
   settings.interruption = &interruption;
   add_settings(program, settings);
@@ -69,7 +129,7 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? program.exit(error) : say(2, error.what());
+    return error.get_exit_code() == 0 ? program.exit(error) : say(2, fault_of(program, error));
   }
   return 0;
 }
@@ -77,21 +137,16 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A limit on file sizes is then a failed write like a full disk, not a killed program.
+  // A limit on the size of files is then a failed write like a full disk, not a killed program.
   std::signal(SIGXFSZ, SIG_IGN);
+  // So is a reader of our output that has gone away.
+  std::signal(SIGPIPE, SIG_IGN);
+  end_well_when_crashing();
   wait_asleep(argv);
   silence_libraries();
-  set_threads(std::getenv("OMP_NUM_THREADS") == nullptr ? available_threads()
-                                                        : std::min(threads_in_use(), most_threads));
   try {
     return run_program(argc, argv);
-  } catch (const NotConverged& error) {
-    return say(3, error.what());
-  } catch (const std::invalid_argument& error) {
-    return say(2, error.what());
-  } catch (const std::bad_alloc&) {
-    return say(1, "there is not enough memory; use fewer nodes or a smaller image");
-  } catch (const std::exception& error) {
-    return say(1, error.what());
+  } catch (...) {
+    return tell_fault();
   }
 }

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Every test, from a fresh Debian 12: installs what is missing, checks the format, builds, runs all tests of the release
-# build and then the unit tests with the libraries under the address and undefined-behaviour sanitizers.
+# build, then the unit tests with the libraries under the address and undefined-behaviour sanitizers, and a minute of
+# fuzzing.
 #
 #   bash tests/run.sh [--no-install]
 set -euo pipefail
@@ -29,8 +30,8 @@ ctest --test-dir build --output-on-failure --parallel "$(nproc)"
 
 # Clang compiles the sanitizers' checks in half of GCC's time, and warns of other things. The tests themselves are those
 # of the release build.
-build build-sanitize unit_tests "${developer[@]}" -DBRAINSHIFT_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug \
-  -DBRAINSHIFT_TEST_OBJECTS="$root/build" \
-  -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1'
+build build-sanitize unit_tests "${developer[@]}" -DBRAINSHIFT_SANITIZE=ON -DBRAINSHIFT_FUZZ=ON \
+  -DBRAINSHIFT_TEST_OBJECTS="$root/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' \
+  -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14
 LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
   ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(nproc)"

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -140,6 +142,45 @@ std::vector<double> fractions_of(const std::filesystem::path& file, vtkUnstructu
   return fraction;
 }
 
+/// Of a hexahedron, by the six tetrahedra around its diagonal from corner 0 to corner 6.
+double hexahedron_volume(const Points& vertices, const std::int32_t* cell) {
+  constexpr int around[6] = {1, 2, 3, 7, 4, 5};
+  const Eigen::RowVector3d diagonal = vertices.row(cell[6]) - vertices.row(cell[0]);
+  double volume = 0;
+  for (int k = 0; k < 6; ++k) {
+    const Eigen::RowVector3d a = vertices.row(cell[around[k]]) - vertices.row(cell[0]);
+    const Eigen::RowVector3d b = vertices.row(cell[around[(k + 1) % 6]]) - vertices.row(cell[0]);
+    volume += a.cross(b).dot(diagonal) / 6;
+  }
+  return std::abs(volume);
+}
+
+/// The inside part must be one of its cell: the points that it gives carry its volume.
+void check_cut_part(const std::filesystem::path& file, const BackgroundCells& cells, std::size_t cell,
+                    const InsideOctants& part) {
+  const std::int32_t* corners = cells.connectivity.data() + 8 * cell;
+  const double volume = hexahedron_volume(cells.vertices, corners);
+  const double inside = std::accumulate(std::begin(part.volume), std::end(part.volume), 0.0);
+  if (inside > 1.001 * volume) {
+    refuse(file, "the octants of cell " + std::to_string(cell) + " hold " + std::to_string(inside) +
+                     " mm³, more than the cell (" + std::to_string(volume) + " mm³).");
+  }
+  Eigen::Array3d low = cells.vertices.row(corners[0]), high = low;
+  for (int k = 1; k < 8; ++k) {
+    const Eigen::Array3d corner = cells.vertices.row(corners[k]);
+    low = low.min(corner);
+    high = high.max(corner);
+  }
+  const Eigen::Array3d slack = 1e-3 * (high - low);
+  for (int octant = 0; octant < 8; ++octant) {
+    const Eigen::Array3d centroid = Eigen::Map<const Eigen::Array3d>(part.centroid[octant]);
+    if (part.volume[octant] > 0 && !((centroid >= low - slack).all() && (centroid <= high + slack).all())) {
+      refuse(file, "octant " + std::to_string(octant) + " of cell " + std::to_string(cell) +
+                       " has its centroid outside the cell.");
+    }
+  }
+}
+
 void read_cut_parts(const std::filesystem::path& file, vtkUnstructuredGrid& grid, BackgroundCells& cells) {
   const std::size_t count = cells.size();
   const std::vector<double> volume = vtu::array(file, *grid.GetCellData(), "octant_volume", count, 8);
@@ -165,6 +206,7 @@ void read_cut_parts(const std::filesystem::path& file, vtkUnstructuredGrid& grid
       }
       inside += part.volume[octant];
     }
+    check_cut_part(file, cells, cell, part);
     if (inside > 0) {
       cells.cut_index[cell] = static_cast<std::int32_t>(cells.cut_parts.size());
       cells.cut_parts.push_back(part);

@@ -56,7 +56,8 @@ struct BackgroundCells {
 /// where there is no volume). On reading, inside_fraction may be absent (1), label too (1) and the octant arrays (a cut
 /// cell's points are then those of the whole cell, weighted by its fraction). Throws std::invalid_argument, naming file
 /// and cell, on a file that is none, no cell, mixed or other kinds of cell, an inverted (planar: clockwise) or flat
-/// cell, planar cells with a vertex off z = 0, a fraction outside (0, 1], non-finite numbers.
+/// cell, planar cells with a vertex off z = 0, a fraction outside (0, 1], octants of more volume than their cell or
+/// with a centroid outside it, non-finite numbers.
 BackgroundCells read_background_cells(const std::filesystem::path& file);
 void write_background_cells(const std::filesystem::path& file, const BackgroundCells& cells);
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "discretise/sizing/tissue_lookup.hpp"
+#include "segmentation/geometry/distinct_points.hpp"
 #include "segmentation/geometry/grid_cell.hpp"
 #include "segmentation/geometry/point_tree.hpp"
 
@@ -75,7 +76,7 @@ SizingField sizing_field(const Surface& surface, const LabelMap* labels, const D
   std::optional<FinePlaces> tumour;
   std::optional<FinePlaces> boundary;
   if (options.craniotomy && options.craniotomy->factor < 1) {
-    make(opening, options.craniotomy->centres, options.craniotomy->factor);
+    make(opening, distinct_points(options.craniotomy->centres), options.craniotomy->factor);
   }
   if (labels != nullptr && options.tumour_factor < 1) {
     make(tumour, label_voxels(*labels, options.tumour_label), options.tumour_factor);

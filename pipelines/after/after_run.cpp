@@ -37,7 +37,8 @@ void check_run(const Scene& scene, const fs::path& run, Interruption& interrupti
                                 ": this is not the folder of a run with a solution (it has no solve/stage.json); give "
                                 "the --out of 'brainshift run'");
   }
-  if (record->stamp != stamp(plan_stage(StageId::solve, scene, run, interruption))) {
+  InputStates states;
+  if (record->stamp != stamp(plan_stage(StageId::solve, scene, run, interruption), states)) {
     throw std::invalid_argument(run.string() +
                                 ": its solution is not that of this scene: options, inputs or the "
                                 "program have changed since; run the scene again, with the same --set");

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "pipelines/commands/printable.hpp"
+
 namespace brainshift::pipelines {
 namespace {
 
@@ -41,7 +43,7 @@ void Console::clear() {
 void Console::line(const std::string& text) {
   if (!quiet_) {
     clear();
-    std::fprintf(stderr, "%s\n", text.c_str());
+    std::fprintf(stderr, "%s\n", printable(text).c_str());
   }
 }
 
@@ -78,12 +80,17 @@ void Console::progress(StageId stage, double fraction, double total, std::string
   on_line_ = true;
 }
 
+void Console::warned(StageId stage, std::string_view warning) {
+  line(std::string(stage_name(stage)) + ": warning: " + std::string(warning));
+}
+
 void Console::finished(StageId stage, double seconds) {
   line(std::string(stage_name(stage)) + ": done in " + duration(seconds));
 }
 
-void Console::kept(StageId stage) {
-  line(std::string(stage_name(stage)) + ": unchanged, kept");
+void Console::kept(StageId stage, std::string_view edited) {
+  line(std::string(stage_name(stage)) + ": " +
+       (edited.empty() ? "unchanged, kept" : "kept, with " + std::string(edited) + " as edited since"));
 }
 
 void Console::failed(StageId stage) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cerrno>
 #include <iostream>
 #include <memory>
 
@@ -53,7 +54,7 @@ void look_at_scene(const SceneArguments& arguments, const Settings& settings) {
     }
   }
   std::cout.flush();
-  if (!std::cout) {
+  if (!std::cout && errno != EPIPE) {  // who reads may have had enough, as head has
     throw std::runtime_error("standard output cannot be written");
   }
 }

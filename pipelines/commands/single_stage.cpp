@@ -20,8 +20,12 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
     console.progress(stage, fraction, fraction, what);
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_stage_record(folder.path(), {"", report.failure, stage_entry(report, seconds, peak_memory_mb())});
+  write_stage_record(folder.path(),
+                     {.stamp = "", .failure = report.failure, .entry = stage_entry(report, seconds, peak_memory_mb())});
   folder.merge();
+  for (const std::string& warning : report.warnings) {
+    console.warned(stage, warning);
+  }
   if (!report.failure.empty()) {
     console.failed(stage);
     throw NotConverged(report.failure);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "pipelines/phantom/phantom.hpp"
+#include "register/interface/options.hpp"
 #include "segmentation/files/make_folder.hpp"
 #include "segmentation/segment.hpp"
 
@@ -81,6 +82,15 @@ int wanted_nodes(const Phantom& phantom) {
   return static_cast<int>(std::clamp(std::round(voxels / 600) * 100, 600.0, 12000.0));
 }
 
+/// The stage's line where the voxels are too coarse for the fade that it has by default; else nothing.
+std::string fade_of_coarse(const ImageGeometry& geometry) {
+  const double shell = 2 * geometry.spacing.norm();
+  if (shell < registration::RegisterOptions{}.fade) {
+    return {};
+  }
+  return "  <stage name=\"register\" fade=\"" + std::to_string(std::lround(1.5 * shell)) + "\"/>\n";
+}
+
 std::string scene_text(const Phantom& phantom, bool has_gap) {
   const int nodes = wanted_nodes(phantom);
   const double edge = std::round(10 * std::cbrt(phantom.head.brain.volume() / nodes)) / 10;
@@ -105,9 +115,8 @@ std::string scene_text(const Phantom& phantom, bool has_gap) {
   <stage name="segment" edge_length=")"
        << edge << R"("/>
   <stage name="discretise" nodes=")"
-       << nodes << R"("/>
-</scene>
-)";
+       << nodes << "\"/>\n"
+       << fade_of_coarse(phantom.geometry) << "</scene>\n";
   return text.str();
 }
 

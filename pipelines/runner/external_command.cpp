@@ -5,9 +5,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 namespace brainshift::pipelines {
 namespace {
@@ -18,12 +22,6 @@ std::string quoted(const std::filesystem::path& path) {
     text += c == '\'' ? "'\\''" : std::string(1, c);
   }
   return text + "'";
-}
-
-void replace_all(std::string& text, const std::string& what, const std::string& by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
-    text.replace(at, what.size(), by);
-  }
 }
 
 std::string last_line(const std::filesystem::path& file) {
@@ -44,6 +42,8 @@ std::string last_line(const std::filesystem::path& file) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   setpgid(0, 0);
+  std::signal(SIGPIPE, SIG_DFL);  // the program ignores them
+  std::signal(SIGXFSZ, SIG_DFL);
   const int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0644);
   if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0 || chdir(directory) != 0) {
     _exit(126);
@@ -55,9 +55,15 @@ std::string last_line(const std::filesystem::path& file) {
 }  // namespace
 
 std::string fill_in(const ExternalCommand& command) {
-  std::string text = command.command;
-  replace_all(text, "{in}", quoted(command.in));
-  replace_all(text, "{out}", quoted(command.out));
+  const std::pair<std::string, std::string> places[] = {{"{in}", quoted(command.in)}, {"{out}", quoted(command.out)}};
+  std::string text;
+  // In one pass: what was put in is not looked at again, whatever the folder's name holds.
+  for (std::string_view rest = command.command; !rest.empty();) {
+    const auto* place = std::ranges::find_if(places, [&](const auto& p) { return rest.starts_with(p.first); });
+    const bool found = place != std::end(places);
+    text += found ? place->second : std::string(1, rest.front());
+    rest.remove_prefix(found ? place->first.size() : 1);
+  }
   return text;
 }
 

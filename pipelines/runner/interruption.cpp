@@ -5,13 +5,15 @@
 #include <ctime>
 #include <utility>
 
+#include "pipelines/runner/own_folder.hpp"
+
 namespace brainshift::pipelines {
 namespace {
 
 sigset_t watched_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
     struct sigaction action {};
     sigaction(signal, nullptr, &action);
     if (action.sa_handler != SIG_IGN) {  // as nohup sets it
@@ -37,7 +39,10 @@ Interruption::~Interruption() {
 }
 
 void Interruption::set_unfinished(const std::filesystem::path& folder) {
-  const std::lock_guard lock(mutex_);
+  set_unfinished(folder, hold());
+}
+
+void Interruption::set_unfinished(const std::filesystem::path& folder, const std::unique_lock<std::mutex>&) {
   unfinished_ = folder;
 }
 
@@ -67,7 +72,7 @@ void Interruption::clean_up() {
   // The main thread may still be writing: a file that it has just made can keep the folder from going.
   std::error_code fault;
   for (int attempt = 0; attempt < 100 && !unfinished_.empty(); ++attempt) {
-    std::filesystem::remove_all(unfinished_, fault);
+    remove_own_folder(unfinished_);
     if (!std::filesystem::exists(unfinished_, fault)) {
       break;
     }

@@ -11,9 +11,10 @@
 
 namespace brainshift::pipelines {
 
-/// Leaves nothing half-written when the user interrupts (SIGINT, SIGTERM, SIGHUP): the signals are taken by a thread of
-/// its own, which ends the external command that runs, removes the unfinished folder and calls `farewell`, which is to
-/// end the program. Make it before any other thread, and once.
+/// Leaves nothing half-written when the user interrupts (SIGINT, SIGTERM, SIGHUP, SIGQUIT) or the time that a limit
+/// allows is over (SIGXCPU): the signals are taken by a thread of its own, which ends the external command that runs,
+/// removes the unfinished folder and calls `farewell`, which is to end the program. Make it before any other thread,
+/// and once.
 class Interruption {
  public:
   explicit Interruption(std::function<void(int signal)> farewell);
@@ -21,8 +22,9 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  /// The folder that is being written; empty for none.
+  /// The folder that is being written; empty for none. The second is for who holds already.
   void set_unfinished(const std::filesystem::path& folder);
+  void set_unfinished(const std::filesystem::path& folder, const std::unique_lock<std::mutex>& hold);
   /// While this lives nobody is interrupted: for a few renames that belong together.
   [[nodiscard]] std::unique_lock<std::mutex> hold() { return std::unique_lock(mutex_); }
   /// The external command's process group; 0 for none.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "pipelines/runner/measures.hpp"
+#include "pipelines/runner/warnings.hpp"
 #include "register/files/warp_any.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/output/solution_file.hpp"
@@ -35,15 +36,22 @@ void warp_file(const fs::path& file, const fs::path& out, const registration::Wa
   registration::warp_any(file, out, target, options);
 }
 
-/// The stage knows no files; what it refuses is what one of them holds.
-segmentation::Segmentation segment_files(const SegmentJob& job, const segmentation::SegmentInput& input,
-                                         const Progress& progress) {
-  const fs::path& file = input.labels ? job.image.labels : input.surface ? job.image.surface : job.image.brain_mask;
+/// A stage knows no files; what it refuses is what these hold.
+template <class Work>
+auto naming(const std::string& files, const Work& work) {
   try {
-    return segmentation::segment(input, job.options, progress);
+    return work();
   } catch (const std::invalid_argument& fault) {
-    throw std::invalid_argument(file.empty() ? fault.what() : file.string() + ": " + fault.what());
+    throw std::invalid_argument(files.empty() ? fault.what() : files + ": " + fault.what());
   }
+}
+
+std::string load_files(const Load& load) {
+  if (load.craniotomy) {
+    return load.craniotomy->string();
+  }
+  const std::optional<BeforeAfter>& files = load.markups ? load.markups : load.surfaces;
+  return files ? files->before.string() + " and " + files->after.string() : "";
 }
 
 void read_cuts(const SolveJob& job, solve::Model& model) {
@@ -66,7 +74,8 @@ solve::CraniotomyLoad read_load(const Load& load, const fs::path& surface) {
     return solve::read_markups(load.markups->before, load.markups->after);
   }
   if (load.surfaces) {
-    return solve::load_from_surfaces(read_surface(load.surfaces->before), read_surface(load.surfaces->after));
+    const Surface before = read_surface(load.surfaces->before), after = read_surface(load.surfaces->after);
+    return naming(load_files(load), [&] { return solve::load_from_surfaces(before, after); });
   }
   if (load.simulated) {
     return solve::simulated_craniotomy(read_surface(surface), *load.simulated);
@@ -91,9 +100,13 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
     need_same_grid(input.t1->geometry, job.image.t1, input.brain_mask, job.image.brain_mask);
     need_same_grid(input.t1->geometry, job.image.t1, input.tumour_mask, job.image.tumour_mask);
   }
-  const segmentation::Segmentation result = segment_files(job, input, progress);
+  const fs::path& file = input.labels ? job.image.labels : input.surface ? job.image.surface : job.image.brain_mask;
+  const segmentation::Segmentation result =
+      naming(file.string(), [&] { return segmentation::segment(input, job.options, progress); });
   segmentation::write_segmentation(out, result);
-  return report_of(result);
+  StageReport said = report_of(result);
+  said.warnings = warnings_of(input, job.options, result);
+  return said;
 }
 
 StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progress& progress) {
@@ -105,7 +118,9 @@ StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progres
     options.craniotomy = job.refinement;
     options.craniotomy->centres = read_load(*job.load, job.surface).positions;
   }
-  const auto result = discretise::discretise(brain, labels ? &*labels : nullptr, options, progress);
+  const auto result = naming(job.surface.string(), [&] {
+    return discretise::discretise(brain, labels ? &*labels : nullptr, options, progress);
+  });
   discretise::write_discretisation(out, result);
   return report_of(result.measures);
 }
@@ -129,7 +144,9 @@ SolveInput read_input(const SolveJob& job) {
   }
   if (job.load) {
     input.load = read_load(*job.load, job.surface);
-    model.conditions.displacement = solve::prescribed_on_surface_nodes(model.cloud, *input.load, job.load->opening);
+    model.conditions.displacement = naming(load_files(*job.load), [&] {
+      return solve::prescribed_on_surface_nodes(model.cloud, *input.load, job.load->opening);
+    });
   }
   input.options = job.options;
   return input;
@@ -141,9 +158,14 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
   if (input.load) {
     solve::write_craniotomy_csv(out / "load.csv", *input.load);
   }
-  const solve::SolveResult result = solve::solve(input.model, input.options, progress);
+  const solve::SolveResult result = naming(job.nodes.string() + " and " + job.cells.string(),
+                                           [&] { return solve::solve(input.model, input.options, progress); });
   solve::write_solve(out, result);
-  return report_of(result, input.options.dynamics);
+  StageReport said = report_of(result, input.options.dynamics);
+  if (input.load) {
+    said.warnings = warnings_of(*input.load, input.model.cloud, input.model.conditions.displacement);
+  }
+  return said;
 }
 
 StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress& progress) {
@@ -157,7 +179,9 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
   if (!job.landmarks.empty()) {
     input.landmarks = solve::read_markup_positions(job.landmarks);
   }
-  const registration::Registration result = registration::register_images(input, job.options, progress);
+  const registration::Registration result = naming(job.t1.string() + " and " + job.surface.string(), [&] {
+    return registration::register_images(input, job.options, progress);
+  });
   registration::write_registration(out, result);
   for (const fs::path& file : job.warp) {
     warp_file(file, out, {.labels = false, .interpolation = job.options.interpolation});
@@ -165,7 +189,9 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
   for (const fs::path& file : job.warp_labels) {
     warp_file(file, out, {.labels = true, .interpolation = job.options.interpolation});
   }
-  return report_of(result);
+  StageReport said = report_of(result);
+  said.warnings = warnings_of(result.measures);
+  return said;
 }
 
 }  // namespace brainshift::pipelines

@@ -9,6 +9,10 @@
 #include <vtkObject.h>
 
 #include <cstdlib>
+#include <exception>
+#include <latch>
+#include <thread>
+#include <vector>
 
 namespace brainshift::pipelines {
 
@@ -18,11 +22,32 @@ namespace {
 // measurable, and beside a busy process a thread that spins on takes the processor from the one that it waits for.
 constexpr const char* spins = "1000";
 
+/// How many threads of so many can be made: limits on processes or on memory may not allow them all.
+int threads_allowed(int threads) {
+  std::vector<std::thread> made;
+  std::latch end(1);
+  try {
+    while (static_cast<int>(made.size()) + 1 < threads) {  // the first is the program's own
+      made.emplace_back([&end] { end.wait(); });
+    }
+  } catch (const std::exception&) {
+  }
+  end.count_down();
+  for (std::thread& thread : made) {
+    thread.join();
+  }
+  return static_cast<int>(made.size()) + 1;
+}
+
 }  // namespace
 
-void set_threads(int threads) {
+void set_threads(int wanted) {
+  const int threads = threads_allowed(wanted);
   const auto count = static_cast<itk::ThreadIdType>(threads);
   omp_set_num_threads(threads);
+#pragma omp parallel
+  {  // starts them now: where memory lacks later, OpenMP would end the program with words of its own
+  }
   itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(count);
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(count);
 }

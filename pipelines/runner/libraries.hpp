@@ -3,7 +3,8 @@
 
 namespace brainshift::pipelines {
 
-/// The number of threads of OpenMP and ITK, for all that follows; at least 1. Results do not depend on it.
+/// The number of threads of OpenMP and ITK, for all that follows; at least 1, and fewer where a limit does not allow as
+/// many. Results do not depend on it. Starts those of OpenMP: only once an Interruption is there.
 void set_threads(int threads);
 
 /// Threads that the stages use now.

@@ -7,6 +7,7 @@
 
 #include "pipelines/report/report.hpp"
 #include "pipelines/runner/external_command.hpp"
+#include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/sha256.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/scene_table.hpp"
@@ -325,12 +326,12 @@ StagePlan plan_stage(StageId stage, const Scene& scene, const fs::path& folder, 
   return plan;
 }
 
-std::string stamp(const StagePlan& plan) {
+std::string stamp(const StagePlan& plan, InputStates& states) {
   nlohmann::ordered_json text = {{"version", BRAINSHIFT_VERSION}, {"options", plan.options}};
   for (const InputFile& input : plan.inputs) {
-    text["inputs"][input.role] = sha256_of_file(input.path);
+    text["inputs"][input.role] = states.sha256(input.path);
   }
-  return sha256_of_text(text.dump());
+  return sha256_of_text(json_text(text));
 }
 
 }  // namespace brainshift::pipelines

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/runner/input_states.hpp"
 #include "pipelines/runner/interruption.hpp"
 #include "pipelines/runner/jobs.hpp"
 
@@ -38,7 +39,7 @@ SolveJob solve_job(const Scene& scene, const std::filesystem::path& folder);
 
 /// The stamp of a stage: SHA-256 over the program's version, the options and the contents of the inputs. Where the
 /// files lie and what they are called does not count. Throws std::invalid_argument when one cannot be read.
-std::string stamp(const StagePlan& plan);
+std::string stamp(const StagePlan& plan, InputStates& states);
 
 /// The user's own files that a scene names, with their roles.
 std::vector<InputFile> scene_files(const Scene& scene);

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/run.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <chrono>
-#include <stdexcept>
 
+#include "pipelines/runner/artefacts.hpp"
+#include "pipelines/runner/folder_lock.hpp"
+#include "pipelines/runner/json_text.hpp"
+#include "pipelines/runner/own_folder.hpp"
 #include "pipelines/runner/peak_memory.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
-#include "segmentation/files/make_folder.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -20,27 +18,6 @@ namespace {
 
 /// The shares of the stages in the time of a run, measured on a head of 12,000 nodes: for the estimate of what is left.
 constexpr std::array<double, all_stages.size()> time_shares = {0.11, 0.04, 0.26, 0.53, 0.06};
-
-/// Two runs in one folder would tear each other's files apart.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder) : file_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (file_ < 0 || flock(file_, LOCK_EX | LOCK_NB) != 0) {
-      const bool busy = file_ >= 0;
-      close(file_);
-      throw std::runtime_error(folder.string() +
-                               (busy ? ": another run is working in this folder; wait for it or choose "
-                                       "another --out"
-                                     : ": this folder cannot be opened"));
-    }
-  }
-  ~FolderLock() { close(file_); }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int file_;
-};
 
 /// Where the run stands, and telling it to the observer.
 class Tally {
@@ -55,6 +32,14 @@ class Tally {
       observer_({kind, stage, fraction, (done_ + fraction * time_shares[index_of(stage)]) / whole_, what, seconds});
     }
   }
+  /// The warnings of the stage's entry, of a kept stage too: what they say still holds.
+  void warn(StageId stage, const nlohmann::ordered_json& entry) {
+    if (const auto warnings = entry.find("warnings"); warnings != entry.end() && warnings->is_array()) {
+      for (const auto& warning : *warnings) {
+        tell(RunEvent::Kind::warned, stage, 1, warning.is_string() ? warning.get<std::string>() : "");
+      }
+    }
+  }
   void finish(StageId stage) { done_ += time_shares[index_of(stage)]; }
 
  private:
@@ -63,45 +48,61 @@ class Tally {
   double done_ = 0;
 };
 
-/// Whether what lies in the folder is what the plan would make.
-bool is_current(const StagePlan& plan, const std::string& plan_stamp, const fs::path& folder) {
+/// What lies in the folder where that is what the plan would make, maybe edited since; else nothing.
+struct Kept {
+  StageRecord record;
+  std::vector<std::string> edited;
+};
+std::optional<Kept> kept(const StagePlan& plan, const std::string& plan_stamp, const fs::path& folder) {
   const auto record = read_stage_record(folder);
   if (!record || record->stamp != plan_stamp || !record->failure.empty()) {
-    return false;
+    return std::nullopt;
   }
   for (const std::string& name : plan.artefacts) {
-    if (!fs::exists(folder / name)) {
-      return false;
+    if (!record->artefacts.contains(name)) {
+      return std::nullopt;
     }
   }
-  return true;
+  ArtefactChanges changes = changes_of(record->artefacts, folder);
+  return changes.lost.empty() ? std::optional(Kept{*record, std::move(changes.edited)}) : std::nullopt;
 }
 
-void refuse_foreign_folder(const fs::path& folder) {
-  if (fs::exists(folder) && !fs::exists(folder / "stage.json")) {
-    throw std::invalid_argument(folder.string() +
-                                ": this was not made by brainshift and would be overwritten; move it "
-                                "away or choose another --out");
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : ", ") + name;
   }
+  return text;
 }
 
-StageRecord make_stage(const StagePlan& plan, const std::string& plan_stamp, const fs::path& folder,
-                       Interruption& interruption, const Progress& progress) {
+StageRecord make_stage(const StagePlan& plan, const fs::path& folder, InputStates& states, Interruption& interruption,
+                       const Progress& progress) {
   refuse_foreign_folder(folder);
+  refuse_foreign_folder(old_of(folder));
   StageFolder unfinished(folder, interruption);
   reset_peak_memory();
   const auto begin = std::chrono::steady_clock::now();
   const StageReport report = plan.work(unfinished.path(), progress);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  const StageRecord record{plan_stamp, report.failure, stage_entry(report, seconds.count(), peak_memory_mb())};
+  for (const InputFile& input : plan.inputs) {
+    states.check_unchanged(input.path);
+  }
+  const StageRecord record{.stamp = stamp(plan, states),
+                           .failure = report.failure,
+                           .entry = stage_entry(report, seconds.count(), peak_memory_mb())};
   write_stage_record(unfinished.path(), record);
   unfinished.replace();
   return record;
 }
 
+void write_record(const fs::path& out, const RunOutcome& outcome, Interruption& interruption) {
+  const auto hold = interruption.hold();
+  write_whole(out / "run.json", json_text(outcome.record));
+}
+
 /// Later stages of an earlier run that were not reached: told apart from those that still hold.
 void note_unreached(nlohmann::ordered_json& stages, const Scene& scene, const fs::path& out, StageId last,
-                    Interruption& interruption) {
+                    InputStates& states, Interruption& interruption) {
   bool outdated = false;  // and then so is all that was made from it
   for (const StageId stage : all_stages) {
     const fs::path folder = out / stage_name(stage);
@@ -111,7 +112,7 @@ void note_unreached(nlohmann::ordered_json& stages, const Scene& scene, const fs
     if (const auto record = read_stage_record(folder)) {
       const StagePlan plan = plan_stage(stage, scene, out, interruption);
       auto& entry = stages[std::string(stage_name(stage))] = record->entry;
-      outdated = outdated || !is_current(plan, stamp(plan), folder);
+      outdated = outdated || !kept(plan, stamp(plan, states), folder);
       if (outdated) {
         entry["status"] = "outdated";
       }
@@ -122,10 +123,10 @@ void note_unreached(nlohmann::ordered_json& stages, const Scene& scene, const fs
 }  // namespace
 
 RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& interruption, const RunObserver& observer) {
-  const fs::path out = fs::absolute(options.out).lexically_normal();
-  make_folder(out);
+  const fs::path out = place_of(options.out);
   const FolderLock lock(out);
-  RunOutcome outcome{begin_run_record(scene), {}};
+  InputStates states;
+  RunOutcome outcome{begin_run_record(scene, states), {}};
   Tally tally(scene, options.until, observer);
   bool rerun = options.force;
   StageId last = StageId::segment;
@@ -140,27 +141,30 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
       continue;
     }
     const StagePlan plan = plan_stage(stage, scene, out, interruption);
-    const std::string plan_stamp = stamp(plan);
-    if (!rerun && is_current(plan, plan_stamp, out / name)) {
-      outcome.record["stages"][name] = read_stage_record(out / name)->entry;
+    const std::string plan_stamp = stamp(plan, states);
+    const std::optional<Kept> old = rerun ? std::nullopt : kept(plan, plan_stamp, out / name);
+    if (old) {
+      outcome.record["stages"][name] = old->record.entry;
       outcome.record["stages"][name]["status"] = "kept";
-      tally.tell(RunEvent::Kind::kept, stage);
+      tally.tell(RunEvent::Kind::kept, stage, 0, listed(old->edited));
+      tally.warn(stage, old->record.entry);
     } else {
       tally.tell(RunEvent::Kind::started, stage);
       const Progress progress = [&](double fraction, std::string_view what) {
         tally.tell(RunEvent::Kind::progress, stage, fraction, what);
       };
-      const StageRecord record = make_stage(plan, plan_stamp, out / name, interruption, progress);
+      const StageRecord record = make_stage(plan, out / name, states, interruption, progress);
       outcome.record["stages"][name] = record.entry;
       outcome.failure = record.failure;
+      tally.warn(stage, record.entry);
       const auto kind = record.failure.empty() ? RunEvent::Kind::finished : RunEvent::Kind::failed;
       tally.tell(kind, stage, 1, {}, record.entry["seconds"]);
     }
     tally.finish(stage);
-    write_whole(out / "run.json", outcome.record.dump(2) + "\n");
+    write_record(out, outcome, interruption);
   }
-  note_unreached(outcome.record["stages"], scene, out, last, interruption);
-  write_whole(out / "run.json", outcome.record.dump(2) + "\n");
+  note_unreached(outcome.record["stages"], scene, out, last, states, interruption);
+  write_record(out, outcome, interruption);
   return outcome;
 }
 

@@ -21,11 +21,12 @@ struct RunOptions {
 
 /// What happens in a run, for whoever shows it.
 struct RunEvent {
-  enum class Kind : std::uint8_t { started, progress, finished, kept, failed } kind;
+  enum class Kind : std::uint8_t { started, progress, warned, finished, kept, failed } kind;
   StageId stage;
   double fraction = 0;        ///< of the stage, 0 to 1
   double total_fraction = 0;  ///< of the run's expected time, 0 to 1
-  std::string_view what;      ///< what is being done
+  std::string_view what;      ///< what is being done; of a kept stage: the files that were edited since;
+                              ///< of a warning: its sentence
   double seconds = 0;         ///< that the stage took, when it is finished
 };
 using RunObserver = std::function<void(const RunEvent&)>;
@@ -36,11 +37,11 @@ struct RunOutcome {
 };
 
 /// Runs a checked scene: segment, discretise, solve, register, report, each in its folder under `out`, kept where its
-/// inputs' contents, options and the program's version are those of the time it was made. run.json is written after
-/// each stage. A stage without the files that it needs (register and report without a T1) is left out. A stage that
-/// does not converge ends the run; what it has is kept. Throws std::invalid_argument where the input is at fault and
-/// std::runtime_error where writing is, naming the file; stages that were finished are kept, the unfinished one leaves
-/// nothing.
+/// inputs' contents, options and the program's version are those of the time it was made and its files are whole.
+/// run.json is written after each stage. A stage without the files that it needs (register and report without a T1) is
+/// left out. A stage that does not converge ends the run; what it has is kept. Throws std::invalid_argument where the
+/// input is at fault and std::runtime_error where writing is, naming the file; stages that were finished are kept, the
+/// unfinished one leaves nothing.
 RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& interruption,
                const RunObserver& observer = {});
 

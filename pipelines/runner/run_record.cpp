@@ -4,8 +4,9 @@
 #include <cmath>
 #include <fstream>
 
+#include "pipelines/runner/artefacts.hpp"
+#include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/libraries.hpp"
-#include "pipelines/runner/sha256.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 
@@ -24,6 +25,9 @@ nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, do
                                   {"peak_memory_mb", rounded(peak_memory_mb)},
                                   {"sizes", report.sizes},
                                   {"measures", report.measures}};
+  if (!report.warnings.empty()) {
+    entry["warnings"] = report.warnings;
+  }
   if (!report.failure.empty()) {
     entry["failure"] = report.failure;
   }
@@ -31,27 +35,35 @@ nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, do
 }
 
 void write_stage_record(const std::filesystem::path& folder, const StageRecord& record) {
-  const nlohmann::ordered_json json = {
-      {"version", BRAINSHIFT_VERSION}, {"stamp", record.stamp}, {"failure", record.failure}, {"entry", record.entry}};
-  write_whole(folder / "stage.json", json.dump(2) + "\n");
+  const nlohmann::ordered_json json = {{"version", BRAINSHIFT_VERSION},
+                                       {"stamp", record.stamp},
+                                       {"failure", record.failure},
+                                       {"entry", record.entry},
+                                       {"artefacts", artefacts_in(folder)}};
+  write_whole(folder / "stage.json", json_text(json));
 }
 
 std::optional<StageRecord> read_stage_record(const std::filesystem::path& folder) {
   std::ifstream stream(folder / "stage.json");
   const auto json = nlohmann::ordered_json::parse(stream, nullptr, false);
-  if (!json.is_object() || !json.contains("stamp") || !json["stamp"].is_string() || !json.contains("entry") ||
-      !json["entry"].is_object()) {
+  const auto has = [&json](const char* name, nlohmann::ordered_json::value_t type) {
+    return json.contains(name) && json[name].type() == type;
+  };
+  using Type = nlohmann::ordered_json::value_t;
+  if (!json.is_object() || !has("stamp", Type::string) || !has("failure", Type::string) ||
+      !has("entry", Type::object) || !has("artefacts", Type::object)) {
     return std::nullopt;
   }
-  return StageRecord{json["stamp"], json.value("failure", ""), json["entry"]};
+  return StageRecord{
+      .stamp = json["stamp"], .failure = json["failure"], .entry = json["entry"], .artefacts = json["artefacts"]};
 }
 
-nlohmann::ordered_json begin_run_record(const Scene& scene) {
+nlohmann::ordered_json begin_run_record(const Scene& scene, InputStates& states) {
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array();
   for (const InputFile& file : scene_files(scene)) {
     inputs.push_back({{"role", file.role},
                       {"path", std::filesystem::absolute(file.path).lexically_normal().string()},
-                      {"sha256", sha256_of_file(file.path)}});
+                      {"sha256", states.sha256(file.path)}});
   }
   return {{"version", BRAINSHIFT_VERSION},
           {"scene", std::filesystem::absolute(scene.source.file).lexically_normal().string()},

@@ -16,18 +16,20 @@ namespace brainshift::pipelines {
 struct StageRecord {
   std::string stamp;
   std::string failure;
-  nlohmann::ordered_json entry;  ///< the stage's entry in run.json
+  nlohmann::ordered_json entry;                                         ///< the stage's entry in run.json
+  nlohmann::ordered_json artefacts = nlohmann::ordered_json::object();  ///< when it was read: artefacts_in the folder
 };
 
 /// What the stage did, as run.json's entry.
 nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, double peak_memory_mb);
 
+/// With the artefacts that lie in the folder then.
 void write_stage_record(const std::filesystem::path& folder, const StageRecord& record);
 
 /// Empty when there is none that can be read.
 std::optional<StageRecord> read_stage_record(const std::filesystem::path& folder);
 
 /// run.json before any stage: version, scene, inputs with checksums, options, threads.
-nlohmann::ordered_json begin_run_record(const Scene& scene);
+nlohmann::ordered_json begin_run_record(const Scene& scene, InputStates& states);
 
 }  // namespace brainshift::pipelines

@@ -75,10 +75,16 @@ std::string sha256_of_file(const std::filesystem::path& file) {
     return hash.hex();
   }
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(file)) {
-    if (entry.is_regular_file()) {
-      files.push_back(entry.path());
+  std::filesystem::directory_iterator entry(file, unknown);
+  for (; !unknown && entry != std::filesystem::directory_iterator(); entry.increment(unknown)) {
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored)) {
+      files.push_back(entry->path());
     }
+  }
+  if (unknown) {
+    throw std::invalid_argument(file.string() + ": this folder cannot be read (" + unknown.message() +
+                                "); check its permissions");
   }
   std::sort(files.begin(), files.end());
   std::string listing;

@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 
+#include "pipelines/runner/own_folder.hpp"
 #include "segmentation/files/make_folder.hpp"
 
 namespace brainshift::pipelines {
@@ -25,7 +26,28 @@ void move(const fs::path& from, const fs::path& to) {
   }
 }
 
+fs::path partial_of(const fs::path& place) {
+  fs::path partial = place;
+  partial += ".partial";
+  refuse_foreign_folder(partial);
+  return partial;
+}
+
 }  // namespace
+
+fs::path place_of(const fs::path& named) {
+  if (named.empty()) {
+    throw std::invalid_argument("the folder to write to has no name; give one with --out");
+  }
+  const fs::path place = fs::absolute(named).lexically_normal();
+  return place.has_filename() ? place : place.parent_path();  // a trailing slash
+}
+
+fs::path old_of(const fs::path& place) {
+  fs::path old = place;
+  old += ".old";
+  return old;
+}
 
 void write_whole(const fs::path& file, const std::string& text) {
   fs::path unfinished = file;
@@ -43,43 +65,44 @@ void write_whole(const fs::path& file, const std::string& text) {
 }
 
 StageFolder::StageFolder(const fs::path& place, Interruption& interruption)
-    : place_(fs::absolute(place).lexically_normal()), interruption_(interruption) {
-  if (!place_.has_filename()) {  // a trailing slash
-    place_ = place_.parent_path();
+    : place_(place_of(place)), partial_(partial_of(place_)), interruption_(interruption) {
+  {
+    const auto hold = interruption_.hold();  // who interrupts between the two would leave the folder
+    lock_.emplace(partial_);
+    interruption_.set_unfinished(partial_, hold);
   }
-  partial_ = place_;
-  partial_ += ".partial";
-  make_folder(place_.parent_path());
-  std::error_code fault;
-  fs::remove_all(partial_, fault);  // of a run that was killed
-  interruption_.set_unfinished(partial_);
-  make_folder(partial_);
+  clear_own_folder(partial_);  // of a run that was killed
+  write_whole(partial_ / unfinished_mark, "");
 }
 
 StageFolder::~StageFolder() {
-  std::error_code fault;
-  fs::remove_all(partial_, fault);
+  if (!replaced_) {
+    remove_own_folder(partial_);
+  }
   interruption_.set_unfinished({});
 }
 
 void StageFolder::replace() {
   const auto hold = interruption_.hold();
-  fs::path old = place_;
-  old += ".old";
-  std::error_code fault;
-  fs::remove_all(old, fault);
+  const fs::path old = old_of(place_);
+  remove_own_folder(old);
   if (fs::exists(place_)) {
     move(place_, old);
   }
+  std::error_code fault;
+  fs::remove(partial_ / unfinished_mark, fault);
   move(partial_, place_);
-  fs::remove_all(old, fault);
+  replaced_ = true;
+  remove_own_folder(old);
 }
 
 void StageFolder::merge() {
   const auto hold = interruption_.hold();
   make_folder(place_);
   for (const auto& entry : fs::directory_iterator(partial_)) {
-    move(entry.path(), place_ / entry.path().filename());
+    if (entry.path().filename() != unfinished_mark) {
+      move(entry.path(), place_ / entry.path().filename());
+    }
   }
 }
 

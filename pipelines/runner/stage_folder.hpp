@@ -2,13 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
+#include "pipelines/runner/folder_lock.hpp"
 #include "pipelines/runner/interruption.hpp"
 
 namespace brainshift::pipelines {
 
 /// A folder that is written beside its place, under the name FOLDER.partial, and appears there when it is whole. One
-/// that is not committed is removed. Throws std::runtime_error, naming the folder, when it cannot be made or moved.
+/// that is not committed is removed. Throws std::runtime_error, naming the folder, when it cannot be made or moved or
+/// another process is writing it, and std::invalid_argument when a FOLDER.partial is there that is not ours.
 class StageFolder {
  public:
   StageFolder(const std::filesystem::path& place, Interruption& interruption);
@@ -26,8 +30,17 @@ class StageFolder {
  private:
   std::filesystem::path place_;
   std::filesystem::path partial_;
+  std::optional<FolderLock> lock_;
   Interruption& interruption_;
+  bool replaced_ = false;
 };
+
+/// The whole path of the folder that a user names, without a slash at its end. Throws std::invalid_argument when it is
+/// empty.
+std::filesystem::path place_of(const std::filesystem::path& named);
+
+/// Where the folder that is replaced waits until the new one stands in its place: FOLDER.old.
+std::filesystem::path old_of(const std::filesystem::path& place);
 
 /// Writes a text file whole or not at all. Throws std::runtime_error, naming it.
 void write_whole(const std::filesystem::path& file, const std::string& text);

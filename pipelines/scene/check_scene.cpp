@@ -7,9 +7,11 @@
 
 #include "discretise/interface/option_table.hpp"
 #include "pipelines/scene/scene_table.hpp"
+#include "register/field/brain_zones.hpp"
 #include "register/interface/option_table.hpp"
 #include "segmentation/interface/option_table.hpp"
 #include "solve/interface/option_table.hpp"
+#include "solve/load/craniotomy_load.hpp"
 #include "solve/material/check_material.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/region/region.hpp"
@@ -46,8 +48,13 @@ void check_files(const Scene& scene) {
       if (file.empty() && option.required) {
         fail(scene, path, path + " is empty; it must name a file");
       }
-      if (!file.empty() && !std::filesystem::exists(file)) {
+      std::error_code fault;
+      const auto status = std::filesystem::status(file, fault);
+      if (!file.empty() && status.type() == std::filesystem::file_type::not_found) {
         fail(scene, path, path + " names the file " + file + ", which does not exist");
+      }
+      if (!file.empty() && fault) {
+        fail(scene, path, path + " names the file " + file + ", which cannot be reached (" + fault.message() + ")");
       }
     }
   }
@@ -85,6 +92,24 @@ void check_load(const Scene& scene) {
     fail(
         scene, "load",
         "<load> has " + std::to_string(parts) + " parts; give exactly one of craniotomy, markups, surfaces, simulated");
+  }
+}
+
+/// What would be found late, when stages that took long are done: files are read as their stage will read them.
+void check_late_files(const Scene& scene) {
+  if (scene.load && scene.load->craniotomy) {
+    check_at(scene, "load.craniotomy", [&] { solve::read_craniotomy_csv(*scene.load->craniotomy); });
+  }
+  if (scene.load && scene.load->markups) {
+    check_at(scene, "load.markups",
+             [&] { solve::read_markups(scene.load->markups->before, scene.load->markups->after); });
+  }
+  if (scene.landmarks) {
+    check_at(scene, "landmarks", [&] { solve::read_markup_positions(*scene.landmarks); });
+  }
+  if (!scene.image.t1.empty() && is_ours(scene, StageId::registration)) {
+    check_at(scene, "image.t1",
+             [&] { registration::check_fade(scene.registration.fade, read_image(scene.image.t1).geometry); });
   }
 }
 
@@ -202,6 +227,7 @@ void check_scene(const Scene& scene) {
   check_tissues(scene);
   check_cuts(scene);
   check_resection(scene);
+  check_late_files(scene);
 }
 
 void check_solve_options(const Scene& scene) {

@@ -4,10 +4,13 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
+#include <regex>
 #include <stdexcept>
 
 #include "pipelines/scene/scene_table.hpp"
+#include "segmentation/files/readable_file.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -27,6 +30,10 @@ struct Where {
 template <class T>
 void set_value(const Option<T>& option, T& target, const std::string& value, const Where& where) {
   std::string stored = value;
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+  if (option.is_path && std::ranges::any_of(value, is_control)) {
+    where.fail(where.element + " " + option.name + " holds a control character; a file's name is expected");
+  }
   if (option.is_path && !value.empty()) {
     stored = (where.source.file.parent_path() / value).lexically_normal().string();
   }
@@ -243,18 +250,34 @@ void require_options(const Scene& scene) {
   }
 }
 
-const tinyxml2::XMLElement& open_scene(tinyxml2::XMLDocument& document, const SceneSource& source) {
-  if (!std::filesystem::is_regular_file(source.file)) {
-    throw std::invalid_argument(source.file.string() + ": there is no such file; a scene (.xml) was expected");
+/// The parser ends a value at a character of number 0, so that a file's name would be none.
+void refuse_nul(const SceneSource& source) {
+  std::ifstream stream(source.file, std::ios::binary);
+  static const std::regex nul("&#x?0+;");
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (line.find('\0') != std::string::npos ||
+        (line.find("&#") != std::string::npos && std::regex_search(line, nul))) {
+      Where{source, number, ""}.fail("there is a character of number 0 here; remove it");
+    }
   }
+}
+
+const tinyxml2::XMLElement& open_scene(tinyxml2::XMLDocument& document, const SceneSource& source) {
+  check_readable(source.file);
+  refuse_nul(source);
   if (document.LoadFile(source.file.c_str()) != tinyxml2::XML_SUCCESS) {
     Where{source, std::max(1, document.ErrorLineNum()), ""}.fail(
-        "this is not well-formed XML (" + std::string(tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID())) +
-        "); see 'brainshift scene --defaults' for how a scene looks");
+        "this is not well-formed XML; see 'brainshift scene --defaults' for how a scene looks");
   }
   const tinyxml2::XMLElement* root = document.RootElement();
   if (root == nullptr || std::string(root->Name()) != "scene") {
     Where{source, root == nullptr ? 1 : root->GetLineNum(), ""}.fail("a scene begins with <scene version=\"1\">");
+  }
+  for (const auto* node = document.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (node != root && (node->ToText() != nullptr || node->ToElement() != nullptr)) {
+      Where{source, node->GetLineNum(), ""}.fail("there is something beside the <scene>, which would be ignored");
+    }
   }
   const char* version = root->Attribute("version");
   const auto* first = root->FirstAttribute();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run.hpp"
 #include "pipelines/runner/sha256.hpp"
@@ -33,7 +34,7 @@ std::string stamp_of(const Scene& scene, const std::string& reference) {
   for (const InputFile& file : scene_files(scene)) {
     text["files"][file.role] = sha256_of_file(file.path);
   }
-  return sha256_of_text(text.dump());
+  return sha256_of_text(json_text(text));
 }
 
 ordered_json as_json(const TradeoffPoint& p, const std::string& stamp) {
@@ -127,7 +128,7 @@ class Sweeper {
       } catch (const std::invalid_argument& error) {
         point.failure = error.what();  // too coarse a cloud, no support for the basis
       }
-      write_whole(file, as_json(point, stamp).dump(2) + "\n");
+      write_whole(file, json_text(as_json(point, stamp)));
     }
     return point;
   }
@@ -191,7 +192,7 @@ void check_lists(const Scene& scene, const TradeoffLists& lists) {
 
 Sweep sweep(const fs::path& scene_file, const std::vector<std::string>& overrides, const fs::path& out,
             Interruption& interruption, const SweepObserver& observer) {
-  Sweeper sweeper(scene_file, overrides, out, interruption);
+  Sweeper sweeper(scene_file, overrides, place_of(out), interruption);
   Scene scene = sweeper.own_scene();
   const TradeoffLists lists = scene.tradeoff.value_or(TradeoffLists{});
   check_lists(scene, lists);

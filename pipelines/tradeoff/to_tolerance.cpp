@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "pipelines/runner/json_text.hpp"
+#include "pipelines/runner/own_folder.hpp"
 #include "pipelines/runner/peak_memory.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
@@ -58,6 +60,7 @@ void copy_stage(const fs::path& from, const fs::path& to, Interruption& interrup
       read_stage_record(to)->stamp == read_stage_record(from)->stamp) {
     return;
   }
+  refuse_foreign_folder(to);
   StageFolder folder(to, interruption);
   fs::copy(from, folder.path(), fs::copy_options::recursive);
   folder.replace();
@@ -122,7 +125,7 @@ class Refinement {
     for (const Level& level : levels) {
       outcome.record["tolerance"]["levels"].push_back(as_json(level));
     }
-    write_whole(options_.out / "run.json", outcome.record.dump(2) + "\n");
+    write_whole(options_.out / "run.json", json_text(outcome.record));
     return outcome;
   }
 

@@ -9,13 +9,9 @@ namespace brainshift::registration {
 
 namespace {
 
-void check_fade(double fade, double shell) {
-  if (!(fade > shell)) {
-    std::ostringstream text;
-    text << "the fade is " << fade << " mm, but must be wider than two voxel diagonals (" << shell
-         << " mm); the default is 20 mm";
-    throw std::invalid_argument(text.str());
-  }
+/// Two voxel diagonals.
+double shell_of(const ImageGeometry& geometry) {
+  return 2 * geometry.spacing.norm();
 }
 
 Zone zone_at(double distance, double shell, double fade) {
@@ -30,9 +26,19 @@ Zone zone_at(double distance, double shell, double fade) {
 
 }  // namespace
 
+void check_fade(double fade, const ImageGeometry& geometry) {
+  const double shell = shell_of(geometry);
+  if (!(fade > shell)) {
+    std::ostringstream text;
+    text << "register's fade is " << fade << " mm, but must be wider than two voxel diagonals of the T1 (" << shell
+         << " mm); the default is 20 mm";
+    throw std::invalid_argument(text.str());
+  }
+}
+
 BrainZones brain_zones(const Surface& brain, const ImageGeometry& geometry, double fade) {
-  const double shell = 2 * geometry.spacing.norm();
-  check_fade(fade, shell);
+  const double shell = shell_of(geometry);
+  check_fade(fade, geometry);
   SignedDistanceOptions options;
   options.margin = fade + options.spacing;
   BrainZones zones{std::vector<Zone>(geometry.voxel_count(), Zone::beyond), SignedDistance(brain, options), shell};

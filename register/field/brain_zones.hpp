@@ -25,6 +25,9 @@ struct BrainZones {
   double shell;            ///< thickness of the shell: two voxel diagonals, mm
 };
 
+/// Throws std::invalid_argument when the fade is not wider than the shell that an image of this geometry has.
+void check_fade(double fade, const ImageGeometry& geometry);
+
 /// Throws std::invalid_argument when the surface is not closed or encloses no voxel, or when the fade is not wider than
 /// the shell.
 BrainZones brain_zones(const Surface& brain, const ImageGeometry& geometry, double fade);

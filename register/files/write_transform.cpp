@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -65,7 +67,7 @@ class Handle {
 
   static void check(hid_t status) {
     if (status < 0) {
-      throw std::runtime_error("HDF5 refuses");
+      throw std::bad_alloc();  // in memory nothing else can be refused
     }
   }
 
@@ -145,9 +147,13 @@ void write_parameters(hid_t parent, const VectorImage& field) {
   }
 }
 
-/// What ITK's reader of HDF5 transforms expects.
-void write_hdf5(const std::filesystem::path& file, const VectorImage& field) {
-  const Handle out(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+/// The bytes of the file that ITK's reader of HDF5 transforms expects. It is made in memory: where HDF5 itself meets a
+/// full disk, it keeps the file open, and crashes when the program ends.
+std::vector<char> hdf5_file(const VectorImage& field) {
+  constexpr std::size_t growth = std::size_t{1} << 20;
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  Handle::check(H5Pset_fapl_core(access, growth, false));
+  const Handle out(H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
   write_text(out, "ITKVersion", itk::Version::GetITKVersion());
   const Handle all(H5Gcreate2(out, "TransformGroup", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   const Handle one(H5Gcreate2(all, "0", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
@@ -155,18 +161,23 @@ void write_hdf5(const std::filesystem::path& file, const VectorImage& field) {
   write_grid(one, field.geometry);
   write_parameters(one, field);
   Handle::check(H5Fflush(out, H5F_SCOPE_LOCAL));
+  const ssize_t size = H5Fget_file_image(out, nullptr, 0);
+  Handle::check(size < 0 ? -1 : 0);
+  std::vector<char> bytes(static_cast<std::size_t>(size));
+  Handle::check(H5Fget_file_image(out, bytes.data(), bytes.size()) < 0 ? -1 : 0);
+  return bytes;
 }
 
 }  // namespace
 
 void write_transform(const std::filesystem::path& file, const VectorImage& field) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is thrown, not printed
-  try {
-    write_hdf5(file, cut(field, box_of_moving(field)));
-  } catch (const std::exception& fault) {
-    throw std::runtime_error(file.string() +
-                             ": could not be written whole; is the disk full or the folder read-only? (" +
-                             fault.what() + ")");
+  const std::vector<char> bytes = hdf5_file(cut(field, box_of_moving(field)));
+  std::ofstream out(file, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) {
+    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
   }
 }
 

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "segmentation/files/lower_case.hpp"
+#include "segmentation/files/ply_claims.hpp"
 #include "segmentation/files/read_obj.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/surface_file.hpp"
@@ -26,6 +27,9 @@ namespace fs = std::filesystem;
 using CgalPoint = CGAL::Simple_cartesian<double>::Point_3;
 
 PolygonSoup read_with_cgal(const fs::path& file, const std::string& ending) {
+  if (ending == ".ply") {
+    check_ply_claims(file);
+  }
   std::vector<CgalPoint> points;
   PolygonSoup soup;
   const auto quiet = CGAL::parameters::verbose(false);

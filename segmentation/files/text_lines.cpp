@@ -7,17 +7,16 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "segmentation/files/readable_file.hpp"
+
 namespace brainshift {
 
 std::string read_text(const std::filesystem::path& file) {
-  std::error_code unknown;
-  if (std::filesystem::is_directory(file, unknown)) {
-    throw std::invalid_argument(file.string() + ": is a folder, a file is expected");
-  }
+  check_readable(file);
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   if (!stream || !(text << stream.rdbuf())) {
-    throw std::invalid_argument(file.string() + ": cannot be read or is empty");
+    refuse(file, "cannot be read; copy it again");
   }
   std::string content = std::move(text).str();
   if (content.starts_with("\xEF\xBB\xBF")) {

@@ -22,7 +22,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/vtk_claims.hpp"
 
 namespace brainshift::vtu {
 namespace {
@@ -33,16 +35,6 @@ vtkSmartPointer<vtkCallbackCommand> error_counter(int& errors) {
   counter->SetClientData(&errors);
   counter->SetCallback([](vtkObject*, unsigned long, void* client, void*) { ++*static_cast<int*>(client); });
   return counter;
-}
-
-void check_file(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    refuse(file, "there is no such file; a VTK XML unstructured grid (.vtu) was expected.");
-  }
-  if (std::filesystem::file_size(file, error) == 0) {
-    refuse(file, "the file is empty; a VTK XML unstructured grid (.vtu) was expected.");
-  }
 }
 
 /// VTK trusts the offsets and indices of cells in a file; a damaged one must not send us out of the arrays.
@@ -102,7 +94,8 @@ void write(const std::filesystem::path& file, vtkXMLWriter& writer, vtkDataObjec
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> read(const std::filesystem::path& file) {
-  check_file(file);
+  check_readable(file);
+  check_vtk_claims(file);
   int errors = 0;
   const auto counter = error_counter(errors);
   vtkNew<vtkXMLUnstructuredGridReader> reader;

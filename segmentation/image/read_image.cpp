@@ -14,6 +14,7 @@
 #include "segmentation/image/dicom_series.hpp"
 #include "segmentation/image/image_format.hpp"
 #include "segmentation/image/whole_file.hpp"
+#include "segmentation/options/values.hpp"
 
 namespace brainshift {
 namespace {
@@ -131,7 +132,7 @@ LabelMap read_label_map(const fs::path& file) {
     const double value = values->GetBufferPointer()[i];
     if (!(value >= lowest && value <= highest && value == std::floor(value))) {
       throw std::invalid_argument(file.string() + ": " + voxel_name(labels.geometry.size, i) + " holds " +
-                                  std::to_string(value) + "; labels are whole numbers from -32768 to 32767");
+                                  write_number(value) + "; labels are whole numbers from -32768 to 32767");
     }
     labels.voxels[i] = static_cast<std::int16_t>(value);
   }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "segmentation/files/text_lines.hpp"
+#include "segmentation/options/values.hpp"
 
 namespace brainshift::solve {
 
@@ -22,6 +23,11 @@ namespace {
 std::string fault_of_row(std::span<const double> time, std::span<const double> factor, std::size_t i) {
   if (!std::isfinite(time[i]) || !std::isfinite(factor[i])) {
     return "time and factor must be finite";
+  }
+  constexpr double longest_time = 1e12, largest_factor = 1e6;
+  if (time[i] > longest_time || std::abs(factor[i]) > largest_factor) {
+    return "time must be at most " + write_number(longest_time) + ", and factor, of the load, from " +
+           write_number(-largest_factor) + " to " + write_number(largest_factor);
   }
   if (i == 0 && (time[0] != 0 || factor[0] != 0)) {
     return "the load curve must start at time 0 with factor 0: the body starts at rest, unloaded";

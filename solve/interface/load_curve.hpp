@@ -20,7 +20,7 @@ class LoadCurve {
   LoadCurve() : LoadCurve({0, 1}, {0, 1}, Join::smooth) {}
 
   /// Times ascending, from 0 on, any unit; at least two. Throws std::invalid_argument, naming the row, where they are
-  /// not, or a number is not finite, or the first factor is not 0.
+  /// not, or a number is not finite or beyond what a load may be, or the first factor is not 0.
   LoadCurve(std::vector<double> time, std::vector<double> factor, Join join);
 
   double at(double time) const;

@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "segmentation/geometry/distinct_points.hpp"
+#include "segmentation/geometry/neighbour_distance.hpp"
+#include "segmentation/geometry/point_tree.hpp"
 #include "solve/load/convex_hull.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/load/extension.hpp"
@@ -46,17 +49,15 @@ struct Neighbour {
   double distance;
 };
 
-Neighbour nearest_row(const Points& points, const Eigen::RowVector3d& place) {
-  Eigen::Index row = 0;
-  const double squared = (points.rowwise() - place).rowwise().squaredNorm().minCoeff(&row);
-  return {row, std::sqrt(squared)};
+double distance_to(const PointTree& points, const Eigen::RowVector3d& place) {
+  return std::sqrt(points.nearest(place.data()).second);
 }
 
 /// The measured point that lies farthest from any surface node.
-Neighbour farthest_point(const Points& measured, const Points& surface) {
+Neighbour farthest_point(const Points& measured, const PointTree& surface) {
   Neighbour farthest{0, 0};
   for (Eigen::Index p = 0; p < measured.rows(); ++p) {
-    const double distance = nearest_row(surface, measured.row(p)).distance;
+    const double distance = distance_to(surface, measured.row(p));
     if (distance > farthest.distance) {
       farthest = {p, distance};
     }
@@ -69,7 +70,7 @@ std::string rounded(double number) {
   return text.substr(0, text.find('.') + 2);
 }
 
-void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed) {
+void check_near_surface(const Points& measured, const PointTree& surface, double farthest_allowed) {
   const Neighbour worst = farthest_point(measured, surface);
   if (worst.distance <= farthest_allowed) {
     return;
@@ -111,10 +112,12 @@ Plane opening_plane(const Points& measured, const Points& surface) {
   if (width[1] > 0.1 * width[0]) {
     return plane;
   }
+  const Points places = distinct_points(measured);
+  const PointTree tree(places);
   const double reach = (measured.rowwise() - plane.origin).rowwise().norm().maxCoeff() + 10.0;
   std::vector<Eigen::Index> around;
   for (Eigen::Index n = 0; n < surface.rows(); ++n) {
-    if (nearest_row(measured, surface.row(n)).distance <= std::max(10.0, 0.2 * reach)) {
+    if (distance_to(tree, surface.row(n)) <= std::max(10.0, 0.2 * reach)) {
       around.push_back(n);
     }
   }
@@ -122,19 +125,28 @@ Plane opening_plane(const Points& measured, const Points& surface) {
 }
 
 double default_margin(const Points& measured, const NodeCloud& cloud, const std::vector<Eigen::Index>& nodes,
-                      const Points& surface) {
-  if (measured.rows() == 1) {
-    return cloud.spacing[nodes[nearest_row(surface, measured.row(0)).row]];
+                      const PointTree& surface) {
+  const Points places = distinct_points(measured);
+  if (places.rows() == 1) {
+    return cloud.spacing[static_cast<std::size_t>(nodes[surface.nearest(places.data()).first])];
   }
-  std::vector<double> distances;
-  for (Eigen::Index p = 0; p < measured.rows(); ++p) {
-    Eigen::VectorXd squared = (measured.rowwise() - measured.row(p)).rowwise().squaredNorm();
-    squared[p] = std::numeric_limits<double>::infinity();
-    distances.push_back(std::sqrt(squared.minCoeff()));
-  }
+  std::vector<double> distances = nearest_neighbours(places, 1).distance;
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return std::min(0.5 * *middle, widest_default_margin);
+}
+
+/// A brain sinks or swells by a part of itself; what moves farther is in another unit, or is a place and no movement.
+void check_moved(const Points& displacement, const Points& surface) {
+  const double across = (surface.colwise().maxCoeff() - surface.colwise().minCoeff()).maxCoeff();
+  Eigen::Index farthest = 0;
+  const double moved = displacement.rowwise().norm().maxCoeff(&farthest);
+  if (!(moved <= 0.5 * across)) {
+    throw std::invalid_argument("load: measured point " + std::to_string(farthest + 1) + " of " +
+                                std::to_string(displacement.rows()) + " moves by " + rounded(moved) +
+                                " mm, more than half of the body (" + rounded(across) +
+                                " mm across); displacements in mm are expected");
+  }
 }
 
 }  // namespace
@@ -144,8 +156,11 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
   check_load(load);
   const std::vector<Eigen::Index> nodes = surface_nodes(cloud);
   const Points surface = cloud.positions(nodes, Eigen::all);
-  check_near_surface(load.positions, surface, options.farthest);
-  const double margin = options.margin >= 0 ? options.margin : default_margin(load.positions, cloud, nodes, surface);
+  const PointTree surface_tree(surface);
+  check_near_surface(load.positions, surface_tree, options.farthest);
+  check_moved(load.displacement, surface);
+  const double margin =
+      options.margin >= 0 ? options.margin : default_margin(load.positions, cloud, nodes, surface_tree);
   const Plane plane = opening_plane(load.positions, surface);
   const Points measured = plane.local(load.positions), candidates = plane.local(surface);
   const PlanePoints in_plane = measured.leftCols<2>();
@@ -155,11 +170,9 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
 
   Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
   std::size_t loaded = 0;
-  double nearest_miss = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const Eigen::RowVector3d place = candidates.row(static_cast<Eigen::Index>(n));
     const double beside = distance_to_hull(hull, place.head<2>());
-    nearest_miss = std::min(nearest_miss, nearest_row(measured, place).distance);
     if (beside > margin) {
       continue;
     }
@@ -170,6 +183,12 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
     }
   }
   if (loaded == 0) {
+    const Points places = distinct_points(load.positions);
+    const PointTree tree(places);
+    double nearest_miss = std::numeric_limits<double>::infinity();
+    for (const auto& node : surface.rowwise()) {
+      nearest_miss = std::min(nearest_miss, distance_to(tree, node));
+    }
     throw std::invalid_argument(
         "load: no surface node lies under the opening; the nearest is " + rounded(nearest_miss) +
         " mm from a measured point: measure more points, or use a finer cloud or a wider margin");

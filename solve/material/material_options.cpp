@@ -4,6 +4,10 @@
 namespace brainshift::solve {
 namespace {
 
+// A thousand times diamond, and a thousand times the densest metal: far beyond, numbers overflow.
+constexpr Range stiffest{.low = 0, .high = 1e15, .low_allowed = false};
+constexpr Range heaviest{.low = 0, .high = 1e8, .low_allowed = false};
+
 Option<Material> poisson_ratio_option() {
   auto option = number_option<Material>("poisson_ratio", &Material::poisson_ratio,
                                         {.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = false}, "",
@@ -22,10 +26,10 @@ const OptionTable<Material>& material_options() {
                                {"saint_venant_kirchhoff", Law::saint_venant_kirchhoff},
                                {"linear_elastic", Law::linear_elastic}},
                               "material law"),
-      number_option<Material>("youngs_modulus", &Material::youngs_modulus, above_zero, "Pa",
+      number_option<Material>("youngs_modulus", &Material::youngs_modulus, stiffest, "Pa",
                               "stiffness at rest; the law ogden takes its terms instead"),
       poisson_ratio_option(),
-      number_option<Material>("density", &Material::density, above_zero, "kg/m3", "mass"),
+      number_option<Material>("density", &Material::density, heaviest, "kg/m3", "mass"),
       pairs_option<Material>("ogden", &Material::ogden, "pairs mu,alpha separated by semicolons, or nothing",
                              "Pa and 1", "terms of the law ogden, as 842,-4.7"),
       pairs_option<Material>("prony", &Material::prony, "pairs share,time separated by semicolons, or nothing",

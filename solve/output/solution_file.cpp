@@ -12,6 +12,7 @@
 #include "segmentation/files/vtu_file.hpp"
 #include "segmentation/geometry/neighbour_distance.hpp"
 #include "segmentation/geometry/plane.hpp"
+#include "segmentation/options/values.hpp"
 
 namespace brainshift {
 
@@ -22,6 +23,28 @@ constexpr std::array bases = {Basis::linear, Basis::quadratic, Basis::modified_q
 Points vectors(const std::filesystem::path& file, vtkPointData& data, const char* name, std::size_t nodes) {
   const std::vector<double> values = vtu::array(file, data, name, nodes, 3);
   return Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
+}
+
+void check_range(const std::filesystem::path& file, const std::string& name, double value, double highest) {
+  if (!(value >= 0 && value <= highest)) {
+    refuse(file, name + " is " + write_number(value) + "; 0 to " + write_number(highest) + " is expected.");
+  }
+}
+
+/// A body may be stretched to many times its length, but what is beyond a hundred of them is no displacement.
+void check_displacement(const std::filesystem::path& file, const Solution& solution) {
+  const Points& at = solution.positions;
+  const double across = (at.colwise().maxCoeff() - at.colwise().minCoeff()).norm();
+  for (Eigen::Index a = 0; a < at.rows(); ++a) {
+    const double moved = solution.displacement.row(a).norm();
+    if (!std::isfinite(moved)) {
+      refuse(file, "the displacement of node " + std::to_string(a) + " is not finite.");
+    }
+    if (moved > 100 * across) {
+      refuse(file, "the displacement of node " + std::to_string(a) + " is " + write_number(moved) +
+                       " mm, more than a hundred times the body (" + write_number(across) + " mm).");
+    }
+  }
 }
 
 /// The shape options of the file; the defaults where it names none.
@@ -38,10 +61,12 @@ ShapeOptions shape_options(const std::filesystem::path& file, vtkFieldData& data
   const std::vector<double> dilatation = vtu::array(file, data, "shape_dilatation", 1);
   if (!dilatation.empty()) {
     options.dilatation = dilatation[0];
+    check_range(file, "shape_dilatation", options.dilatation, 10);
   }
   const std::vector<double> penalty = vtu::array(file, data, "shape_penalty", 1);
   if (!penalty.empty()) {
     options.penalty = penalty[0];
+    check_range(file, "shape_penalty", options.penalty, 1);
   }
   const std::vector<std::int32_t> planar = vtu::whole_number_array(file, data, "shape_planar", 1, "entry");
   if (!planar.empty()) {
@@ -126,11 +151,7 @@ Solution read_solution(const std::filesystem::path& file) {
     refuse(file, "it has no point array `displacement` of three components over at least " + std::to_string(least) +
                      " nodes.");
   }
-  for (Eigen::Index a = 0; a < solution.displacement.rows(); ++a) {
-    if (!solution.displacement.row(a).allFinite()) {
-      refuse(file, "the displacement of node " + std::to_string(a) + " is not finite.");
-    }
-  }
+  check_displacement(file, solution);
   solution.reaction_force = vectors(file, data, "reaction_force", nodes);
   if (solution.reaction_force.rows() == 0) {
     solution.reaction_force = Points::Zero(solution.positions.rows(), 3);

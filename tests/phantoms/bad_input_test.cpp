@@ -236,7 +236,7 @@ TEST_F(BadInput, AFullDisk) {
 
 TEST_F(BadInput, CommandLinesThatMakeNoSense) {
   expect_refused("brainshift run", {"scene"});
-  expect_refused("brainshift fly", {"subcommand"});
+  expect_refused("brainshift fly", {"no command 'fly'"});
   expect_refused("brainshift run --threads 0 " + at("scene.xml") + " --out " + at("out"), {"threads"});
   expect_refused("brainshift run --quiet " + at("scene.xml") + " --until lunch --out " + at("out"),
                  {"lunch", "discretise"});

@@ -197,6 +197,7 @@ TEST_F(Run, AKilledRunIsContinuedToo) {
   const fs::path out = copy_of_finished("killed");
   fs::remove_all(out / "solve");
   fs::create_directories(out / "solve.partial");
+  write_text(out / "solve.partial/.unfinished", "");
   write_text(out / "solve.partial/solution.vtu", "half");
   ASSERT_EQ(run(out).code, 0);
   EXPECT_EQ(statuses(out).substr(0, 14), "kept kept done");

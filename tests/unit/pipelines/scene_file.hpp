@@ -26,9 +26,9 @@ class SceneFile : public testing::Test {
     std::ofstream(folder_ / "scene.xml") << text;
     return folder_ / "scene.xml";
   }
-  std::filesystem::path touch(const std::string& name) const {
-    std::ofstream(folder_ / name) << "x";
-    return folder_ / name;
+  std::filesystem::path write_load() const {
+    std::ofstream(folder_ / "load.csv") << "# frame: LPS\nx,y,z,ux,uy,uz\n1,1,1,0,0,-1\n";
+    return folder_ / "load.csv";
   }
   Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) const {
     return parse_scene(write(text), overrides);

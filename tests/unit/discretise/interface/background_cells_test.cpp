@@ -14,6 +14,7 @@
 
 #include "discretise/interface/node_cloud.hpp"
 #include "tests/unit/discretise/foreign_mesh.hpp"
+#include "tests/unit/expect_parts.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::background_cells_test {
@@ -76,6 +77,26 @@ TEST(CellsFile, ReturnsEveryBitOfTheCells) {
     EXPECT_EQ(read.cut_parts[0].volume[octant], cells.cut_parts[0].volume[octant]);
   }
   EXPECT_EQ(read.cut_parts[0].centroid[6][2], 0.8);
+}
+
+TEST(CellsFile, RefusesOctantsThatAreNotPartsOfTheirCell) {
+  const ScratchFolder folder;
+  const auto file = folder / "cells.vtu";
+  const auto refused = [&](double volume, double x) {
+    BackgroundCells cells = some_hexahedra();
+    cells.cut_parts[0].volume[6] = volume;
+    cells.cut_parts[0].centroid[6][0] = x;
+    write_background_cells(file, cells);
+    return refusal([&] { read_background_cells(file); });
+  };
+  EXPECT_EQ(refused(0.2, 1.1), "");
+  EXPECT_EQ(refused(0.9, 1.0), "") << "the whole cell";
+  for (const double volume : {0.95, 10.0, 1e30}) {
+    test::expect_parts(refused(volume, 1.1), {"cells.vtu", "octants of cell 1", "more than the cell"});
+  }
+  for (const double x : {0.9, 2.1, 1e30}) {
+    test::expect_parts(refused(0.2, x), {"cells.vtu", "octant 6 of cell 1", "outside"});
+  }
 }
 
 TEST(CellsFile, HasTheVolumesThatVtkComputes) {

@@ -19,6 +19,14 @@ TEST_F(ExternalCommandTest, ACommandSeesItsFoldersWhateverTheirNames) {
   EXPECT_EQ(read(out / "said"), (folder_ / "in here").string() + "\n");
 }
 
+TEST_F(ExternalCommandTest, AFoldersNameCannotBreakOutOfItsQuotes) {
+  const fs::path out = folder_ / "inj{out};touch broken;{in}";
+  fs::create_directories(out);
+  run_external_command({"ls -d {out} > said; echo {in} >> said", out / "in", out, folder_}, interruption_);
+  EXPECT_EQ(read(folder_ / "said"), out.string() + "\n" + (out / "in").string() + "\n");
+  EXPECT_FALSE(fs::exists(folder_ / "broken"));
+}
+
 TEST_F(ExternalCommandTest, AFailedCommandIsAFaultWithItsCodeAndLastWords) {
   try {
     run_external_command({"echo first; echo no mesh >&2; exit 7", folder_, folder_, folder_}, interruption_);

@@ -19,7 +19,7 @@ template <class Work>
 int exit_code_of(const Work& work, sighandler_t hang_up = SIG_DFL) {
   sigset_t signals, before;  // blocked over the fork: a library may start its threads anew in the child
   sigemptyset(&signals);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
     sigaddset(&signals, signal);
   }
   pthread_sigmask(SIG_BLOCK, &signals, &before);
@@ -27,6 +27,7 @@ int exit_code_of(const Work& work, sighandler_t hang_up = SIG_DFL) {
   if (child == 0) {
     std::signal(SIGINT, SIG_DFL);  // a test that runs in the background may ignore it
     std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGQUIT, SIG_DFL);
     std::signal(SIGHUP, hang_up);
     Interruption interruption([](int signal) { _exit(100 + signal); });
     work(interruption);
@@ -44,7 +45,7 @@ void interrupt(int signal) {
 }
 
 TEST(Interruption, BidsFarewellWithTheSignal) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
     EXPECT_EQ(exit_code_of([&](Interruption&) { interrupt(signal); }), 100 + signal);
   }
 }

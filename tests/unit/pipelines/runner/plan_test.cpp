@@ -26,7 +26,10 @@ class Stamps : public RunFolder {
     scene_.load.emplace().craniotomy = write("load.csv", "load");
     scene_.source.file = folder_ / "scene.xml";
   }
-  std::string stamp_of(StageId stage) { return stamp(plan_stage(stage, scene_, folder_ / "run", interruption_)); }
+  std::string stamp_of(StageId stage) {
+    InputStates states;
+    return stamp(plan_stage(stage, scene_, folder_ / "run", interruption_), states);
+  }
   /// Which of the stages segment, discretise, solve, register change their stamps: as "sdvr", "-" where not.
   std::string changed_by(const std::function<void()>& change) {
     const std::array<StageId, 4> stages = {StageId::segment, StageId::discretise, StageId::solve,

@@ -14,14 +14,24 @@ namespace brainshift::pipelines::run_record_test {
 class RunRecordTest : public RunFolder {};
 
 TEST_F(RunRecordTest, AStageRecordReadsBackAndADamagedOneIsNone) {
-  write_stage_record(folder_, {"stamp", "failure", {{"status", "failed"}}});
+  write("brain.vtp", "surface");
+  write_stage_record(folder_,
+                     {.stamp = "stamp", .failure = "failure", .entry = {{"status", "failed"}}, .artefacts = {}});
   const auto record = read_stage_record(folder_);
   ASSERT_TRUE(record);
   EXPECT_EQ(record->stamp, "stamp");
   EXPECT_EQ(record->failure, "failure");
   EXPECT_EQ(record->entry["status"], "failed");
+  EXPECT_EQ(record->artefacts["brain.vtp"]["bytes"], 7);
+  const auto whole = nlohmann::ordered_json::parse(read(folder_ / "stage.json"));
   write("stage.json", "{\"stamp\": ");
   EXPECT_FALSE(read_stage_record(folder_));
+  for (const auto& [name, value] : whole.items()) {
+    auto damaged = whole;
+    damaged[name] = 5;
+    write("stage.json", damaged.dump());
+    EXPECT_EQ(read_stage_record(folder_).has_value(), name == "version") << name;
+  }
 }
 
 }  // namespace brainshift::pipelines::run_record_test

@@ -96,6 +96,57 @@ TEST_F(RunTest, RunsAStageAgainWhoseFileIsGone) {
   EXPECT_EQ(statuses(), "kept done kept inactive inactive") << "the same cells as before";
 }
 
+TEST_F(RunTest, RunsAStageAgainWhoseFileIsDamaged) {
+  run_ball();
+  const std::string skull = read(out_ / "segment/skull.vtp");
+  const std::string load = read(out_ / "solve/load.csv");
+  write("out/segment/skull.vtp", "");
+  write("out/solve/load.csv", load.substr(0, load.size() / 2));
+  run_ball();
+  EXPECT_EQ(statuses(), "done kept done inactive inactive");
+  EXPECT_EQ(read(out_ / "segment/skull.vtp"), skull);
+  EXPECT_EQ(read(out_ / "solve/load.csv"), load);
+}
+
+TEST_F(RunTest, KeepsAnEditedSurfaceAndRunsTheStagesAfterIt) {
+  run_ball();
+  write_surface(out_ / "segment/brain.vtp", brainshift::test::sphere({0, 0, 0}, 20.5, 3));
+  const std::string edited = read(out_ / "segment/brain.vtp");
+  run_ball();
+  EXPECT_EQ(statuses(), "kept done done inactive inactive");
+  EXPECT_EQ(read(out_ / "segment/brain.vtp"), edited);
+}
+
+TEST_F(RunTest, FailsWhenAnInputChangesUnderItAndThenReadsItAgain) {
+  const std::string load = read(folder_ / "load.csv");
+  const Scene scene = ball_scene();
+  const std::string fault = refusal([&] {
+    run(scene, {.out = out_}, interruption_, [&](const RunEvent& event) {
+      if (event.kind == Kind::started && event.stage == StageId::solve) {  // after its checksum was taken
+        usleep(30'000);
+        write("load.csv", load.substr(0, load.rfind('\n', load.size() - 2) + 1));
+      }
+      if (event.kind == Kind::progress && event.stage == StageId::solve && event.fraction > 0) {
+        write("load.csv", load);
+      }
+    });
+  });
+  expect_parts(fault, {(folder_ / "load.csv").string(), "changed while it was read"});
+  EXPECT_FALSE(fs::exists(out_ / "solve"));
+  EXPECT_EQ(run_ball().failure, "");
+  EXPECT_EQ(statuses(), "kept kept done inactive inactive");
+}
+
+TEST_F(RunTest, LeavesTheFoldersOfSomebodyElseBesideAStage) {
+  run_ball();
+  for (const char* name : {"out/solve.partial/mine", "out/solve.old/mine"}) {
+    write(name, "mine");
+    expect_parts(refusal([&] { run_ball({}, StageId::report, true); }), {"not made by brainshift"});
+    EXPECT_EQ(read(folder_ / name), "mine");
+    fs::remove_all((folder_ / name).parent_path());
+  }
+}
+
 TEST_F(RunTest, UntilAStageTellsWhichLaterOnesNoLongerHold) {
   run_ball();
   run_ball({}, StageId::segment);
@@ -113,6 +164,16 @@ TEST_F(RunTest, ThatDoesNotConvergeKeepsWhatItHasAndIsTriedAgain) {
     EXPECT_EQ(told(Kind::failed), std::vector<StageId>{StageId::solve});
     EXPECT_TRUE(fs::exists(out_ / "solve/solution.vtu"));
   }
+}
+
+TEST_F(RunTest, TellsAndRecordsItsWarnings) {
+  write("load.csv", "# frame: LPS\nx,y,z,ux,uy,uz\n0,0,20,0,0,-1\n5,0,19.4,0,0,-1\n0,5,19.4,0,0,-1\n");
+  const RunOutcome outcome = run_ball({"load.margin=8"});
+  EXPECT_EQ(told(Kind::warned), std::vector<StageId>{StageId::solve});
+  ASSERT_EQ(outcome.record["stages"]["solve"]["warnings"].size(), 1U);
+  expect_parts(outcome.record["stages"]["solve"]["warnings"][0], {"measured at 3 places"});
+  run_ball({"load.margin=8"});
+  EXPECT_EQ(told(Kind::warned), std::vector<StageId>{StageId::solve}) << "of the kept stage";
 }
 
 TEST_F(RunTest, DoesNotOverwriteAFolderOfSomebodyElse) {

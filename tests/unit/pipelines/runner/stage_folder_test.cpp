@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+
+#include "tests/unit/expect_parts.hpp"
 #include "tests/unit/pipelines/run_folder.hpp"
 
 namespace brainshift::pipelines::stage_folder_test {
@@ -32,6 +34,35 @@ TEST_F(StageFolderTest, ASingleStageKeepsOtherFilesOfItsFolder) {
   finished.merge();
   EXPECT_EQ(read(folder_ / "stage/mine"), "mine");
   EXPECT_EQ(read(folder_ / "stage/made"), "new");
+}
+
+TEST_F(StageFolderTest, WhatSomebodyElsePutInItsPlaceStays) {
+  write("stage.partial/precious", "mine");
+  brainshift::test::expect_parts(
+      brainshift::test::refusal([&] { StageFolder folder(folder_ / "stage", interruption_); }),
+      {(folder_ / "stage.partial").string(), "not made by brainshift"});
+  EXPECT_EQ(read(folder_ / "stage.partial/precious"), "mine");
+}
+
+TEST_F(StageFolderTest, TakesOverWhatAKilledRunLeft) {
+  write("stage.partial/.unfinished", "");
+  write("stage.partial/half", "x");
+  StageFolder folder(folder_ / "stage", interruption_);
+  EXPECT_FALSE(fs::exists(folder.path() / "half"));
+}
+
+TEST_F(StageFolderTest, HasAPlaceWithAName) {
+  EXPECT_EQ(place_of(folder_ / "stage/"), folder_ / "stage");
+  brainshift::test::expect_parts(brainshift::test::refusal([] { place_of(""); }), {"no name", "--out"});
+}
+
+TEST_F(StageFolderTest, NoTwoWriteTheSameStage) {
+  StageFolder first(folder_ / "stage", interruption_);
+  std::ofstream(first.path() / "made") << "first";
+  EXPECT_THROW(StageFolder(folder_ / "stage", interruption_), std::runtime_error);
+  first.merge();
+  EXPECT_EQ(read(folder_ / "stage/made"), "first");
+  EXPECT_FALSE(fs::exists(folder_ / "stage/.unfinished"));
 }
 
 }  // namespace brainshift::pipelines::stage_folder_test

@@ -10,7 +10,7 @@ namespace brainshift::pipelines::check_scene_test {
 
 TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
   write_image(folder_ / "labels.nii.gz", block_labels());
-  touch("load.csv");
+  write_load();
   const std::string load = "<load><craniotomy file=\"load.csv\"/></load>";
   const std::string image = "<image labels=\"labels.nii.gz\"/>";
   const std::string two = "<tissues><tissue label=\"1\"/><tissue label=\"3\"/></tissues>";
@@ -42,6 +42,30 @@ TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
       {"--set", "duration", "curve.csv"});
 }
 
+TEST_F(SceneFile, CheckRefusesWhatLateStagesWouldFindWrong) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  ScalarImage t1{block_labels().geometry, std::vector<float>(64, 1)};
+  write_image(folder_ / "t1.nii.gz", t1);
+  t1.geometry.spacing.setConstant(6);
+  write_image(folder_ / "coarse.nii.gz", t1);
+  std::ofstream(folder_ / "prose.nii") << "this is no image";
+  write_load();
+  const auto fault_of = [&](const std::string& image, const std::string& more, const std::string& load = "load.csv") {
+    return fault("<scene>\n<image " + image + " labels=\"labels.nii.gz\"/><tissues><tissue label=\"1\"/>" +
+                 "<tissue label=\"3\"/></tissues>\n<load><craniotomy file=\"" + load + "\"/></load>\n" + more +
+                 "</scene>");
+  };
+  EXPECT_EQ(fault_of("t1=\"t1.nii.gz\"", ""), "");
+  expect_parts(fault_of("t1=\"prose.nii\"", ""), {"scene.xml:2", "prose.nii"});
+  expect_parts(fault_of("t1=\"coarse.nii.gz\"", ""), {"scene.xml:2", "fade", "two voxel diagonals"});
+  EXPECT_EQ(fault_of("t1=\"coarse.nii.gz\"", "<stage name=\"register\" fade=\"40\"/>"), "");
+  std::ofstream(folder_ / "bad.csv") << "# frame: LPS\nx,y,z,ux,uy,uz\n1,1,1,0,0,two\n";
+  expect_parts(fault_of("", "", "bad.csv"), {"scene.xml:3", "bad.csv:3", "two"});
+  expect_parts(fault_of("", "<landmarks file=\"prose.nii\"/>"), {"scene.xml:4", "prose.nii"});
+  const std::string far(300, 'a');
+  expect_parts(fault_of("t1=\"" + far + "\"", ""), {"scene.xml:2", "cannot be reached"});
+}
+
 /// Two triangles, or one and its neighbour in two pieces.
 Surface small_sheet(bool whole) {
   Surface sheet{Points(6, 3), Triangles(2, 3)};
@@ -52,7 +76,7 @@ Surface small_sheet(bool whole) {
 
 TEST_F(SceneFile, CheckRefusesCutsAndResectionsThatCannotBe) {
   write_image(folder_ / "labels.nii.gz", block_labels());
-  touch("load.csv");
+  write_load();
   write_surface(folder_ / "sheet.vtp", small_sheet(true));
   write_surface(folder_ / "pieces.vtp", small_sheet(false));
   std::ofstream(folder_ / "path.csv") << "x,y\n0,0\n9,9\n";
@@ -80,7 +104,7 @@ TEST_F(SceneFile, CheckRefusesCutsAndResectionsThatCannotBe) {
 
 TEST_F(SceneFile, ARegionDoesNotGoWithGravity) {
   write_image(folder_ / "labels.nii.gz", block_labels());
-  touch("load.csv");
+  write_load();
   const std::string scene = R"(<scene><image labels="labels.nii.gz"/>
   <tissues><tissue label="1"/><tissue label="3"/></tissues>
   <load><craniotomy file="load.csv"/></load><stage name="solve" region="1"/></scene>)";

@@ -9,7 +9,7 @@ namespace brainshift::pipelines::explain_scene_test {
 
 TEST_F(SceneFile, ExplainTellsActivePartsFromThoseNotBuilt) {
   write_image(folder_ / "labels.nii.gz", block_labels());
-  touch("load.csv");
+  write_load();
   const Scene scene = parse(R"(<scene><image labels="labels.nii.gz"/>
   <tissues><tissue label="1"/><tissue label="3"/></tissues>
   <load><craniotomy file="load.csv"/></load>
@@ -32,7 +32,7 @@ double sum_of_shares(const std::string& text, const std::string& word) {
 
 TEST_F(SceneFile, ExplainNamesTheLineOfAPartAndSharesAddUp) {
   write_image(folder_ / "labels.nii.gz", block_labels());
-  touch("load.csv");
+  write_load();
   const std::string start = R"(<scene><image labels="labels.nii.gz"/>
   <tissues><tissue label="1"/><tissue label="3"/></tissues>
   <load><craniotomy file="load.csv"/></load>

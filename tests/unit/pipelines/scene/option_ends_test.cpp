@@ -77,7 +77,7 @@ class OptionEnds : public SceneFile {
     labels.at(1, 1, 1) = 1;
     labels.at(2, 1, 1) = 3;
     write_image(folder_ / "labels.nii.gz", labels);
-    touch("load.csv");
+    write_load();
     Surface sheet{Points(3, 3), Triangles(1, 3)};
     sheet.vertices << 0, 0, 0, 9, 0, 0, 9, 9, 0;
     sheet.triangles << 0, 1, 2;

@@ -176,7 +176,13 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
   }
   expect_parts(fault("<model/>"), {at + "1", "<scene version=\"1\">"});
   expect_parts(fault("<scene version=\"2\"/>"), {at + "1", "version"});
-  expect_parts(fault(""), {"scene.xml:1", "XML"});
+  expect_parts(fault(""), {"scene.xml", "empty"});
+  expect_parts(fault("<scene/>\n<scene/>"), {"scene.xml:2", "beside the <scene>"});
+  expect_parts(fault("text\n<scene/>"), {"scene.xml:1", "beside the <scene>"});
+  expect_parts(fault("<scene/>\nand more"), {"scene.xml:2", "well-formed"});
+  expect_parts(fault("<scene>\n<image t1=\"&#0;\"/></scene>"), {"scene.xml:2", "character of number 0"});
+  expect_parts(fault("<scene>\n<image t1=\"&#x00;t1.nii\"/></scene>"), {"scene.xml:2", "character of number 0"});
+  expect_parts(fault("<scene>\n<image t1=\"t&#27;[1.nii\"/></scene>"), {"scene.xml:2", "control character"});
 }
 
 TEST_F(SceneFile, FaultsOfOverridesNameThePath) {

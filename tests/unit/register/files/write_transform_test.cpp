@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ITK brings an Eigen of its own, which must be read before ours.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
 
 #include "register/files/write_transform.hpp"
 #include "segmentation/image/itk_bridge.hpp"
@@ -22,6 +25,38 @@ TEST(WriteTransform, OfAFieldThatIsZeroIsTheIdentity) {
   const auto moved = transform->TransformPoint(x);
   EXPECT_EQ(moved[0], 1);
   EXPECT_EQ(moved[2], 3);
+}
+
+/// The size that files may have, until the end of the scope: a write beyond it fails as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  sighandler_t handler_;
+};
+
+TEST(WriteTransform, ThatFindsNoRoomSaysSoAndHarmsNoLaterOne) {
+  const ScratchFolder folder;
+  const auto file = folder / "field.h5";
+  const auto moving = field(grid(), [](const Eigen::Vector3d& x) { return Eigen::Vector3d(std::sin(x[0]), 1, x[2]); });
+  for (const rlim_t room : {0, 100, 1000, 4000, 8000}) {
+    const FileSizeLimit limit(room);
+    EXPECT_THROW(write_transform(file, moving), std::runtime_error) << room;
+  }
+  write_transform(file, moving);
+  EXPECT_NO_THROW(read_transform(file));
 }
 
 }  // namespace brainshift::registration::write_transform_test

@@ -2,6 +2,7 @@
 #include "segmentation/files/text_lines.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/unit/scratch_folder.hpp"
 
@@ -28,6 +29,11 @@ TEST(TextLines, OfAFileThatHoldsNoneAreRefusedWithItsName) {
   EXPECT_NE(fault(folder.write("blank.csv", " \n\r\n")).find("blank.csv: is empty"), std::string::npos);
   EXPECT_NE(fault(folder / "missing.csv").find("missing.csv"), std::string::npos);
   EXPECT_NE(fault(folder.path()).find("folder"), std::string::npos);
+  ASSERT_EQ(mkfifo((folder / "pipe.csv").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder / "endless.csv");
+  for (const char* name : {"pipe.csv", "endless.csv"}) {
+    EXPECT_NE(fault(folder / name).find("is a folder, a pipe or a device"), std::string::npos) << name;
+  }
 }
 
 TEST(TextLines, TrimmedTextKeepsTheBlanksWithin) {

@@ -131,6 +131,9 @@ TEST(ImageIo, ALabelThatIsNoWholeNumberIsNamed) {
     write_image(folder / "l.nii", image);
     EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_label_map(folder / "l.nii"); }, {"voxel (1, 0, 2)"}));
   }
+  image.at(1, 0, 2) = 0.999999F;
+  write_image(folder / "near.nii", image);
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_label_map(folder / "near.nii"); }, {"holds 0.99999"}));
 }
 
 TEST(ImageIo, ScalarsAndVectorsAreNotMistakenForEachOther) {

@@ -76,6 +76,8 @@ TEST(LoadCurve, RefusesATableWithTheRow) {
   EXPECT_NE(refusal({0, 2, 1}, {0, 1, 2}).find("row 3"), std::string::npos);
   EXPECT_NE(refusal({0, std::nan("")}, {0, 1}).find("row 2"), std::string::npos);
   EXPECT_NE(refusal({0, 1}, {0, std::numeric_limits<double>::infinity()}).find("row 2"), std::string::npos);
+  EXPECT_NE(refusal({0, 1, 2}, {0, -1e308, 1}).find("row 2"), std::string::npos);
+  EXPECT_NE(refusal({0, 1e308}, {0, 1}).find("time must be at most"), std::string::npos);
   EXPECT_NE(refusal({0, 1}, {0.5, 1}).find("start at time 0 with factor 0"), std::string::npos);
   EXPECT_NE(refusal({-1, 1}, {0, 1}).find("start at time 0 with factor 0"), std::string::npos);
 }

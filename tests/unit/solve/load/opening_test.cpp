@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -209,6 +210,39 @@ TEST(Opening, RefusesToLoadNoNode) {
   cloud.on_surface.assign(cloud.size(), 0);
   EXPECT_NE(refusal([&] { prescribed_on_surface_nodes(cloud, measured(20, 0.3)); }).find("on_surface"),
             std::string::npos);
+}
+
+TEST(Opening, RefusesAPointThatMovesByMoreThanHalfOfTheBody) {
+  CraniotomyLoad load = measured(20, 0.3);
+  load.displacement.row(6) << 0, 79, 0;
+  EXPECT_EQ(refusal([&] { prescribed_on_surface_nodes(head(), load); }), "");
+  for (const double moved : {81.0, 1e30, 1e300}) {
+    load.displacement.row(6) << 0, moved, 0;
+    const std::string message = refusal([&] { prescribed_on_surface_nodes(head(), load); });
+    EXPECT_NE(message.find("measured point 7 of 20 moves by"), std::string::npos) << message;
+  }
+}
+
+TEST(Opening, OfManyEqualPointsIsThatOfOne) {
+  CraniotomyLoad one = measured(1, 0.01), many;
+  many.positions = one.positions.replicate(50'000, 1);
+  many.displacement = one.displacement.replicate(50'000, 1);
+  const NodeCloud cloud = head();
+  const Points expected = prescribed_on_surface_nodes(cloud, one);
+  const Points found = prescribed_on_surface_nodes(cloud, many);
+  for (Eigen::Index n = 0; n < expected.rows(); ++n) {
+    ASSERT_EQ(is_loaded(found, n), is_loaded(expected, n)) << n;
+    if (is_loaded(found, n)) {
+      EXPECT_LE((found.row(n) - expected.row(n)).norm(), 1e-9);
+    }
+  }
+}
+
+TEST(Opening, TakesHundredsOfThousandsOfPointsInSeconds) {
+  const auto begin = std::chrono::steady_clock::now();
+  prescribed_on_surface_nodes(head(), measured(200'000, 0.3));
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(seconds.count(), 30) << "a search of all points for each of them takes minutes";
 }
 
 TEST(Opening, RefusesALoadThatIsEmptyOrNotFinite) {

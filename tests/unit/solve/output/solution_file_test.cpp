@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <vtkPointData.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "segmentation/files/vtu_file.hpp"
@@ -51,6 +52,29 @@ TEST(Solution, SurvivesWritingAndReading) {
   EXPECT_EQ(read.shape.basis, Basis::linear);
   EXPECT_EQ(read.shape.dilatation, 1.7);
   EXPECT_FALSE(read.shape.planar);
+}
+
+TEST(Solution, WithNumbersThatNoSolveWritesIsRefused) {
+  const NodeCloud cloud = test::irregular_box(5, 60);
+  const Solution good{.positions = cloud.positions,
+                      .displacement = test::random_points(125, 3, 1),
+                      .reaction_force = test::random_points(125, 1, 2),
+                      .spacing = cloud.spacing,
+                      .shape = {.basis = Basis::linear, .dilatation = 1.7}};
+  EXPECT_EQ(refusal(good), "");
+  for (const double moved : {1.1e4, 1e30, 1e300}) {
+    Solution solution = good;
+    solution.displacement(7, 1) = moved;
+    EXPECT_NE(refusal(solution).find("displacement of node 7 is"), std::string::npos) << refusal(solution);
+  }
+  for (const double number : {-1.0, -1e30, 11.0, std::nan("")}) {
+    Solution solution = good;
+    solution.shape.dilatation = number;
+    EXPECT_NE(refusal(solution).find("shape_dilatation is "), std::string::npos) << refusal(solution);
+    solution = good;
+    solution.shape.penalty = number;
+    EXPECT_NE(refusal(solution).find("shape_penalty is "), std::string::npos) << refusal(solution);
+  }
 }
 
 TEST(PlanarSolution, GivesItsFieldBackAfterWritingAndReading) {

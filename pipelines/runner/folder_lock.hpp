@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+namespace brainshift::pipelines {
+
+/// Holds a folder, which it makes, against other processes: two runs in one folder would tear each other's files apart.
+/// Throws std::runtime_error, naming the folder, when another one holds it, or when it cannot be made or opened.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_;
+};
+
+}  // namespace brainshift::pipelines

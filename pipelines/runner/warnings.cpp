@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/warnings.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "segmentation/geometry/distinct_points.hpp"
+#include "segmentation/geometry/point_tree.hpp"
+
+namespace brainshift::pipelines {
+namespace {
+
+std::string with_digits(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", number);
+  return text;
+}
+
+std::size_t brain_voxels(const segmentation::SegmentInput& input, const segmentation::SegmentOptions& options) {
+  const LabelMap& map = input.labels ? *input.labels : *input.brain_mask;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < map.voxels.size(); ++i) {
+    const bool labelled = input.labels
+                              ? std::ranges::find(options.brain_labels, map.voxels[i]) != options.brain_labels.end()
+                              : map.voxels[i] != 0;
+    count += labelled || (input.tumour_mask && input.tumour_mask->voxels[i] != 0) ? 1 : 0;
+  }
+  return count;
+}
+
+/// Whether the points lie along one line, as far as the width of their row tells.
+bool on_a_line(const Points& points) {
+  const Points about = points.rowwise() - points.colwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(about.transpose() * about);
+  return std::sqrt(std::max(0.0, spread.eigenvalues()[1])) < 0.02 * std::sqrt(spread.eigenvalues()[2]);
+}
+
+Points surface_of(const NodeCloud& cloud) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t n = 0; n < cloud.size(); ++n) {
+    if (cloud.on_surface[n] != 0) {
+      rows.push_back(static_cast<Eigen::Index>(n));
+    }
+  }
+  return cloud.positions(rows, Eigen::all);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+double median_distance(const Points& points, const Points& surface) {
+  const PointTree tree(surface);
+  std::vector<double> distances;
+  for (const auto& point : points.rowwise()) {
+    distances.push_back(std::sqrt(tree.nearest(Eigen::RowVector3d(point).data()).second));
+  }
+  return median(std::move(distances));
+}
+
+}  // namespace
+
+Warnings warnings_of(const segmentation::SegmentInput& input, const segmentation::SegmentOptions& options,
+                     const segmentation::Segmentation& result) {
+  constexpr double negligible = 0.02;
+  if (input.surface || !result.measures.contains("brain")) {
+    return {};
+  }
+  const ImageGeometry& geometry = (input.labels ? *input.labels : *input.brain_mask).geometry;
+  const double given = static_cast<double>(brain_voxels(input, options)) * geometry.spacing.prod();
+  const double left_out = 1 - result.measures.at("brain").label_volume / given;
+  if (left_out <= negligible) {
+    return {};
+  }
+  return {with_digits(100 * left_out) +
+          " % of the brain's voxels lie apart from its largest piece and are left out; if they belong to it, join the "
+          "pieces in the label map or mask"};
+}
+
+Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed) {
+  constexpr double usual_distance = 5.0;  // mm, of points on a cortex from the nodes of its surface
+  Warnings warnings;
+  const Points places = distinct_points(load.positions);
+  const double distance = median_distance(places, surface_of(cloud));
+  if (distance > std::max(usual_distance, median(cloud.spacing))) {
+    warnings.push_back("the measured points lie " + with_digits(distance) +
+                       " mm off the brain's surface (median); are load and image in the same frame, and were the "
+                       "points taken on the cortex?");
+  }
+  const bool few = places.rows() <= 3;
+  if (few || on_a_line(places)) {
+    const auto loaded = std::ranges::count_if(prescribed.col(0), [](double u) { return std::isfinite(u); });
+    warnings.push_back("the load is measured at " + std::to_string(places.rows()) + " places" +
+                       (few ? "" : " on one line") + " and moves " + std::to_string(loaded) +
+                       " nodes of the surface; measure more of the exposed cortex");
+  }
+  return warnings;
+}
+
+Warnings warnings_of(const registration::RegisterMeasures& measures) {
+  if (measures.folded_voxels == 0) {
+    return {};
+  }
+  return {"the field folds in " + std::to_string(measures.folded_voxels) + " voxels (Jacobian down to " +
+          with_digits(measures.field_jacobian_min) +
+          "), where the warped images mean nothing; look at the load, or solve with more nodes"};
+}
+
+}  // namespace brainshift::pipelines

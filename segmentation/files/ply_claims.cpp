@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/files/ply_claims.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "segmentation/files/refuse.hpp"
+
+namespace brainshift {
+namespace {
+
+struct PlyProperty {
+  std::size_t bytes = 0;                   ///< of a number
+  std::optional<std::size_t> count_bytes;  ///< of a list: of its count
+};
+
+struct PlyElement {
+  std::uint64_t rows = 0;
+  std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+  std::string format;
+  std::vector<PlyElement> elements;
+};
+
+/// None for an unknown name.
+std::optional<std::size_t> bytes_of_type(const std::string& name) {
+  static const std::map<std::string, std::size_t> bytes = {{"char", 1},  {"int8", 1},    {"uchar", 1},  {"uint8", 1},
+                                                           {"short", 2}, {"int16", 2},   {"ushort", 2}, {"uint16", 2},
+                                                           {"int", 4},   {"int32", 4},   {"uint", 4},   {"uint32", 4},
+                                                           {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
+  const auto found = bytes.find(name);
+  return found == bytes.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// None where the line is no property.
+std::optional<PlyProperty> read_property(std::istringstream& words) {
+  std::string type, count, item;
+  words >> type;
+  if (type != "list") {
+    const auto bytes = bytes_of_type(type);
+    return bytes ? std::optional(PlyProperty{.bytes = *bytes, .count_bytes = {}}) : std::nullopt;
+  }
+  words >> count >> item;
+  const auto bytes = bytes_of_type(item), count_bytes = bytes_of_type(count);
+  return bytes && count_bytes ? std::optional(PlyProperty{.bytes = *bytes, .count_bytes = count_bytes}) : std::nullopt;
+}
+
+/// Takes the header off the text. None where it is none.
+std::optional<PlyHeader> take_header(std::string_view& text) {
+  PlyHeader header;
+  bool first = true;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::istringstream words{std::string(text.substr(0, end))};
+    text.remove_prefix(std::min(end + 1, text.size()));
+    std::string keyword, name;
+    words >> keyword;
+    if (first != (keyword == "ply")) {
+      return std::nullopt;
+    }
+    first = false;
+    if (keyword == "end_header") {
+      return header;
+    }
+    if (keyword == "format") {
+      words >> header.format;
+    } else if (keyword == "element") {
+      PlyElement& element = header.elements.emplace_back();
+      words >> name >> element.rows;
+    } else if (keyword == "property") {
+      const auto property = read_property(words);
+      if (!property || header.elements.empty()) {
+        return std::nullopt;
+      }
+      header.elements.back().properties.push_back(*property);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Goes along the numbers of a binary file. False when they end.
+class BinaryRows {
+ public:
+  BinaryRows(std::string_view text, bool big_endian) : text_(text), big_endian_(big_endian) {}
+
+  bool skip(std::uint64_t numbers, std::size_t bytes) {
+    if (numbers > text_.size() / bytes) {
+      return false;
+    }
+    text_.remove_prefix(static_cast<std::size_t>(numbers) * bytes);
+    return true;
+  }
+  std::optional<std::uint64_t> count(std::size_t bytes) {
+    std::uint64_t number = 0;
+    for (std::size_t i = 0; i < bytes && i < text_.size(); ++i) {
+      const std::size_t place = big_endian_ ? bytes - 1 - i : i;
+      number |= std::uint64_t{static_cast<unsigned char>(text_[i])} << (8 * place);
+    }
+    return skip(1, bytes) ? std::optional(number) : std::nullopt;
+  }
+
+ private:
+  std::string_view text_;
+  bool big_endian_;
+};
+
+/// The same in text, where a number is a word.
+class TextRows {
+ public:
+  explicit TextRows(std::string_view text) : text_(text) {}
+
+  bool skip(std::uint64_t numbers, std::size_t) {
+    for (; numbers > 0; --numbers) {
+      if (word().empty()) {
+        return false;
+      }
+    }
+    return true;
+  }
+  std::optional<std::uint64_t> count(std::size_t) {
+    const std::string_view digits = word();
+    std::uint64_t number = 0;
+    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    return fault == std::errc{} && number <= text_.size() ? std::optional(number) : std::nullopt;
+  }
+
+ private:
+  std::string_view word() {
+    constexpr std::string_view blanks = " \t\r\n";
+    text_.remove_prefix(std::min(text_.find_first_not_of(blanks), text_.size()));
+    const std::string_view word = text_.substr(0, text_.find_first_of(blanks));
+    text_.remove_prefix(word.size());
+    return word;
+  }
+
+  std::string_view text_;
+};
+
+template <class Rows>
+bool has_all(Rows rows, const std::vector<PlyElement>& elements) {
+  for (const PlyElement& element : elements) {
+    for (std::uint64_t row = 0; row < element.rows && !element.properties.empty(); ++row) {
+      for (const PlyProperty& property : element.properties) {
+        const auto numbers = property.count_bytes ? rows.count(*property.count_bytes) : std::optional<std::uint64_t>(1);
+        if (!numbers || !rows.skip(*numbers, property.bytes)) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void check_ply_claims(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::string_view text = content;
+  const auto header = take_header(text);
+  if (!header) {
+    return;
+  }
+  const bool whole = header->format == "ascii"
+                         ? has_all(TextRows(text), header->elements)
+                         : has_all(BinaryRows(text, header->format == "binary_big_endian"), header->elements);
+  if (!whole) {
+    refuse(file, "ends before what its header and lists promise; copy it again");
+  }
+}
+
+}  // namespace brainshift

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/warnings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/unit/expect_parts.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
+
+namespace brainshift::pipelines::warnings_test {
+
+using brainshift::test::expect_parts;
+
+/// A brain of 100 voxels of 8 mm³, `apart` of which lie apart.
+Warnings of_a_brain(int apart) {
+  segmentation::SegmentInput input;
+  input.labels = LabelMap{.geometry = {.size = {10, 10, 10}}, .voxels = std::vector<std::int16_t>(1000, 0)};
+  input.labels->geometry.spacing.setConstant(2);
+  std::fill_n(input.labels->voxels.begin(), 100, std::int16_t{1});
+  segmentation::SegmentOptions options;
+  options.brain_labels = {1};
+  segmentation::Segmentation result;
+  result.measures["brain"].label_volume = 8.0 * (100 - apart);
+  return warnings_of(input, options, result);
+}
+
+TEST(Warnings, TellOfAPartOfTheBrainThatIsLeftOut) {
+  EXPECT_TRUE(of_a_brain(0).empty());
+  EXPECT_TRUE(of_a_brain(1).empty());
+  EXPECT_TRUE(of_a_brain(-5).empty()) << "holes are filled";
+  ASSERT_EQ(of_a_brain(50).size(), 1U);
+  expect_parts(of_a_brain(50).front(), {"50 %", "largest piece"});
+}
+
+NodeCloud ball() {
+  NodeCloud cloud;
+  cloud.positions = brainshift::test::sphere({0, 0, 0}, 60, 4).vertices;
+  const auto nodes = static_cast<std::size_t>(cloud.positions.rows());
+  cloud.spacing.assign(nodes, 4);
+  cloud.on_surface.assign(nodes, 1);
+  return cloud;
+}
+
+Warnings of_points(const Points& points) {
+  Points prescribed = Points::Constant(ball().positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+  prescribed.topRows(7).setZero();
+  return warnings_of(solve::CraniotomyLoad{points, Points::Zero(points.rows(), 3)}, ball(), prescribed);
+}
+
+Points opening(double radius) {
+  const Points all = brainshift::test::sphere({0, 0, 0}, radius, 3).vertices;
+  Points points(0, 3);
+  for (const auto& place : all.rowwise()) {
+    if (place[2] > 0.8 * radius) {
+      points.conservativeResize(points.rows() + 1, 3);
+      points.bottomRows<1>() = place;
+    }
+  }
+  return points;
+}
+
+TEST(Warnings, TellOfPointsThatLieOffTheSurface) {
+  EXPECT_TRUE(of_points(opening(60)).empty());
+  EXPECT_TRUE(of_points(opening(63)).empty());
+  ASSERT_EQ(of_points(opening(75)).size(), 1U);
+  expect_parts(of_points(opening(75)).front(), {"15 mm off", "same frame"});
+}
+
+TEST(Warnings, TellOfPointsThatAreFewOrOnALine) {
+  const Points few = opening(60).topRows(3);
+  ASSERT_EQ(of_points(few).size(), 1U);
+  expect_parts(of_points(few).front(), {"at 3 places", "7 nodes"});
+  EXPECT_EQ(of_points(few.replicate(20, 1)), of_points(few));
+  Points line(10, 3);
+  for (int i = 0; i < 10; ++i) {
+    line.row(i) << i - 5, 0, 59.5;
+  }
+  ASSERT_EQ(of_points(line).size(), 1U);
+  expect_parts(of_points(line).front(), {"10 places on one line"});
+}
+
+TEST(Warnings, TellOfAFieldThatFolds) {
+  registration::RegisterMeasures measures;
+  EXPECT_TRUE(warnings_of(measures).empty());
+  measures.folded_voxels = 768;
+  measures.field_jacobian_min = -0.16;
+  expect_parts(warnings_of(measures).front(), {"768 voxels", "-0.16"});
+}
+
+}  // namespace brainshift::pipelines::warnings_test
