@@ -86,6 +86,10 @@ void Console::kept(StageId stage) {
   line(std::string(stage_name(stage)) + ": unchanged, kept");
 }
 
+void Console::note(StageId stage, std::string_view sentence) {
+  line(std::string(stage_name(stage)) + ": " + std::string(sentence));
+}
+
 void Console::failed(StageId stage) {
   line(std::string(stage_name(stage)) + ": did not converge");
 }

@@ -24,6 +24,7 @@ class Console {
   void finished(StageId stage, double seconds);
   void kept(StageId stage);
   void failed(StageId stage);
+  void note(StageId stage, std::string_view sentence);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -36,6 +36,8 @@ void show(Console& console, const RunEvent& event) {
       return console.kept(event.stage);
     case RunEvent::Kind::failed:
       return console.failed(event.stage);
+    case RunEvent::Kind::note:
+      return console.note(event.stage, event.what);
   }
 }
 

@@ -22,6 +22,9 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write_stage_record(folder.path(), {"", report.failure, stage_entry(report, seconds, peak_memory_mb())});
   folder.merge();
+  for (const std::string& note : report.notes) {
+    console.note(stage, note);
+  }
   if (!report.failure.empty()) {
     console.failed(stage);
     throw NotConverged(report.failure);

@@ -153,6 +153,9 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
       const StageRecord record = make_stage(plan, plan_stamp, out / name, interruption, progress);
       outcome.record["stages"][name] = record.entry;
       outcome.failure = record.failure;
+      for (const auto& note : record.entry.value("notes", std::vector<std::string>{})) {
+        tally.tell(RunEvent::Kind::note, stage, 1, note);
+      }
       const auto kind = record.failure.empty() ? RunEvent::Kind::finished : RunEvent::Kind::failed;
       tally.tell(kind, stage, 1, {}, record.entry["seconds"]);
     }

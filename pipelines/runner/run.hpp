@@ -21,11 +21,11 @@ struct RunOptions {
 
 /// What happens in a run, for whoever shows it.
 struct RunEvent {
-  enum class Kind : std::uint8_t { started, progress, finished, kept, failed } kind;
+  enum class Kind : std::uint8_t { started, progress, finished, kept, failed, note } kind;
   StageId stage;
   double fraction = 0;        ///< of the stage, 0 to 1
   double total_fraction = 0;  ///< of the run's expected time, 0 to 1
-  std::string_view what;      ///< what is being done
+  std::string_view what;      ///< what is being done; a note: the sentence
   double seconds = 0;         ///< that the stage took, when it is finished
 };
 using RunObserver = std::function<void(const RunEvent&)>;

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace brainshift::pipelines {
 
@@ -10,6 +11,7 @@ namespace brainshift::pipelines {
 struct StageReport {
   nlohmann::ordered_json sizes = nlohmann::ordered_json::object();
   nlohmann::ordered_json measures = nlohmann::ordered_json::object();
+  std::vector<std::string> notes;  ///< sentences for the user, shown and kept
   std::string failure;  ///< empty, or the sentence of a computation that did not converge; its artefacts are written
 };
 
