@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/registration.hpp"
 
-#include <sstream>
 #include <stdexcept>
 
 #include "register/field/brain_zones.hpp"
@@ -22,12 +21,6 @@ void check_image(const Image<T>& image, const char* what) {
   if (image.geometry.voxel_count() == 0 || image.voxels.size() != image.geometry.voxel_count()) {
     throw std::invalid_argument(std::string(what) + " has no voxels");
   }
-}
-
-std::string described(const ImageGeometry& g) {
-  std::ostringstream text;
-  text << g.size.transpose() << " voxels of " << g.spacing.transpose() << " mm from (" << g.origin.transpose() << ")";
-  return text.str();
 }
 
 void check(const RegisterInput& input, const RegisterOptions& options) {

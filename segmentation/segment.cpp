@@ -3,10 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
+#include <iomanip>
+#include <mutex>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
+#include "segmentation/body/brain_body.hpp"
 #include "segmentation/image/mask.hpp"
 #include "segmentation/interface/check_input.hpp"
 #include "segmentation/surface/checked_surface.hpp"
@@ -15,50 +21,6 @@
 
 namespace brainshift::segmentation {
 namespace {
-
-// Lengths in metres make a brain of a fifth of a millimetre, and everything after this would go on in earnest.
-void check_across(double across, const std::string& advice) {
-  constexpr double smallest = 20, largest = 500;  // mm
-  if (!(across >= smallest && across <= largest)) {
-    std::ostringstream text;
-    text << "the brain is " << across << " mm across, where " << smallest << " to " << largest
-         << " mm are expected: " << advice;
-    throw std::invalid_argument(text.str());
-  }
-}
-
-void check_size(const Mask& brain) {
-  const Eigen::Vector3d& spacing = brain.geometry.spacing;
-  Eigen::Array3i low = brain.geometry.size, high = Eigen::Array3i::Zero();
-  for (int k = 0; k < brain.geometry.size.z(); ++k) {
-    for (int j = 0; j < brain.geometry.size.y(); ++j) {
-      for (int i = 0; i < brain.geometry.size.x(); ++i) {
-        if (brain.at(i, j, k) != 0) {
-          low = low.min(Eigen::Array3i(i, j, k));
-          high = high.max(Eigen::Array3i(i, j, k) + 1);
-        }
-      }
-    }
-  }
-  std::ostringstream advice;
-  advice << "are the image's lengths in metres, centimetres or micrometres? Voxels of " << spacing.x() << " x "
-         << spacing.y() << " x " << spacing.z() << " mm are what its header says; correct it";
-  check_across(((high - low).cast<double>() * spacing.array()).maxCoeff(), advice.str());
-}
-
-// The brain as one body. Throws when there is none, or when the image cuts it off.
-Mask brain_body(const Mask& tissue) {
-  if (count(tissue) == 0) {
-    throw std::invalid_argument("no voxel is brain: the mask, or what the brain's labels name, is empty");
-  }
-  Mask body = holes_filled(largest_component(tissue));
-  check_size(body);
-  if (touches_border(body)) {
-    throw std::invalid_argument(
-        "the brain touches the image's border, so its surface cannot be closed; pad the images by a few voxels of 0");
-  }
-  return body;
-}
 
 void add_tumour(LabelMap& labels, const LabelMap& tumour_mask) {
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
@@ -85,39 +47,43 @@ void check_present(const LabelMap& labels, std::int16_t label) {
   }
 }
 
-// What lies within the skull's label: its own inner surface bounds it.
-Mask skull_cavity(const LabelMap& labels, std::int16_t skull, const Mask& brain) {
-  check_present(labels, skull);
-  Mask open = mask_of(labels, std::array{skull});
-  for (std::uint8_t& voxel : open.voxels) {
-    voxel = voxel == 0 ? 1 : 0;
-  }
-  const Components parts = components(open);
-  const auto seed =
-      static_cast<std::size_t>(std::find(brain.voxels.begin(), brain.voxels.end(), 1) - brain.voxels.begin());
-  for (std::size_t i = 0; i < open.voxels.size(); ++i) {
-    open.voxels[i] = parts.number[i] == parts.number[seed] && parts.number[i] != 0 ? 1 : 0;
-  }
-  if (touches_border(open)) {
-    throw std::invalid_argument("the skull's label " + std::to_string(skull) +
-                                " does not enclose the brain; close its gaps, or leave the skull's label out");
-  }
-  return open;
-}
-
 struct Body {
   std::string name;
   Mask mask;
 };
 
+// Tells how far all of the bodies are, one thread at a time.
+class SharedProgress {
+ public:
+  SharedProgress(const Progress& progress, std::size_t bodies) : progress_(progress), done_(bodies) {}
+  Progress of(std::size_t body) {
+    return [this, body](double fraction, std::string_view what) { tell(body, fraction, what); };
+  }
+
+ private:
+  void tell(std::size_t body, double fraction, std::string_view what) {
+    const std::scoped_lock lock(mutex_);
+    done_[body] = fraction;
+    const double mean = std::accumulate(done_.begin(), done_.end(), 0.0) / static_cast<double>(done_.size());
+    constexpr double start = 0.4;
+    report(progress_, start + (1 - start) * mean, what);
+  }
+
+  const Progress& progress_;
+  std::vector<double> done_;
+  std::mutex mutex_;
+};
+
 // Each body on its own, side by side; a fault in one of them is thrown when all have ended.
-std::vector<MeasuredSurface> extract_all(const std::vector<Body>& bodies, double edge_length) {
+std::vector<MeasuredSurface> extract_all(const std::vector<Body>& bodies, double edge_length,
+                                         const Progress& progress) {
   std::vector<MeasuredSurface> surfaces(bodies.size());
   std::vector<std::exception_ptr> faults(bodies.size());
+  SharedProgress shared(progress, bodies.size());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     try {
-      surfaces[i] = extract_surface(bodies[i].mask, edge_length, bodies[i].name);
+      surfaces[i] = extract_surface(bodies[i].mask, edge_length, bodies[i].name, shared.of(i));
     } catch (...) {
       faults[i] = std::current_exception();
     }
@@ -130,30 +96,80 @@ std::vector<MeasuredSurface> extract_all(const std::vector<Body>& bodies, double
   return surfaces;
 }
 
+// What bounds the skull's inside: its label, or the fluid around the brain. Empty where the brain itself does.
+Mask cavity_of(const LabelMap& labels, const Mask& brain, const SegmentOptions& options) {
+  if (options.skull_label && (!options.fluid_label || encloses(labels, *options.skull_label, brain))) {
+    return skull_cavity(labels, *options.skull_label, brain);
+  }
+  constexpr double reach = 10;  // mm; fluid farther off is of the spine
+  return options.fluid_label ? fluid_space(labels, *options.fluid_label, brain, reach) : Mask{};
+}
+
 std::vector<Body> bodies_of(const LabelMap& labels, const Mask& brain, const std::vector<std::int16_t>& tissues,
                             const SegmentOptions& options) {
   std::vector<Body> bodies = {{"brain", brain}};
-  for (const std::int16_t label : tissues) {
-    bodies.push_back({"tissue_" + std::to_string(label), mask_of(labels, std::array{label})});
+  if (options.tissue_surfaces) {
+    for (const std::int16_t label : tissues) {
+      bodies.push_back({"tissue_" + std::to_string(label), mask_of(labels, std::array{label})});
+    }
   }
-  if (options.skull_label) {
-    bodies.push_back({"skull", skull_cavity(labels, *options.skull_label, brain)});
+  if (Mask cavity = cavity_of(labels, brain, options); !cavity.voxels.empty()) {
+    bodies.push_back({"skull", std::move(cavity)});
   }
   return bodies;
 }
 
+// What of the bounds a surface misses, as a sentence.
+void note_missed(Segmentation& result, const std::string& name, const SurfaceMeasures& measures) {
+  if (measures.within_bounds) {
+    return;
+  }
+  std::ostringstream text;
+  text << std::setprecision(2) << "the surface of " << name << " holds its volume to "
+       << 100 * std::abs(measures.volume / measures.label_volume - 1) << " % and 95 % of it lie within "
+       << measures.boundary_distance_95
+       << " mm of the labels' boundary, where 1 % and 1 mm are aimed at: it is smoother than the labels";
+  result.notes.push_back(text.str());
+}
+
 void make_surfaces(Segmentation& result, const Mask& brain, const std::vector<std::int16_t>& tissues,
-                   const SegmentOptions& options) {
+                   const SegmentOptions& options, const Progress& progress) {
   const auto bodies = bodies_of(*result.labels, brain, tissues, options);
-  auto surfaces = extract_all(bodies, options.edge_length);
+  auto surfaces = extract_all(bodies, options.edge_length, progress);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     result.measures[bodies[i].name] = surfaces[i].measures;
+    note_missed(result, bodies[i].name, surfaces[i].measures);
   }
+  const bool cavity = bodies.back().name == "skull";
   result.brain = surfaces.front().surface;
-  result.skull = options.skull_label ? surfaces.back().surface : result.brain;
-  result.measures["skull"] = options.skull_label ? surfaces.back().measures : surfaces.front().measures;
-  for (std::size_t t = 0; t < tissues.size(); ++t) {
+  result.skull = cavity ? surfaces.back().surface : result.brain;
+  result.measures["skull"] = cavity ? surfaces.back().measures : surfaces.front().measures;
+  for (std::size_t t = 0; options.tissue_surfaces && t < tissues.size(); ++t) {
     result.tissues[tissues[t]] = std::move(surfaces[t + 1].surface);
+  }
+}
+
+// What closing and filling took in becomes the first of the brain's labels; loose pieces become background.
+void fit_labels(LabelMap& labels, const Mask& tissue, const Mask& brain, std::int16_t filling) {
+  for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
+    if (brain.voxels[i] != tissue.voxels[i]) {
+      labels.voxels[i] = brain.voxels[i] != 0 ? filling : std::int16_t{0};
+    }
+  }
+}
+
+void note_body(Segmentation& result, const BrainBody& body, const Mask& tissue) {
+  result.body = BodyMeasures{.tissue_volume = volume(tissue),
+                             .volume = volume(body.mask),
+                             .loose_volume = body.loose_volume,
+                             .loose_pieces = body.loose_pieces};
+  constexpr double worth_saying = 1000;  // mm³
+  if (body.loose_volume > worth_saying) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1) << "dropped " << body.loose_volume / 1000 << " ml of tissue ("
+         << 100 * body.loose_volume / result.body->tissue_volume << " %) in " << body.loose_pieces
+         << " piece(s) that hang together with no part of the brain; if they belong to it, join them in the image";
+    result.notes.push_back(text.str());
   }
 }
 
@@ -166,9 +182,15 @@ Segmentation segment_labels(const SegmentInput& input, const SegmentOptions& opt
   for (const std::int16_t label : options.brain_labels) {
     check_present(*result.labels, label);
   }
-  const Mask brain = brain_body(mask_of(*result.labels, options.brain_labels));
-  report(progress, 0.1, "surfaces");
-  make_surfaces(result, brain, options.brain_labels, options);
+  const Mask tissue = mask_of(*result.labels, options.brain_labels);
+  report(progress, 0.1, "the brain as one body");
+  const BrainBody body = brain_body(tissue, options.closing.value_or(0));
+  note_body(result, body, tissue);
+  if (options.closing.value_or(0) > 0) {
+    fit_labels(*result.labels, tissue, body.mask, options.brain_labels.front());
+  }
+  report(progress, 0.4, "surfaces");
+  make_surfaces(result, body.mask, options.brain_labels, options, progress);
   return result;
 }
 
@@ -177,19 +199,21 @@ Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options
   if (input.tumour_mask) {
     add_tumour(mask, *input.tumour_mask);
   }
-  const Mask brain = brain_body(mask_of(mask));
+  const Mask tissue = mask_of(mask);
+  const BrainBody body = brain_body(tissue, options.closing.value_or(0));
   report(progress, 0.1, "tissue classes");
-  Classification classified = classify(*input.t1, brain, options);
+  Classification classified = classify(*input.t1, body.mask, options);
   Segmentation result;
   result.labels = std::move(classified.labels);
   result.memberships = std::move(classified.memberships);
+  note_body(result, body, tissue);
   if (input.tumour_mask) {
     add_tumour(*result.labels, *input.tumour_mask);
   }
-  report(progress, 0.3, "surfaces");
+  report(progress, 0.4, "surfaces");
   const std::vector<std::int16_t> classes = {default_label::parenchyma, default_label::ventricles,
                                              default_label::tumour};
-  make_surfaces(result, brain, present_labels(*result.labels, classes), options);
+  make_surfaces(result, body.mask, present_labels(*result.labels, classes), options, progress);
   return result;
 }
 

@@ -80,10 +80,6 @@ void Console::progress(StageId stage, double fraction, double total, std::string
   on_line_ = true;
 }
 
-void Console::warned(StageId stage, std::string_view warning) {
-  line(std::string(stage_name(stage)) + ": warning: " + std::string(warning));
-}
-
 void Console::finished(StageId stage, double seconds) {
   line(std::string(stage_name(stage)) + ": done in " + duration(seconds));
 }
@@ -91,6 +87,10 @@ void Console::finished(StageId stage, double seconds) {
 void Console::kept(StageId stage, std::string_view edited) {
   line(std::string(stage_name(stage)) + ": " +
        (edited.empty() ? "unchanged, kept" : "kept, with " + std::string(edited) + " as edited since"));
+}
+
+void Console::note(StageId stage, std::string_view sentence) {
+  line(std::string(stage_name(stage)) + ": " + std::string(sentence));
 }
 
 void Console::failed(StageId stage) {

@@ -21,11 +21,11 @@ class Console {
   void started(StageId stage);
   /// total: fraction of the whole work that is done, for the estimate.
   void progress(StageId stage, double fraction, double total, std::string_view what);
-  void warned(StageId stage, std::string_view warning);
   void finished(StageId stage, double seconds);
   /// edited: names of files, or empty.
   void kept(StageId stage, std::string_view edited);
   void failed(StageId stage);
+  void note(StageId stage, std::string_view sentence);
 
  private:
   using Clock = std::chrono::steady_clock;

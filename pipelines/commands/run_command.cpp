@@ -30,14 +30,14 @@ void show(Console& console, const RunEvent& event) {
       return console.started(event.stage);
     case RunEvent::Kind::progress:
       return console.progress(event.stage, event.fraction, event.total_fraction, event.what);
-    case RunEvent::Kind::warned:
-      return console.warned(event.stage, event.what);
     case RunEvent::Kind::finished:
       return console.finished(event.stage, event.seconds);
     case RunEvent::Kind::kept:
       return console.kept(event.stage, event.what);
     case RunEvent::Kind::failed:
       return console.failed(event.stage);
+    case RunEvent::Kind::note:
+      return console.note(event.stage, event.what);
   }
 }
 

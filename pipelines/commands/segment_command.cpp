@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
+#include <stdexcept>
 
 #include "pipelines/commands/commands.hpp"
 #include "segmentation/options/values.hpp"
@@ -9,13 +10,27 @@ namespace {
 
 struct SegmentArguments {
   Scene scene;
-  std::vector<std::int16_t> brain_labels = segmentation::SegmentOptions{}.brain_labels;
+  std::vector<std::int16_t> brain_labels;
   std::filesystem::path out;
 };
 
+/// Whether the numbers are those of a table; else they are the ones that this program writes.
+bool known_numbers(const ImageInputs& image) {
+  return segmentation::is_freesurfer(segmentation::label_volumes(read_label_map(image.labels)));
+}
+
 void segment(const SegmentArguments& arguments, const Settings& settings) {
   SegmentJob job{arguments.scene.image, arguments.scene.segment};
-  job.options.brain_labels = arguments.brain_labels;
+  const ImageInputs& image = job.image;
+  const bool own_numbers = !arguments.brain_labels.empty() || image.skull_label.has_value();
+  if (own_numbers && !image.labels_are.empty()) {
+    throw std::invalid_argument(
+        "--labels-are says what the label map's numbers are; leave --brain-labels and --skull-label out");
+  }
+  if (!arguments.brain_labels.empty()) {
+    job.options.brain_labels = arguments.brain_labels;
+  }
+  job.reading.by_class = !image.labels.empty() && !own_numbers && (!image.labels_are.empty() || known_numbers(image));
   job.options.skull_label = arguments.scene.image.skull_label;
   run_single_stage(StageId::segment, arguments.out, settings,
                    [&](const auto& folder, const Progress& progress) { return run_job(job, folder, progress); });
@@ -27,15 +42,17 @@ void add_segment_command(CLI::App& program, const Settings& settings) {
   CLI::App* command =
       program.add_subcommand("segment", "Labels, or a T1 with a brain mask, or a surface, to surfaces.");
   auto arguments = std::make_shared<SegmentArguments>();
-  for (const char* name : {"t1", "labels", "brain_mask", "tumour_mask", "surface", "skull_label"}) {
+  for (const char* name :
+       {"t1", "labels", "labels_are", "brain_mask", "tumour_mask", "tumour", "surface", "skull_label"}) {
     add_scene_option(*command, arguments->scene, "image", name);
   }
-  for (const char* name : {"edge_length", "classes", "ventricle_depth"}) {
+  for (const char* name : {"edge_length", "closing", "tissue_surfaces", "classes", "ventricle_depth"}) {
     add_scene_option(*command, arguments->scene, "segment", name);
   }
-  command->add_option("--brain-labels", arguments->brain_labels, "labels that are tissue of the brain")
-      ->check(CLI::Range(static_cast<int>(label_numbers.low), static_cast<int>(label_numbers.high)))
-      ->capture_default_str();
+  command
+      ->add_option("--brain-labels", arguments->brain_labels,
+                   "labels that are tissue of the brain; 1 2 3 where no table tells the labels")
+      ->check(CLI::Range(static_cast<int>(label_numbers.low), static_cast<int>(label_numbers.high)));
   command->add_option("--out", arguments->out, "folder for the artefacts")->required()->type_name("DIR");
   command->callback([arguments, &settings] { segment(*arguments, settings); });
 }

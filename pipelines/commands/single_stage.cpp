@@ -23,8 +23,8 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
   write_stage_record(folder.path(),
                      {.stamp = "", .failure = report.failure, .entry = stage_entry(report, seconds, peak_memory_mb())});
   folder.merge();
-  for (const std::string& warning : report.warnings) {
-    console.warned(stage, warning);
+  for (const std::string& note : report.notes) {
+    console.note(stage, note);
   }
   if (!report.failure.empty()) {
     console.failed(stage);

@@ -58,7 +58,7 @@ MaterialWords words_of(const std::string& values, const std::string& text) {
     if (equals != std::string::npos) {
       const auto [at, is_new] = words.attributes.emplace(part.substr(0, equals), part.substr(equals + 1));
       const Option<Tissue>* option = find_option(tissue_options(), at->first);
-      if (option == nullptr || option->required) {
+      if (option == nullptr || names_tissue(option->name)) {
         throw std::invalid_argument("--material '" + text + "' has no attribute '" + at->first +
                                     "'; allowed: " + option_names(tissue_options()) + ", without label");
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/jobs.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "pipelines/runner/measures.hpp"
@@ -26,9 +27,76 @@ void need_same_grid(const ImageGeometry& t1, const fs::path& t1_file, const std:
   }
 }
 
+/// A mask, which may be an image of other numbers: non-zero is inside.
+std::optional<LabelMap> mask_if(const fs::path& file) {
+  if (file.empty()) {
+    return std::nullopt;
+  }
+  const ScalarImage image = read_image(file);
+  LabelMap mask{image.geometry, std::vector<std::int16_t>(image.voxels.size())};
+  std::transform(image.voxels.begin(), image.voxels.end(), mask.voxels.begin(),
+                 [](float value) { return static_cast<std::int16_t>(value != 0); });
+  return mask;
+}
+
+/// A tumour's map as a mask: of BraTS's numbers the tumour without its oedema.
+std::optional<LabelMap> tumour_if(const fs::path& file) {
+  auto tumour = labels_if(file);
+  if (tumour) {
+    const auto volumes = segmentation::label_volumes(*tumour);
+    const bool brats = volumes.contains(2) && volumes.contains(1) + volumes.contains(3) + volumes.contains(4) > 0;
+    for (std::int16_t& voxel : tumour->voxels) {
+      voxel = voxel != 0 && !(brats && voxel == 2) ? 1 : 0;
+    }
+  }
+  return tumour;
+}
+
+/// Takes a map to the reference's grid, and says so. `counted`: the labels that must lie within it, all when empty.
+void take_to_grid(std::optional<LabelMap>& map, const fs::path& file, const ImageGeometry& grid,
+                  const fs::path& grid_file, std::vector<std::string>& notes,
+                  const std::vector<std::int16_t>& counted = {}) {
+  if (!map || same_geometry(map->geometry, grid)) {
+    return;
+  }
+  LabelMap inner = *map;
+  for (std::int16_t& voxel : inner.voxels) {
+    voxel = counted.empty() || std::find(counted.begin(), counted.end(), voxel) != counted.end() ? voxel : 0;
+  }
+  if (const double share = share_within(inner, grid); share < 0.5) {
+    throw std::invalid_argument(file.string() + ": " + std::to_string(static_cast<int>(100 * share)) +
+                                " % of it lie within " + grid_file.string() + " (" + described(map->geometry) +
+                                " against " + described(grid) +
+                                "); are they of one patient and one frame? Register one to the other first");
+  }
+  *map = on_grid(*map, grid);
+  notes.push_back(file.string() + ": lies on another grid than " + grid_file.string() +
+                  "; taken to it, the nearest label at each voxel");
+}
+
+/// What a table told of the labels, as the stage's options.
+void set_classes(const LabelMap& labels, bool tumour, segmentation::SegmentOptions& options) {
+  namespace label = segmentation::default_label;
+  const auto volumes = segmentation::label_volumes(labels);
+  options.brain_labels.clear();
+  for (const std::int16_t number : {label::parenchyma, label::ventricles, label::tumour}) {
+    if (volumes.contains(number) || (tumour && number == label::tumour)) {
+      options.brain_labels.push_back(number);
+    }
+  }
+  options.fluid_label = label::csf;
+  options.skull_label = volumes.contains(label::skull) ? std::optional(label::skull) : std::nullopt;
+  // Of eight heads and FreeSurfer's, 3 mm is the least that leaves no fold; more takes in more of the fluid outside.
+  constexpr double radius = 4;
+  options.closing = options.closing.value_or(radius);
+}
+
 /// Moves one more file with the fields that were just written to the folder.
 void warp_file(const fs::path& file, const fs::path& out, const registration::WarpAnyOptions& options) {
-  const fs::path target = out / ("warped_" + file.filename().string());
+  fs::path target = out / ("warped_" + file.filename().string());
+  if (target.extension() == ".mgz" || target.extension() == ".mgh") {
+    target.replace_extension(".nii.gz");
+  }
   if (fs::exists(target)) {
     throw std::invalid_argument(file.string() + ": there is a " + target.filename().string() +
                                 " already; rename the file that is to be warped");
@@ -43,6 +111,12 @@ auto naming(const std::string& files, const Work& work) {
     return work();
   } catch (const std::invalid_argument& fault) {
     throw std::invalid_argument(files.empty() ? fault.what() : files + ": " + fault.what());
+  }
+}
+
+void warn(const Warnings& warnings, StageReport& report) {
+  for (const std::string& warning : warnings) {
+    report.notes.push_back("warning: " + warning);
   }
 }
 
@@ -85,28 +159,40 @@ solve::CraniotomyLoad read_load(const Load& load, const fs::path& surface) {
 
 StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& progress) {
   segmentation::SegmentInput input;
+  segmentation::SegmentOptions options = job.options;
+  std::vector<std::string> notes;
   report(progress, 0, "reading");
   if (!job.image.t1.empty()) {
     input.t1 = read_image(job.image.t1);
   }
-  input.labels = labels_if(job.image.labels);
-  input.brain_mask = labels_if(job.image.brain_mask);
-  input.tumour_mask = labels_if(job.image.tumour_mask);
+  if (!job.image.labels.empty()) {
+    ReadLabels read = read_labels(job.image, job.reading);
+    input.labels = std::move(read.map);
+    notes = std::move(read.notes);
+  }
+  input.brain_mask = mask_if(job.image.brain_mask);
+  input.tumour_mask = job.image.tumour.empty() ? mask_if(job.image.tumour_mask) : tumour_if(job.image.tumour);
   if (!job.image.surface.empty()) {
     input.surface = read_surface(job.image.surface);
   }
+  if (input.labels && job.reading.by_class) {
+    set_classes(*input.labels, input.tumour_mask.has_value(), options);
+  }
+  const fs::path& tumour = job.image.tumour.empty() ? job.image.tumour_mask : job.image.tumour;
   if (input.t1) {
-    need_same_grid(input.t1->geometry, job.image.t1, input.labels, job.image.labels);
-    need_same_grid(input.t1->geometry, job.image.t1, input.brain_mask, job.image.brain_mask);
-    need_same_grid(input.t1->geometry, job.image.t1, input.tumour_mask, job.image.tumour_mask);
+    take_to_grid(input.labels, job.image.labels, input.t1->geometry, job.image.t1, notes, options.brain_labels);
+    take_to_grid(input.brain_mask, job.image.brain_mask, input.t1->geometry, job.image.t1, notes);
+    take_to_grid(input.tumour_mask, tumour, input.t1->geometry, job.image.t1, notes);
+  } else if (input.labels) {
+    take_to_grid(input.tumour_mask, tumour, input.labels->geometry, job.image.labels, notes);
   }
   const fs::path& file = input.labels ? job.image.labels : input.surface ? job.image.surface : job.image.brain_mask;
   const segmentation::Segmentation result =
-      naming(file.string(), [&] { return segmentation::segment(input, job.options, progress); });
+      naming(file.string(), [&] { return segmentation::segment(input, options, progress); });
   segmentation::write_segmentation(out, result);
-  StageReport said = report_of(result);
-  said.warnings = warnings_of(input, job.options, result);
-  return said;
+  StageReport stage = report_of(result);
+  stage.notes.insert(stage.notes.begin(), notes.begin(), notes.end());
+  return stage;
 }
 
 StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progress& progress) {
@@ -163,7 +249,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
   solve::write_solve(out, result);
   StageReport said = report_of(result, input.options.dynamics);
   if (input.load) {
-    said.warnings = warnings_of(*input.load, input.model.cloud, input.model.conditions.displacement);
+    warn(warnings_of(*input.load, input.model.cloud, input.model.conditions.displacement), said);
   }
   return said;
 }
@@ -190,7 +276,7 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
     warp_file(file, out, {.labels = true, .interpolation = job.options.interpolation});
   }
   StageReport said = report_of(result);
-  said.warnings = warnings_of(result.measures);
+  warn(warnings_of(result.measures), said);
   return said;
 }
 

@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "pipelines/runner/stage_report.hpp"
-#include "pipelines/scene/scene.hpp"
+#include "pipelines/scene/scene_labels.hpp"
 
 namespace brainshift::pipelines {
 
 /// A stage with its files: what a scene's run and the stage's own command both fill in. Empty paths are not given.
 struct SegmentJob {
   ImageInputs image;
-  segmentation::SegmentOptions options;
+  segmentation::SegmentOptions options;  ///< by class: brain_labels, skull_label and fluid_label come from the map
+  LabelReading reading = {};
 };
 
 struct DiscretiseJob {

@@ -20,8 +20,16 @@ StageReport report_of(const segmentation::Segmentation& result) {
                              {"closed", m.closed},
                              {"outward", m.outward},
                              {"self_intersecting", m.self_intersecting},
-                             {"repaired", m.repaired}};
+                             {"repaired", m.repaired},
+                             {"within_bounds", m.within_bounds}};
   }
+  if (const auto& body = result.body) {
+    report.measures["body"] = {{"tissue_volume_mm3", body->tissue_volume},
+                               {"volume_mm3", body->volume},
+                               {"loose_volume_mm3", body->loose_volume},
+                               {"loose_pieces", body->loose_pieces}};
+  }
+  report.notes = result.notes;
   return report;
 }
 

@@ -34,7 +34,7 @@ nlohmann::ordered_json options_of(const Scene& scene, const std::vector<std::str
     options[name] = all[name];
     if (const Element* element = find_element(name)) {
       for (const auto& option : element->options) {
-        if (option.is_path) {
+        if (names_file(option, option.get(scene))) {
           options[name].erase(option.name);
         }
       }
@@ -89,7 +89,7 @@ std::vector<std::int16_t> tissue_labels(const Scene& scene) {
 }
 
 StagePlan plan_segment(const Scene& scene) {
-  SegmentJob job{scene.image, scene.segment};
+  SegmentJob job{scene.image, scene.segment, label_reading(scene)};
   job.options.brain_labels = tissue_labels(scene);
   job.options.skull_label = scene.image.skull_label;
   StagePlan plan{.stage = StageId::segment,
@@ -98,6 +98,8 @@ StagePlan plan_segment(const Scene& scene) {
                  .artefacts = {"brain.vtp"},
                  .work = {}};
   plan.options["brain_labels"] = job.options.brain_labels;
+  plan.options["by_class"] = job.reading.by_class;
+  plan.options["joined"] = job.reading.joined;
   plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
   return plan;
 }
@@ -285,7 +287,7 @@ std::vector<InputFile> scene_files(const Scene& scene) {
   std::vector<InputFile> files;
   for (const Element& element : scene_elements()) {
     for (const auto& option : element.options) {
-      if (option.is_path && element.present(scene) && !option.get(scene).empty()) {
+      if (element.present(scene) && names_file(option, option.get(scene))) {
         files.push_back({element.path + "." + option.name, option.get(scene)});
       }
     }

@@ -32,11 +32,11 @@ class Tally {
       observer_({kind, stage, fraction, (done_ + fraction * time_shares[index_of(stage)]) / whole_, what, seconds});
     }
   }
-  /// The warnings of the stage's entry, of a kept stage too: what they say still holds.
-  void warn(StageId stage, const nlohmann::ordered_json& entry) {
-    if (const auto warnings = entry.find("warnings"); warnings != entry.end() && warnings->is_array()) {
-      for (const auto& warning : *warnings) {
-        tell(RunEvent::Kind::warned, stage, 1, warning.is_string() ? warning.get<std::string>() : "");
+  /// The notes of the stage's entry, of a kept stage too: what they say still holds.
+  void tell_notes(StageId stage, const nlohmann::ordered_json& entry) {
+    if (const auto notes = entry.find("notes"); notes != entry.end() && notes->is_array()) {
+      for (const auto& note : *notes) {
+        tell(RunEvent::Kind::note, stage, 1, note.is_string() ? note.get<std::string>() : "");
       }
     }
   }
@@ -147,7 +147,7 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
       outcome.record["stages"][name] = old->record.entry;
       outcome.record["stages"][name]["status"] = "kept";
       tally.tell(RunEvent::Kind::kept, stage, 0, listed(old->edited));
-      tally.warn(stage, old->record.entry);
+      tally.tell_notes(stage, old->record.entry);
     } else {
       tally.tell(RunEvent::Kind::started, stage);
       const Progress progress = [&](double fraction, std::string_view what) {
@@ -156,7 +156,7 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
       const StageRecord record = make_stage(plan, out / name, states, interruption, progress);
       outcome.record["stages"][name] = record.entry;
       outcome.failure = record.failure;
-      tally.warn(stage, record.entry);
+      tally.tell_notes(stage, record.entry);
       const auto kind = record.failure.empty() ? RunEvent::Kind::finished : RunEvent::Kind::failed;
       tally.tell(kind, stage, 1, {}, record.entry["seconds"]);
     }

@@ -21,12 +21,12 @@ struct RunOptions {
 
 /// What happens in a run, for whoever shows it.
 struct RunEvent {
-  enum class Kind : std::uint8_t { started, progress, warned, finished, kept, failed } kind;
+  enum class Kind : std::uint8_t { started, progress, note, finished, kept, failed } kind;
   StageId stage;
   double fraction = 0;        ///< of the stage, 0 to 1
   double total_fraction = 0;  ///< of the run's expected time, 0 to 1
   std::string_view what;      ///< what is being done; of a kept stage: the files that were edited since;
-                              ///< of a warning: its sentence
+                              ///< of a note: its sentence
   double seconds = 0;         ///< that the stage took, when it is finished
 };
 using RunObserver = std::function<void(const RunEvent&)>;

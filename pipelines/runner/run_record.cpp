@@ -25,8 +25,8 @@ nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, do
                                   {"peak_memory_mb", rounded(peak_memory_mb)},
                                   {"sizes", report.sizes},
                                   {"measures", report.measures}};
-  if (!report.warnings.empty()) {
-    entry["warnings"] = report.warnings;
+  if (!report.notes.empty()) {
+    entry["notes"] = report.notes;
   }
   if (!report.failure.empty()) {
     entry["failure"] = report.failure;

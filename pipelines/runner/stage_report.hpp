@@ -11,7 +11,7 @@ namespace brainshift::pipelines {
 struct StageReport {
   nlohmann::ordered_json sizes = nlohmann::ordered_json::object();
   nlohmann::ordered_json measures = nlohmann::ordered_json::object();
-  std::vector<std::string> warnings;  ///< sentences on what is no fault, but most likely not what the user means
+  std::vector<std::string> notes;  ///< sentences for the user: what was recognised or dropped, or is hardly meant
   std::string failure;  ///< empty, or the sentence of a computation that did not converge; its artefacts are written
 };
 

@@ -19,18 +19,6 @@ std::string with_digits(double number) {
   return text;
 }
 
-std::size_t brain_voxels(const segmentation::SegmentInput& input, const segmentation::SegmentOptions& options) {
-  const LabelMap& map = input.labels ? *input.labels : *input.brain_mask;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < map.voxels.size(); ++i) {
-    const bool labelled = input.labels
-                              ? std::ranges::find(options.brain_labels, map.voxels[i]) != options.brain_labels.end()
-                              : map.voxels[i] != 0;
-    count += labelled || (input.tumour_mask && input.tumour_mask->voxels[i] != 0) ? 1 : 0;
-  }
-  return count;
-}
-
 /// Whether the points lie along one line, as far as the width of their row tells.
 bool on_a_line(const Points& points) {
   const Points about = points.rowwise() - points.colwise().mean();
@@ -64,23 +52,6 @@ double median_distance(const Points& points, const Points& surface) {
 }
 
 }  // namespace
-
-Warnings warnings_of(const segmentation::SegmentInput& input, const segmentation::SegmentOptions& options,
-                     const segmentation::Segmentation& result) {
-  constexpr double negligible = 0.02;
-  if (input.surface || !result.measures.contains("brain")) {
-    return {};
-  }
-  const ImageGeometry& geometry = (input.labels ? *input.labels : *input.brain_mask).geometry;
-  const double given = static_cast<double>(brain_voxels(input, options)) * geometry.spacing.prod();
-  const double left_out = 1 - result.measures.at("brain").label_volume / given;
-  if (left_out <= negligible) {
-    return {};
-  }
-  return {with_digits(100 * left_out) +
-          " % of the brain's voxels lie apart from its largest piece and are left out; if they belong to it, join the "
-          "pieces in the label map or mask"};
-}
 
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed) {
   constexpr double usual_distance = 5.0;  // mm, of points on a cortex from the nodes of its surface

@@ -6,19 +6,12 @@
 
 #include "discretise/interface/node_cloud.hpp"
 #include "register/interface/result.hpp"
-#include "segmentation/interface/input.hpp"
-#include "segmentation/interface/options.hpp"
-#include "segmentation/interface/result.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::pipelines {
 
 /// What is no fault, but most likely not what the user means: a sentence each.
 using Warnings = std::vector<std::string>;
-
-/// Of a brain of which a part lies apart from the rest and is left out.
-Warnings warnings_of(const segmentation::SegmentInput& input, const segmentation::SegmentOptions& options,
-                     const segmentation::Segmentation& result);
 
 /// Of points that lie off the brain's surface, or that are too few or lie on a line. prescribed: what became of them.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "discretise/interface/option_table.hpp"
+#include "pipelines/scene/scene_labels.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "register/field/brain_zones.hpp"
 #include "register/interface/option_table.hpp"
@@ -41,19 +42,19 @@ void check_files(const Scene& scene) {
     }
     for (const auto& option : element.options) {
       const std::string path = element.path + "." + option.name;
-      if (!option.is_path) {
-        continue;
-      }
       const std::string file = option.get(scene);
-      if (file.empty() && option.required) {
+      if (option.is_path && file.empty() && option.required) {
         fail(scene, path, path + " is empty; it must name a file");
+      }
+      if (!names_file(option, file)) {
+        continue;
       }
       std::error_code fault;
       const auto status = std::filesystem::status(file, fault);
-      if (!file.empty() && status.type() == std::filesystem::file_type::not_found) {
+      if (status.type() == std::filesystem::file_type::not_found) {
         fail(scene, path, path + " names the file " + file + ", which does not exist");
       }
-      if (!file.empty() && fault) {
+      if (fault) {
         fail(scene, path, path + " names the file " + file + ", which cannot be reached (" + fault.message() + ")");
       }
     }
@@ -71,6 +72,13 @@ void check_image(const Scene& scene) {
     fail(scene, "image",
          "<image> names " + std::to_string(sources) +
              " of labels, brain_mask and surface; give exactly one, a brain_mask together with a t1");
+  }
+  if (!image.labels_are.empty() && label_reading(scene).by_class != !image.labels.empty()) {
+    fail(scene, "image.labels_are",
+         "labels_are says what the label map's numbers are, so tissues are named by class, not by label");
+  }
+  if (!image.tumour.empty() && !image.tumour_mask.empty()) {
+    fail(scene, "image.tumour", "<image> names a tumour and a tumour_mask; give one of them");
   }
   if (!image.brain_mask.empty() && image.t1.empty()) {
     fail(scene, "image", "<image> has a brain_mask but no t1; the tissues are classified from the t1");
@@ -161,16 +169,17 @@ std::set<std::int16_t> labels_in(const LabelMap& map) {
   return labels;
 }
 
-/// The labels that the segment stage will give: those of the map, of the classes, or tissue 1 of a bare surface.
+/// The labels that the segment stage will give: of the map, with the numbers that tissues join, of the classes, or
+/// tissue 1 of a bare surface.
 std::set<std::int16_t> labels_to_come(const Scene& scene) {
   namespace label = segmentation::default_label;
   std::set<std::int16_t> labels = {label::parenchyma};
   if (!scene.image.labels.empty()) {
-    labels = labels_in(read_label_map(scene.image.labels));
+    labels = labels_in(read_labels(scene.image, label_reading(scene)).map);
   } else if (!scene.image.brain_mask.empty()) {
     labels.insert({label::ventricles, label::csf});
   }
-  if (!scene.image.tumour_mask.empty()) {
+  if (!scene.image.tumour_mask.empty() || !scene.image.tumour.empty()) {
     labels.insert(label::tumour);
   }
   return labels;
@@ -178,6 +187,20 @@ std::set<std::int16_t> labels_to_come(const Scene& scene) {
 
 std::string listed(const std::set<std::int16_t>& labels) {
   return labels.empty() ? "none" : write_numbers(labels);
+}
+
+bool by_class(const Tissue& tissue) {
+  return tissue.tissue_class != 0;
+}
+
+/// Of tissues named by class.
+void check_classes(const Scene& scene) {
+  if (!std::all_of(scene.tissues.begin(), scene.tissues.end(), by_class)) {
+    fail(scene, "tissues", "some tissues are named by class, others by label; name all of them in one way");
+  }
+  if (!scene.image.labels.empty()) {
+    check_at(scene, "image.labels", [&] { read_labels(scene.image, label_reading(scene)); });
+  }
 }
 
 void check_tissues(const Scene& scene) {
@@ -190,7 +213,13 @@ void check_tissues(const Scene& scene) {
   if (!is_ours(scene, StageId::segment)) {
     return;
   }
+  if (std::any_of(scene.tissues.begin(), scene.tissues.end(), by_class)) {
+    check_classes(scene);
+    return;
+  }
   const std::set<std::int16_t> labels = labels_to_come(scene);
+  const bool lists = std::any_of(scene.tissues.begin(), scene.tissues.end(),
+                                 [](const Tissue& tissue) { return !tissue.labels.empty(); });
   const std::string source = scene.image.labels.empty() ? "the segmentation" : scene.image.labels.string();
   std::set<std::int16_t> named(scene.image.other_labels.begin(), scene.image.other_labels.end());
   for (const Tissue& tissue : scene.tissues) {
@@ -202,7 +231,7 @@ void check_tissues(const Scene& scene) {
     named.insert(tissue.label);
   }
   for (const std::int16_t label : labels) {
-    if (!named.contains(label)) {
+    if (!named.contains(label) && !lists) {
       fail(
           scene, "tissues",
           "label " + std::to_string(label) + " of " + source +

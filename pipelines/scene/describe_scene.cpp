@@ -56,11 +56,15 @@ std::string tissues_part() {
   tissue.label = 1;
   // Constants beside a named material override it, so the example of all constants names none.
   OptionTable<Tissue> constants = tissue_options();
-  std::erase_if(constants, [](const auto& option) { return option.name == "material"; });
+  std::erase_if(constants, [](const auto& option) {
+    return option.name == "material" || option.name == "labels" || option.name == "class";
+  });
   const std::string example = "<tissues><tissue" + attributes(constants, tissue) + "/></tissues>";
   return comment("The brain's tissues: one element a label.",
                  help_lines(tissue_options(), "       ") + "       " + example +
-                     "\n       or <tissues><tissue label=\"1\" material=\"brain_viscoelastic\"/></tissues>\n");
+                     "\n       or <tissues><tissue label=\"1\" material=\"brain_viscoelastic\"/></tissues>\n"
+                     "       or <tissues><tissue labels=\"2 3 10-13\" material=\"brain\"/></tissues>\n"
+                     "       or <tissues><tissue class=\"ventricles\" youngs_modulus=\"20\"/></tissues>\n");
 }
 
 }  // namespace

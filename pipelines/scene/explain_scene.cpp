@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "pipelines/scene/scene_labels.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "pipelines/scene/solve_cost.hpp"
 #include "solve/shape/node_supports.hpp"
@@ -38,7 +39,7 @@ void measure_brain(const Scene& scene, Cost& cost) {
   if (file.empty()) {
     return;
   }
-  const LabelMap map = read_label_map(file);
+  const LabelMap map = mask ? read_label_map(file) : read_labels(scene.image, label_reading(scene)).map;
   const auto count = std::count_if(map.voxels.begin(), map.voxels.end(),
                                    [&](std::int16_t value) { return is_brain(scene, value, mask); });
   cost.voxels = static_cast<double>(map.voxels.size());

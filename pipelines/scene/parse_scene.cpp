@@ -11,6 +11,7 @@
 
 #include "pipelines/scene/scene_table.hpp"
 #include "segmentation/files/readable_file.hpp"
+#include "solve/material/named_materials.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -34,7 +35,7 @@ void set_value(const Option<T>& option, T& target, const std::string& value, con
   if (option.is_path && std::ranges::any_of(value, is_control)) {
     where.fail(where.element + " " + option.name + " holds a control character; a file's name is expected");
   }
-  if (option.is_path && !value.empty()) {
+  if (names_file(option, value)) {
     stored = (where.source.file.parent_path() / value).lexically_normal().string();
   }
   if (!set_option(option, target, stored)) {
@@ -133,16 +134,48 @@ void read_list(const tinyxml2::XMLElement& xml, const std::string& name, const S
   }
 }
 
+/// Which tissue an element is about: its label, the first of its labels, or the number of its class.
+std::string tissue_key(const tinyxml2::XMLElement& xml, const Where& where) {
+  const char* label = xml.Attribute("label");
+  const char* labels = xml.Attribute("labels");
+  const char* tissue_class = xml.Attribute("class");
+  if (int{label != nullptr} + int{labels != nullptr} + int{tissue_class != nullptr} != 1) {
+    where.fail(
+        "<tissue> needs one of the attributes 'label' (a number of the label map), 'labels' (several, as \"2 3 "
+        "10-13\") and 'class' (parenchyma, ventricles or tumour)");
+  }
+  if (label != nullptr) {
+    return label;
+  }
+  Tissue tissue;
+  if (labels != nullptr) {
+    find_option(tissue_options(), "labels")->read(tissue, labels);
+    return tissue.labels.empty() ? "" : std::to_string(tissue.labels.front());
+  }
+  find_option(tissue_options(), "class")->read(tissue, tissue_class);
+  return std::to_string(tissue.tissue_class);
+}
+
+/// The number that the stages know the tissue by.
+void settle_label(Tissue& tissue, const Where& where) {
+  if (tissue.label == 0) {
+    tissue.label = tissue.labels.empty() ? tissue.tissue_class : tissue.labels.front();
+  }
+  if (tissue.label == 0) {
+    where.fail("<tissue> names no label and no class");
+  }
+}
+
 void read_tissues(const tinyxml2::XMLElement& xml, Scene& scene) {
   if (const auto* attribute = xml.FirstAttribute()) {
     Where{scene.source, attribute->GetLineNum(), ""}.fail("<tissues> has no attribute '" +
                                                           std::string(attribute->Name()) + "'; allowed: none");
   }
   read_list(xml, "tissue", scene.source, [&](const tinyxml2::XMLElement& child, const Where& where) {
-    const char* label = child.Attribute("label");
-    const std::string path = "tissues." + std::string(label == nullptr ? "" : label);
+    const std::string path = "tissues." + tissue_key(child, where);
     Tissue tissue;
     read_attributes(child, tissue_options(), tissue, path, scene.source);
+    settle_label(tissue, where);
     const auto same = [&](const Tissue& other) { return other.label == tissue.label; };
     if (std::any_of(scene.tissues.begin(), scene.tissues.end(), same)) {
       where.fail("there are two tissues of label " + std::to_string(tissue.label));
@@ -201,7 +234,7 @@ void set_tissue_option(Scene& scene, const std::string& label, const std::string
   for (Tissue& tissue : scene.tissues) {
     if (std::to_string(tissue.label) == label) {
       const Option<Tissue>& option = known_option(tissue_options(), name, where);
-      if (option.required) {
+      if (names_tissue(option.name)) {
         where.fail("the label of a tissue cannot be changed; change the scene's file");
       }
       set_value(option, tissue, value, where);
@@ -236,6 +269,35 @@ void apply_override(Scene& scene, const std::string& text) {
   element->add(scene);
   set_value(known_option(element->options, path.substr(dot + 1), where), scene, value, where);
   scene.source.lines[path] = 0;
+}
+
+/// Classes that the scene does not name have their usual materials, unless it names tissues by number.
+void complete_tissues(Scene& scene) {
+  namespace label = segmentation::default_label;
+  const bool numbered = std::any_of(scene.tissues.begin(), scene.tissues.end(),
+                                    [](const Tissue& tissue) { return tissue.tissue_class == 0; });
+  const bool image = !scene.image.labels.empty() || !scene.image.brain_mask.empty();
+  if (numbered || !image || !scene.commands[index_of(StageId::segment)].empty()) {
+    return;
+  }
+  struct Usual {
+    std::int16_t label;
+    const char* name;
+    const char* material;
+  };
+  for (const auto& [number, name, material] :
+       {Usual{label::parenchyma, "parenchyma", "brain"}, Usual{label::ventricles, "ventricles", "ventricle"},
+        Usual{label::tumour, "tumour", "tumour"}}) {
+    const auto same = [number](const Tissue& tissue) { return tissue.label == number; };
+    if (std::none_of(scene.tissues.begin(), scene.tissues.end(), same)) {
+      Tissue tissue;
+      tissue.label = tissue.tissue_class = number;
+      tissue.name = name;
+      tissue.named_material = material;
+      tissue.material = solve::named_material(material).value();
+      scene.tissues.push_back(std::move(tissue));
+    }
+  }
 }
 
 /// What --set names may have left out.
@@ -295,7 +357,15 @@ Scene parse_scene(const std::filesystem::path& file, const std::vector<std::stri
   tinyxml2::XMLDocument document;
   read_children(open_scene(document, scene.source), "", scene);
   for (const std::string& text : overrides) {
-    apply_override(scene, text);
+    if (!text.starts_with("tissues.")) {
+      apply_override(scene, text);
+    }
+  }
+  complete_tissues(scene);
+  for (const std::string& text : overrides) {
+    if (text.starts_with("tissues.")) {
+      apply_override(scene, text);
+    }
   }
   require_options(scene);
   return scene;

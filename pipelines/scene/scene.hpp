@@ -36,8 +36,10 @@ bool is_stage(std::string_view name);
 struct ImageInputs {
   std::filesystem::path t1;
   std::filesystem::path labels;
+  std::string labels_are;  ///< "freesurfer", "brats", a table's file, or empty: recognised, or named by the tissues
   std::filesystem::path brain_mask;
   std::filesystem::path tumour_mask;
+  std::filesystem::path tumour;  ///< a label map of the tumour, in the numbers of BraTS or a mask
   std::filesystem::path surface;
   /// labels of the label map that are not tissue of the brain; every other label must have a tissue
   std::vector<std::int16_t> other_labels = {segmentation::default_label::csf, segmentation::default_label::skull,
@@ -50,6 +52,8 @@ struct Tissue {
   std::string name;
   std::string named_material;  ///< the constants were those of solve::named_material before others were set; or empty
   solve::Material material;
+  std::vector<std::int16_t> labels = {};  ///< numbers of the map that are this tissue, `label` the first; or empty
+  std::int16_t tissue_class = 0;  ///< of segmentation::default_label, where named by it: `label` is the same; or 0
 };
 
 struct BeforeAfter {

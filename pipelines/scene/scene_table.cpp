@@ -4,6 +4,7 @@
 #include "discretise/interface/option_table.hpp"
 #include "register/interface/option_table.hpp"
 #include "segmentation/interface/option_table.hpp"
+#include "segmentation/labels/label_table.hpp"
 #include "solve/interface/option_table.hpp"
 #include "solve/load/load_options.hpp"
 #include "solve/material/material_options.hpp"
@@ -77,11 +78,19 @@ Element image_element() {
       .present = always,
       .add = nothing,
       .options = {
-          file_option<Scene>("t1", MEMBER(image.t1), "T1-weighted MRI: .nii, .nii.gz, .nrrd, .mha or a DICOM folder"),
-          file_option<Scene>("labels", MEMBER(image.labels), "label map on the T1's grid"),
+          file_option<Scene>("t1", MEMBER(image.t1),
+                             "T1-weighted MRI: .nii, .nii.gz, .nrrd, .mha, .mgz or a DICOM folder"),
+          file_option<Scene>("labels", MEMBER(image.labels), "label map; on another grid it is taken to the T1's"),
+          named_file_option<Scene>("labels_are", MEMBER(image.labels_are), segmentation::label_table_names(),
+                                   "whose numbers the label map has, where no <tissue> names them; a table's file is "
+                                   "like FreeSurferColorLUT.txt, BIDS _dseg.tsv or .ctbl; without it FreeSurfer's are "
+                                   "recognised"),
           file_option<Scene>("brain_mask", MEMBER(image.brain_mask),
                              "non-zero is brain; its tissues are then classified from the T1"),
           file_option<Scene>("tumour_mask", MEMBER(image.tumour_mask), "non-zero is tumour, which becomes label 3"),
+          file_option<Scene>(
+              "tumour", MEMBER(image.tumour),
+              "label map of the tumour, on any grid: BraTS numbers (oedema stays parenchyma), or a mask"),
           file_option<Scene>("surface", MEMBER(image.surface),
                              "brain surface in place of labels: .vtp, .stl, .ply, .obj"),
           labels_option<Scene>(
@@ -245,9 +254,30 @@ Option<Tissue> material_option() {
   return option;
 }
 
+detail::NamedValues<std::int16_t> tissue_classes() {
+  namespace label = segmentation::default_label;
+  return {{"none", std::int16_t{0}},
+          {"parenchyma", label::parenchyma},
+          {"ventricles", label::ventricles},
+          {"tumour", label::tumour}};
+}
+
+Option<Tissue> label_option() {
+  Option<Tissue> option = number_option<Tissue>("label", &Tissue::label, label_numbers, "",
+                                                "in the label map; a tissue has a label, labels or a class");
+  option.get = [](const Tissue& tissue) { return tissue.label == 0 ? "" : std::to_string(tissue.label); };
+  return option;
+}
+
 OptionTable<Tissue> make_tissue_options() {
   OptionTable<Tissue> options = {
-      required(number_option<Tissue>("label", &Tissue::label, label_numbers, "", "in the label map")),
+      label_option(),
+      label_ranges_option<Tissue>("labels", &Tissue::labels,
+                                  "in the label map, joined to the first of them; labels that no tissue lists are then "
+                                  "not brain"),
+      choice_option<Tissue>("class", &Tissue::tissue_class, tissue_classes(),
+                            "in place of labels, where labels_are tells them, they are recognised, or the T1 is "
+                            "classified; a class that is not named has its usual material"),
       text_option<Tissue>("name", &Tissue::name, "for people"), material_option()};
   append(options, of_whole<Tissue>(solve::material_options(), &Tissue::material));
   return options;
@@ -274,6 +304,10 @@ const std::vector<Element>& scene_elements() {
 const OptionTable<Tissue>& tissue_options() {
   static const OptionTable<Tissue> options = make_tissue_options();
   return options;
+}
+
+bool names_tissue(const std::string& option) {
+  return option == "label" || option == "labels" || option == "class";
 }
 
 const OptionTable<CutFile>& cut_options() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "segmentation/image/image.hpp"
 
@@ -43,6 +45,55 @@ std::int16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world) {
     nearest[axis] = std::clamp(static_cast<int>(std::lround(index[axis])), 0, geometry.size[axis] - 1);
   }
   return labels.at(nearest.x(), nearest.y(), nearest.z());
+}
+
+LabelMap on_grid(const LabelMap& labels, const ImageGeometry& grid) {
+  LabelMap result{grid, std::vector<std::int16_t>(grid.voxel_count())};
+  // World positions along a row differ by one step, and so do the map's indices.
+  const auto at = [&](int i, int j, int k) {
+    return labels.geometry.to_index(grid.to_world(Eigen::Array3i(i, j, k).cast<double>().matrix()));
+  };
+  const Eigen::Vector3d step = at(1, 0, 0) - at(0, 0, 0);
+#pragma omp parallel for schedule(static)
+  for (int k = 0; k < grid.size.z(); ++k) {
+    for (int j = 0; j < grid.size.y(); ++j) {
+      const Eigen::Vector3d first = at(0, j, k);
+      for (int i = 0; i < grid.size.x(); ++i) {
+        const Eigen::Array3i nearest = (first + i * step).array().round().cast<int>();
+        if ((nearest >= 0).all() && (nearest < labels.geometry.size).all()) {
+          result.at(i, j, k) = labels.at(nearest.x(), nearest.y(), nearest.z());
+        }
+      }
+    }
+  }
+  return result;
+}
+
+double share_within(const LabelMap& labels, const ImageGeometry& grid) {
+  std::size_t all = 0, within = 0;
+  const Eigen::Array3i size = labels.geometry.size;
+#pragma omp parallel for schedule(static) reduction(+ : all, within)
+  for (int k = 0; k < size.z(); ++k) {
+    for (int j = 0; j < size.y(); ++j) {
+      for (int i = 0; i < size.x(); ++i) {
+        if (labels.at(i, j, k) != 0) {
+          const Eigen::Vector3d world = labels.geometry.to_world(Eigen::Array3i(i, j, k).cast<double>().matrix());
+          const Eigen::Array3d index = grid.to_index(world).array();
+          ++all;
+          within += (index >= -0.5).all() && (index <= grid.size.cast<double>() - 0.5).all() ? 1 : 0;
+        }
+      }
+    }
+  }
+  return all == 0 ? 1 : static_cast<double>(within) / static_cast<double>(all);
+}
+
+std::string described(const ImageGeometry& geometry) {
+  std::ostringstream text;
+  text << geometry.size.x() << " x " << geometry.size.y() << " x " << geometry.size.z() << " voxels of "
+       << geometry.spacing.x() << " x " << geometry.spacing.y() << " x " << geometry.spacing.z() << " mm from ("
+       << geometry.origin.x() << ", " << geometry.origin.y() << ", " << geometry.origin.z() << ")";
+  return text.str();
 }
 
 }  // namespace brainshift

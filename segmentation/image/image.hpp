@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace brainshift {
@@ -54,7 +55,16 @@ using VectorImage = Image<std::array<float, 3>>;  ///< displacements, mm, LPS
 /// The label at a world position: nearest voxel; a position on the outermost half voxel is inside; 0 outside the image.
 std::int16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world);
 
-/// Reads one 3-D scalar image: .nii, .nii.gz, .nrrd, .mha, or a folder with one DICOM series.
+/// The labels on another grid: the nearest at each of its voxels, 0 where the map does not reach.
+LabelMap on_grid(const LabelMap& labels, const ImageGeometry& grid);
+
+/// Share of the map's voxels with a label that lie within a grid, 0 to 1; 1 where the map is empty.
+double share_within(const LabelMap& labels, const ImageGeometry& grid);
+
+/// "256 x 256 x 256 voxels of 1 x 1 x 1 mm from (-128, 128, 128)", for sentences.
+std::string described(const ImageGeometry& geometry);
+
+/// Reads one 3-D scalar image: .nii, .nii.gz, .nrrd, .mha, .mgz, .mgh, or a folder with one DICOM series.
 /// Throws std::invalid_argument, naming the file, when it is missing, empty, truncated, no image, not 3-D, or (scalar)
 /// holds a value that is not finite, or (labels) one that is no whole number in the range of int16.
 ScalarImage read_image(const std::filesystem::path& file);

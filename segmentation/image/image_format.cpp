@@ -25,8 +25,12 @@ ImageFormat image_format(const std::filesystem::path& file) {
   if (name.ends_with(".mha")) {
     return ImageFormat::meta;
   }
+  if (name.ends_with(".mgz") || name.ends_with(".mgh") || name.ends_with(".mgh.gz")) {
+    return ImageFormat::mgh;
+  }
   throw std::invalid_argument(file.string() +
-                              ": images end in .nii, .nii.gz, .nrrd or .mha, or are a folder with one DICOM series");
+                              ": images end in .nii, .nii.gz, .nrrd, .mha, .mgz or .mgh, or are a folder with one "
+                              "DICOM series");
 }
 
 itk::ImageIOBase::Pointer make_image_io(ImageFormat format) {
@@ -38,6 +42,8 @@ itk::ImageIOBase::Pointer make_image_io(ImageFormat format) {
       return itk::NrrdImageIO::New().GetPointer();
     case ImageFormat::meta:
       return itk::MetaImageIO::New().GetPointer();
+    case ImageFormat::mgh:
+      throw std::invalid_argument("images are not written as .mgz or .mgh; choose .nii.gz");
   }
   throw std::logic_error("unknown image format");
 }

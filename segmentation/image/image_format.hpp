@@ -11,11 +11,12 @@
 
 namespace brainshift {
 
-enum class ImageFormat : std::uint8_t { nifti, nifti_gz, nrrd, meta };
+enum class ImageFormat : std::uint8_t { nifti, nifti_gz, nrrd, meta, mgh };
 
 /// By the ending, in any case. Throws std::invalid_argument, naming the file and the endings that are known.
 ImageFormat image_format(const std::filesystem::path& file);
 
+/// Throws std::invalid_argument for MGH, which ITK does not know.
 itk::ImageIOBase::Pointer make_image_io(ImageFormat format);
 
 }  // namespace brainshift

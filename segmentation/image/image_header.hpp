@@ -19,8 +19,8 @@ struct ImageHeader {
   Eigen::Matrix3d direction = Eigen::Matrix3d::Identity();  ///< columns: the axes, in the file's frame
   std::uint64_t voxels_at = 0;                              ///< where the voxels begin, bytes; uncompressed in .nii.gz
   bool compressed = false;
-  bool swapped = false;   ///< the other byte order than this machine's; NIfTI alone
-  bool floating = false;  ///< values are floating-point numbers; NIfTI alone
+  bool swapped = false;   ///< the other byte order than this machine's; NIfTI and MGH alone
+  bool floating = false;  ///< values are floating-point numbers; NIfTI and MGH alone
 
   std::uint64_t values() const;
   std::uint64_t bytes() const { return values() * bytes_a_value; }
@@ -28,6 +28,8 @@ struct ImageHeader {
 
 /// Of a .nii or .nii.gz. Throws std::invalid_argument, naming the file, when it is none or a field cannot be.
 ImageHeader read_nifti_header(const std::filesystem::path& file);
+/// Of a .mgz or .mgh, in LPS.
+ImageHeader read_mgh_header(const std::filesystem::path& file);
 /// Of a .mha, with the voxels in the same file.
 ImageHeader read_meta_header(const std::filesystem::path& file);
 /// Of a .nrrd, with the voxels in the same file.

@@ -49,6 +49,12 @@ Mask largest_component(const Mask& mask);
 /// Fills what cannot be reached from the image's outside through faces.
 Mask holes_filled(const Mask& mask);
 
+/// With what lies within the radius (mm) of it. The mask must not be empty, here and below.
+Mask grown(const Mask& mask, double radius);
+
+/// Morphological closing: with every gap that a ball of the radius (mm) does not fit into.
+Mask closed(const Mask& mask, double radius);
+
 /// How far each voxel's centre lies inside the mask, to the nearest voxel centre outside it, mm; 0 outside the mask.
 ScalarImage depth(const Mask& mask);
 

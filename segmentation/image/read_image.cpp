@@ -9,9 +9,12 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 
 #include "segmentation/files/readable_file.hpp"
+#include "segmentation/image/bytes.hpp"
 #include "segmentation/image/dicom_series.hpp"
+#include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
 #include "segmentation/image/whole_file.hpp"
 #include "segmentation/options/values.hpp"
@@ -35,11 +38,57 @@ void check_agreement(const fs::path& file, const itk::ImageIOBase& io, const Ima
   }
 }
 
+template <class Value, class Pixel>
+void copy_values(ByteView bytes, bool swapped, itk::Image<Pixel, 3>& image) {
+  const std::size_t count = bytes.size() / sizeof(Value);
+  for (std::size_t i = 0; i < count; ++i) {
+    image.GetBufferPointer()[i] = static_cast<Pixel>(number_at<Value>(bytes, i * sizeof(Value), swapped));
+  }
+}
+
+ImageGeometry geometry_in(const ImageHeader& header) {
+  return {
+      .size = {static_cast<int>(header.size[0]), static_cast<int>(header.size[1]), static_cast<int>(header.size[2])},
+      .spacing = header.spacing,
+      .origin = header.origin,
+      .direction = header.direction};
+}
+
+// ITK has no reader of FreeSurfer's images.
+template <class Pixel>
+Pointer<Pixel> read_mgh(const fs::path& file, const ImageHeader& header) {
+  const std::uint64_t end = header.voxels_at + header.bytes();
+  const std::vector<std::uint8_t> bytes = first_uncompressed(file, end);
+  if (bytes.size() < end) {
+    refuse(file, "truncated: the header promises " + std::to_string(header.bytes()) +
+                     " bytes of voxels, the file holds " + std::to_string(bytes.size() - header.voxels_at) +
+                     "; copy the file again");
+  }
+  const ByteView values = ByteView(bytes).subspan(header.voxels_at);
+  auto image = itk::Image<Pixel, 3>::New();
+  set_geometry(*image, geometry_in(header));
+  if (header.floating) {
+    copy_values<float>(values, header.swapped, *image);
+  } else if (header.bytes_a_value == 1) {
+    copy_values<std::uint8_t>(values, header.swapped, *image);
+  } else if (header.bytes_a_value == 2) {
+    copy_values<std::int16_t>(values, header.swapped, *image);
+  } else {
+    copy_values<std::int32_t>(values, header.swapped, *image);
+  }
+  return image;
+}
+
 template <class Pixel>
 Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
   check_readable(file);
   const ImageFormat format = image_format(file);
   const ImageHeader header = check_whole(file, format, components);
+  if constexpr (std::is_arithmetic_v<Pixel>) {
+    if (format == ImageFormat::mgh) {
+      return read_mgh<Pixel>(file, header);
+    }
+  }
   const auto io = make_image_io(format);
   io->SetFileName(file.string());
   io->ReadImageInformation();

@@ -66,6 +66,8 @@ ImageHeader read_header(const fs::path& file, ImageFormat format) {
       return read_meta_header(file);
     case ImageFormat::nrrd:
       return read_nrrd_header(file);
+    case ImageFormat::mgh:
+      return read_mgh_header(file);
   }
   throw std::logic_error("unknown image format");
 }
@@ -77,7 +79,7 @@ ImageHeader check_whole(const fs::path& file, ImageFormat format, std::uint64_t 
   check_header(file, header, components);
   if (format == ImageFormat::nifti || format == ImageFormat::nifti_gz) {
     check_nifti_voxels(file, header);
-  } else if (header.compressed) {
+  } else if (header.compressed && format != ImageFormat::mgh) {  // our own reader looks at MGH's
     check_inflates(file, header.voxels_at, header.bytes());
   }
   return header;

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/interface/check_input.hpp"
 
-#include <sstream>
 #include <stdexcept>
 
 #include "segmentation/interface/option_table.hpp"
 
 namespace brainshift::segmentation {
 namespace {
-
-std::string described(const ImageGeometry& geometry) {
-  std::ostringstream text;
-  text << geometry.size.x() << " x " << geometry.size.y() << " x " << geometry.size.z() << " voxels of "
-       << geometry.spacing.x() << " x " << geometry.spacing.y() << " x " << geometry.spacing.z() << " mm from ("
-       << geometry.origin.x() << ", " << geometry.origin.y() << ", " << geometry.origin.z() << ")";
-  return text.str();
-}
 
 template <class A, class B>
 void check_same_geometry(const Image<A>& a, const char* name_a, const std::optional<Image<B>>& b, const char* name_b) {

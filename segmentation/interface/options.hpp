@@ -23,9 +23,13 @@ struct SegmentOptions {
   double edge_length = 5.0;       ///< target edge of the remeshed surfaces, mm
   int classes = 3;                ///< fuzzy c-means classes (CSF, grey, white)
   double ventricle_depth = 15.0;  ///< CSF is ventricle where most of its body lies this deep in the brain, mm
+  std::optional<double> closing;  ///< gaps of the brain narrower than twice this are closed, mm; absent: none
+  bool tissue_surfaces = false;   ///< whether each tissue gets a surface of its own
   std::vector<std::int16_t> brain_labels = {default_label::parenchyma, default_label::ventricles,
                                             default_label::tumour};
-  std::optional<std::int16_t> skull_label;  ///< absent: the skull's inner surface is the brain's outer one
+  std::optional<std::int16_t>
+      skull_label;  ///< absent: the skull's inner surface is the fluid's or the brain's outer one
+  std::optional<std::int16_t> fluid_label;  ///< around the brain: where it surrounds it, the skull is behind it
 };
 
 }  // namespace brainshift::segmentation

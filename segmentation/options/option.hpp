@@ -25,9 +25,10 @@ struct Option {
   std::string allowed;  ///< "a number > 0", "linear | bspline", "a file"
   std::string unit;     ///< "mm"; empty for none
   std::string help;
-  bool required = false;            ///< must be given where its element is
-  bool is_path = false;             ///< names a file, relative to the scene's
-  std::optional<Range> range = {};  ///< of an option that is one number
+  bool required = false;                ///< must be given where its element is
+  bool is_path = false;                 ///< names a file, relative to the scene's
+  std::vector<std::string> words = {};  ///< of a path: names that are taken in place of a file
+  std::optional<Range> range = {};      ///< of an option that is one number
   /// From text. False, and the value as before, when the text is not of the option's kind: no number, none of the
   /// names. A number out of range is taken: holds() tells.
   std::function<bool(T&, const std::string&)> read;
@@ -37,6 +38,13 @@ struct Option {
 
 template <class T>
 using OptionTable = std::vector<Option<T>>;
+
+/// Whether a value of the option is a file's name.
+template <class T>
+bool names_file(const Option<T>& option, const std::string& value) {
+  return option.is_path && !value.empty() &&
+         std::find(option.words.begin(), option.words.end(), value) == option.words.end();
+}
 
 namespace detail {
 
@@ -186,6 +194,19 @@ Option<T> file_option(std::string name, Access access, std::string help) {
   return option;
 }
 
+/// A file, or one of some names in its place.
+template <class T, class Access>
+Option<T> named_file_option(std::string name, Access access, std::vector<std::string> words, std::string help) {
+  Option<T> option = file_option<T>(std::move(name), access, std::move(help));
+  option.allowed.clear();
+  for (const std::string& word : words) {
+    option.allowed += word + " | ";
+  }
+  option.allowed += "a file";
+  option.words = std::move(words);
+  return option;
+}
+
 /// One of some values that have names: of an enumeration, most often.
 template <class T, class Access>
 Option<T> choice_option(std::string name, Access access, detail::NamedValues<detail::Accessed<T, Access>> names,
@@ -239,6 +260,21 @@ Option<T> labels_option(std::string name, Access access, std::string help) {
           .read = read,
           .holds = holds,
           .get = [access](const T& target) { return write_numbers(std::invoke(access, target)); }};
+}
+
+/// A list of labels, in which "10-13" is 10 11 12 13.
+template <class T, class Access>
+Option<T> label_ranges_option(std::string name, Access access, std::string help) {
+  Option<T> option = labels_option<T>(std::move(name), access, std::move(help));
+  option.allowed += "; 10-13 is 10 11 12 13";
+  option.read = [access](T& target, const std::string& words) {
+    const auto values = read_ranges(words);
+    if (values) {
+      std::invoke(access, target).assign(values->begin(), values->end());
+    }
+    return values.has_value();
+  };
+  return option;
 }
 
 /// A vector of the world, three numbers.
@@ -314,6 +350,7 @@ Option<Whole> of_whole(const Option<Part>& option, Access part) {
           .help = option.help,
           .required = option.required,
           .is_path = option.is_path,
+          .words = option.words,
           .range = option.range,
           .read = [read = option.read, part](Whole& whole,
                                              const std::string& text) { return read(std::invoke(part, whole), text); },

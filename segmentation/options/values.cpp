@@ -24,6 +24,22 @@ std::vector<std::string> split_words(std::string_view text) {
   return words;
 }
 
+std::optional<std::vector<std::int16_t>> read_ranges(std::string_view text) {
+  std::vector<std::int16_t> labels;
+  for (const std::string& word : split_words(text)) {
+    const std::size_t dash = word.find('-');
+    const auto first = read_number<int>(std::string_view(word).substr(0, dash));
+    const auto last = dash == std::string::npos ? first : read_number<int>(std::string_view(word).substr(dash + 1));
+    if (!first || !last || !label_numbers.holds(*first) || !label_numbers.holds(*last) || *first > *last) {
+      return std::nullopt;
+    }
+    for (int label = *first; label <= *last; ++label) {
+      labels.push_back(static_cast<std::int16_t>(label));
+    }
+  }
+  return labels;
+}
+
 std::optional<std::vector<std::pair<double, double>>> read_number_pairs(std::string_view text) {
   std::vector<std::pair<double, double>> pairs;
   if (text.find_first_not_of(" \t\n") == std::string_view::npos) {

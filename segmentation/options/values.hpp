@@ -2,6 +2,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -63,6 +64,9 @@ std::optional<std::vector<T>> read_numbers(std::string_view text) {
   }
   return values;
 }
+
+/// Labels and ranges of them, "2 3 10-13", one behind the other; empty where one is none of label_numbers.
+std::optional<std::vector<std::int16_t>> read_ranges(std::string_view text);
 
 /// Pairs of numbers separated by semicolons, "a,b; a,b"; none in an empty text. Empty on failure.
 std::optional<std::vector<std::pair<double, double>>> read_number_pairs(std::string_view text);

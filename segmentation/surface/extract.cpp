@@ -9,6 +9,10 @@
 namespace brainshift::segmentation {
 namespace {
 
+// Remeshing a contour of so many triangles takes seconds. One that needs more is folded, and finer edges do not help
+// it.
+constexpr Eigen::Index most_triangles = 100'000;
+
 SurfaceMeasures measured(const Surface& surface, const Mask& mask, double edge_length) {
   SurfaceMeasures measures = measure(surface);
   measures.label_volume = volume(mask);
@@ -25,26 +29,52 @@ bool faithful(const SurfaceMeasures& measures, double volume_before) {
 }
 
 MeasuredSurface fitted(Surface surface, const Mask& mask, double edge_length) {
+  const double volume_before = volume(surface);
   fit_volume(surface, volume(mask));
   SurfaceMeasures measures = measured(surface, mask, edge_length);
+  measures.within_bounds = faithful(measures, volume_before);
   return {std::move(surface), measures};
+}
+
+// Smoother until it is sound, then wrapped.
+MeasuredSurface rescued(const Mask& mask, double edge_length, double sigma) {
+  Surface contour = iso_surface(mask, sigma);
+  for (; sigma > 0 && contour.triangles.rows() > most_triangles; contour = iso_surface(mask, sigma)) {
+    sigma *= 2;
+  }
+  if (sigma > 0) {
+    MeasuredSurface smooth = fitted(remeshed(contour, edge_length), mask, edge_length);
+    if (smooth.measures.is_sound()) {
+      return smooth;
+    }
+  }
+  MeasuredSurface result = fitted(remeshed(wrapped(contour, edge_length), edge_length), mask, edge_length);
+  result.measures.repaired = true;
+  return result;
 }
 
 }  // namespace
 
-MeasuredSurface extract_surface(const Mask& mask, double edge_length, const std::string& what) {
+MeasuredSurface extract_surface(const Mask& mask, double edge_length, const std::string& what,
+                                const Progress& progress) {
   const double voxel = mask.geometry.spacing.maxCoeff();
+  const double first_sigma = std::max(0.6 * voxel, 0.3 * edge_length);
   MeasuredSurface best;
   double edge = edge_length;
-  double sigma = std::max(0.6 * voxel, 0.3 * edge_length);
+  double sigma = first_sigma;
+  bool folded = false;
   constexpr int attempts = 5;
   for (int i = 0; i < attempts; ++i) {
-    Surface surface = remeshed(iso_surface(mask, sigma), edge);
-    const double volume_before = volume(surface);
-    MeasuredSurface candidate = fitted(std::move(surface), mask, edge);
+    report(progress, static_cast<double>(i) / attempts, "surface of " + what);
+    const Surface contour = iso_surface(mask, sigma);
+    folded = contour.triangles.rows() > most_triangles;
+    if (folded) {
+      break;
+    }
+    MeasuredSurface candidate = fitted(remeshed(contour, edge), mask, edge);
     if (candidate.measures.is_sound()) {
       best = std::move(candidate);
-      if (faithful(best.measures, volume_before)) {
+      if (best.measures.within_bounds) {
         return best;
       }
     }
@@ -52,8 +82,8 @@ MeasuredSurface extract_surface(const Mask& mask, double edge_length, const std:
     sigma *= i + 2 < attempts ? 0.7 : 0.0;
   }
   if (!best.measures.is_sound()) {
-    best = fitted(remeshed(wrapped(iso_surface(mask, 0), edge), edge), mask, edge);
-    best.measures.repaired = true;
+    report(progress, 0.8, "smoothing or wrapping the surface of " + what);
+    best = folded ? rescued(mask, edge_length, 2 * first_sigma) : rescued(mask, edge, 0);
   }
   if (!best.measures.is_sound()) {
     throw std::invalid_argument("no closed surface free of self-intersection could be made of " + what +

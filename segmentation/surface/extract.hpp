@@ -3,6 +3,7 @@
 
 #include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/mask.hpp"
+#include "segmentation/progress/progress.hpp"
 #include "segmentation/surface/surface_measures.hpp"
 
 namespace brainshift::segmentation {
@@ -24,8 +25,10 @@ struct MeasuredSurface {
 
 /// The surface of a mask: smooth, uniform edges, the mask's volume. Starts with the edge length asked for (mm) and goes
 /// finer until the volume is within 1 %, 95 % of the surface within 1 mm of the mask's boundary, and no two triangles
-/// cut each other; a surface that still cuts itself is wrapped. The mask must not be empty.
+/// cut each other. It stops where finer edges would cost much: the best surface so far is taken, or a smoother one, or
+/// one that is wrapped; within_bounds then says what was not reached. The mask must not be empty.
 /// Throws std::invalid_argument, naming `what` is extracted, when not even that gives a closed surface.
-MeasuredSurface extract_surface(const Mask& mask, double edge_length, const std::string& what);
+MeasuredSurface extract_surface(const Mask& mask, double edge_length, const std::string& what,
+                                const Progress& progress = {});
 
 }  // namespace brainshift::segmentation

@@ -19,13 +19,15 @@ struct SurfaceMeasures {
   bool closed = false;              ///< every edge between two triangles, 2-manifold
   bool outward = false;             ///< the triangles face outward
   bool self_intersecting = true;
-  bool repaired = false;  ///< made with the rescue (alpha wrap)
+  bool repaired = false;       ///< made with the rescue (alpha wrap)
+  bool within_bounds = false;  ///< of a mask: volume within 1 %, boundary_distance_95 within 1 mm
 
   /// Fit for the other stages.
   bool is_sound() const { return closed && outward && !self_intersecting; }
 };
 
-/// What can be said of a surface alone: all but label_volume, boundary_distance_95, edge_length_target and repaired.
+/// What can be said of a surface alone: all but label_volume, boundary_distance_95, edge_length_target, repaired and
+/// within_bounds.
 SurfaceMeasures measure(const Surface& surface);
 
 /// Mean length of the triangles' edges, mm.

@@ -43,7 +43,10 @@ TEST(Segment, EverySurfaceIsSoundAndKeepsItsLabelsVolume) {
   const Head drawn = head(oblique());
   SegmentInput input;
   input.labels = drawn.labels;
-  const Segmentation result = segment(input, two_labels());
+  SegmentOptions options = two_labels();
+  EXPECT_TRUE(segment(input, options).tissues.empty());
+  options.tissue_surfaces = true;
+  const Segmentation result = segment(input, options);
   EXPECT_EQ(result.tissues.size(), 2U);
   for (const char* name : {"brain", "skull", "tissue_1", "tissue_2"}) {
     const SurfaceMeasures& measures = result.measures.at(name);
@@ -64,7 +67,6 @@ TEST(Segment, ATumourMaskJoinsTheBrain) {
   const Segmentation result = segment(input, two_labels());
   EXPECT_EQ(label_at(*result.labels, place), default_label::tumour);
   EXPECT_EQ(label_at(*result.labels, place + Eigen::Vector3d(0.0, 4.0, 0.0)), default_label::tumour);
-  EXPECT_TRUE(result.tissues.contains(default_label::tumour));
   EXPECT_GT(result.brain.vertices.col(1).maxCoeff(), place.y() + 4.0);
 }
 
@@ -121,7 +123,43 @@ TEST(Segment, TheSameInputGivesTheSameSurfaceBitForBit) {
   const Segmentation first = segment(input, two_labels());
   const Segmentation second = segment(input, two_labels());
   EXPECT_EQ(first.brain.vertices, second.brain.vertices);
-  EXPECT_EQ(first.tissues.at(2).vertices, second.tissues.at(2).vertices);
+}
+
+TEST(Segment, WhatClosingTakesInIsParenchymaAndTheFluidBoundsTheSkull) {
+  Head drawn = head(oblique());
+  const LabelMap outer = ball(drawn.mask.geometry, centre, brain_radius + 3);
+  const LabelMap groove = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, brain_radius, 0.0), 2.5);
+  for (std::size_t i = 0; i < outer.voxels.size(); ++i) {
+    if (outer.voxels[i] != 0 && (drawn.labels.voxels[i] == 0 || groove.voxels[i] != 0)) {
+      drawn.labels.voxels[i] = default_label::csf;
+    }
+  }
+  SegmentInput input;
+  input.labels = drawn.labels;
+  SegmentOptions options = two_labels();
+  options.closing = 6;
+  options.fluid_label = default_label::csf;
+  const Segmentation result = segment(input, options);
+  const Eigen::Vector3d in_groove = centre + Eigen::Vector3d(0.0, brain_radius - 1.5, 0.0);
+  EXPECT_EQ(label_at(drawn.labels, in_groove), default_label::csf);
+  EXPECT_EQ(label_at(*result.labels, in_groove), default_label::parenchyma);
+  EXPECT_EQ(label_at(*result.labels, centre), default_label::ventricles);
+  EXPECT_GT(result.body->volume, result.body->tissue_volume);
+  const auto radii = (result.skull.vertices.rowwise() - centre.transpose()).rowwise().norm();
+  EXPECT_NEAR(radii.mean(), brain_radius + 3, 0.5);
+}
+
+TEST(Segment, ALargeLoosePieceIsNamed) {
+  Head drawn = head(oblique());
+  const LabelMap piece = ball(drawn.mask.geometry, drawn.mask.geometry.to_world({8, 8, 8}), 7);
+  for (std::size_t i = 0; i < piece.voxels.size(); ++i) {
+    drawn.labels.voxels[i] = std::max(drawn.labels.voxels[i], piece.voxels[i]);
+  }
+  SegmentInput input;
+  input.labels = drawn.labels;
+  const Segmentation result = segment(input, two_labels());
+  ASSERT_EQ(result.notes.size(), 1U);
+  EXPECT_NE(result.notes.front().find("dropped 1.4 ml of tissue ("), std::string::npos) << result.notes.front();
 }
 
 }  // namespace brainshift::test::segment_test

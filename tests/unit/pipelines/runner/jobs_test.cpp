@@ -70,7 +70,7 @@ TEST_F(JobsTest, ALoadIsReadFromWhereItIsMeasured) {
   expect_parts(refusal([] { read_load({}, {}); }), {"no load is named"});
 }
 
-TEST_F(JobsTest, ASegmentationTakesLabelsOnTheGridOfTheImageAlone) {
+TEST_F(JobsTest, ASegmentationTakesLabelsOfAnyGridToTheImages) {
   LabelMap labels{image().geometry, std::vector<std::int16_t>(image().voxels.size(), 0)};
   for (int k = 4; k < 16; ++k) {
     for (int j = 4; j < 16; ++j) {
@@ -79,19 +79,55 @@ TEST_F(JobsTest, ASegmentationTakesLabelsOnTheGridOfTheImageAlone) {
       }
     }
   }
-  write_image(folder_ / "labels.nii.gz", labels);
   write_image(folder_ / "t1.nii.gz", image());
-  write_image(folder_ / "moved.nii.gz", image(0.1));
+  write_image(folder_ / "labels.nii.gz", labels);
   SegmentJob job;
   job.image.labels = folder_ / "labels.nii.gz";
-  job.image.t1 = folder_ / "moved.nii.gz";
-  job.options.brain_labels = {1};
-  expect_parts(refusal([&] { run_job(job, folder_ / "out", {}); }),
-               {"labels.nii.gz: its grid", "is not that of", "moved.nii.gz", "resample it"});
   job.image.t1 = folder_ / "t1.nii.gz";
+  job.options.brain_labels = {1};
   const StageReport report = run_job(job, folder_ / "out", {});
   EXPECT_EQ(report.sizes["voxels"], 8000);
+  EXPECT_TRUE(report.notes.empty());
   EXPECT_TRUE(fs::exists(folder_ / "out/brain.vtp"));
+
+  const double step = labels.geometry.spacing.x();
+  labels.geometry.origin.x() += step;
+  write_image(folder_ / "labels.nii.gz", labels);
+  const StageReport moved = run_job(job, folder_ / "out", {});
+  ASSERT_EQ(moved.notes.size(), 1U);
+  expect_parts(moved.notes.front(), {"labels.nii.gz", "another grid than", "t1.nii.gz"});
+  const LabelMap taken = read_label_map(folder_ / "out/labels.nii.gz");
+  EXPECT_TRUE(same_geometry(taken.geometry, image().geometry));
+  EXPECT_EQ(taken.at(16, 10, 10), 1);
+  EXPECT_EQ(taken.at(4, 10, 10), 0);
+
+  labels.geometry.origin.x() += 11 * step;
+  write_image(folder_ / "labels.nii.gz", labels);
+  expect_parts(refusal([&] { run_job(job, folder_ / "out", {}); }),
+               {"labels.nii.gz: 33 % of it lie within", "t1.nii.gz", "20 x 20 x 20 voxels", "one patient"});
+}
+
+TEST_F(JobsTest, AMaskMayBeAnImageAndATumourAMapOfBrats) {
+  LabelMap tumour{image().geometry, std::vector<std::int16_t>(image().voxels.size(), 0)};
+  ScalarImage stripped{image().geometry, std::vector<float>(image().voxels.size(), 0)};
+  for (int k = 3; k < 17; ++k) {
+    for (int j = 3; j < 17; ++j) {
+      for (int i = 3; i < 17; ++i) {
+        stripped.at(i, j, k) = 0.5F + static_cast<float>(i % 3);
+        tumour.at(i, j, k) = i < 8 ? std::int16_t{4} : i < 12 ? std::int16_t{2} : std::int16_t{0};
+      }
+    }
+  }
+  write_image(folder_ / "t1.nii.gz", stripped);
+  write_image(folder_ / "tumour.nii.gz", tumour);
+  SegmentJob job;
+  job.image.t1 = job.image.brain_mask = folder_ / "t1.nii.gz";
+  job.image.tumour = folder_ / "tumour.nii.gz";
+  run_job(job, folder_ / "out", {});
+  const LabelMap labels = read_label_map(folder_ / "out/labels.nii.gz");
+  EXPECT_EQ(labels.at(6, 10, 10), 3);
+  EXPECT_NE(labels.at(10, 10, 10), 3);
+  EXPECT_EQ(labels.at(1, 1, 1), 0);
 }
 
 TEST_F(JobsTest, ADiscretisationIsFinerWhereTheLoadIs) {

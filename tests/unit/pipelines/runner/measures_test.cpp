@@ -22,12 +22,17 @@ TEST(StageMeasures, OfTheSegmentationNameEachSurface) {
                               .closed = true,
                               .outward = false,
                               .self_intersecting = false,
-                              .repaired = true};
+                              .repaired = true,
+                              .within_bounds = true};
+  result.body = segmentation::BodyMeasures{.tissue_volume = 1, .volume = 2, .loose_volume = 3, .loose_pieces = 4};
+  result.notes = {"a sentence"};
   const StageReport report = report_of(result);
+  EXPECT_EQ(report.notes, result.notes);
   EXPECT_EQ(report.sizes, (ordered_json{{"surfaces", 1}, {"voxels", 24}}));
   EXPECT_EQ(report.measures, ordered_json::parse(R"({"brain": {"vertices": 1, "triangles": 2, "volume_mm3": 3.0,
     "label_volume_mm3": 4.0, "boundary_distance_95_mm": 5.0, "edge_length_mean_mm": 6.0, "edge_length_target_mm": 7.0,
-    "closed": true, "outward": false, "self_intersecting": false, "repaired": true}})"));
+    "closed": true, "outward": false, "self_intersecting": false, "repaired": true, "within_bounds": true},
+    "body": {"tissue_volume_mm3": 1.0, "volume_mm3": 2.0, "loose_volume_mm3": 3.0, "loose_pieces": 4}})"));
   EXPECT_TRUE(report.failure.empty());
 }
 

@@ -12,27 +12,6 @@ namespace brainshift::pipelines::warnings_test {
 
 using brainshift::test::expect_parts;
 
-/// A brain of 100 voxels of 8 mm³, `apart` of which lie apart.
-Warnings of_a_brain(int apart) {
-  segmentation::SegmentInput input;
-  input.labels = LabelMap{.geometry = {.size = {10, 10, 10}}, .voxels = std::vector<std::int16_t>(1000, 0)};
-  input.labels->geometry.spacing.setConstant(2);
-  std::fill_n(input.labels->voxels.begin(), 100, std::int16_t{1});
-  segmentation::SegmentOptions options;
-  options.brain_labels = {1};
-  segmentation::Segmentation result;
-  result.measures["brain"].label_volume = 8.0 * (100 - apart);
-  return warnings_of(input, options, result);
-}
-
-TEST(Warnings, TellOfAPartOfTheBrainThatIsLeftOut) {
-  EXPECT_TRUE(of_a_brain(0).empty());
-  EXPECT_TRUE(of_a_brain(1).empty());
-  EXPECT_TRUE(of_a_brain(-5).empty()) << "holes are filled";
-  ASSERT_EQ(of_a_brain(50).size(), 1U);
-  expect_parts(of_a_brain(50).front(), {"50 %", "largest piece"});
-}
-
 NodeCloud ball() {
   NodeCloud cloud;
   cloud.positions = brainshift::test::sphere({0, 0, 0}, 60, 4).vertices;

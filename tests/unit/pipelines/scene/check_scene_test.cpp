@@ -23,7 +23,16 @@ TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
   expect_parts(fault(scene("<image brain_mask=\"labels.nii.gz\"/>" + two + load)), {"t1"});
   expect_parts(fault(scene(image + two)), {"no <load>"});
   expect_parts(fault(scene(image + two + "<load/>")), {"exactly one"});
-  expect_parts(fault(scene(image + load)), {"no <tissues>"});
+  expect_parts(fault(scene(image + load)), {"scene.xml:2", "1 3 6", "not FreeSurfer's", "no <tissues>"});
+  expect_parts(fault(scene("<image labels=\"labels.nii.gz\" labels_are=\"freesurfer\"/>" + two + load)),
+               {"named by class"});
+  expect_parts(fault(scene("<image labels=\"labels.nii.gz\" labels_are=\"t.ctbl\"/>" + load)), {"t.ctbl"});
+  expect_parts(fault(scene("<image labels=\"labels.nii.gz\" tumour=\"labels.nii.gz\" tumour_mask=\"labels.nii.gz\"/>" +
+                           two + load)),
+               {"give one of them"});
+  const std::string mixed = "<tissues><tissue label=\"1\"/><tissue class=\"tumour\"/></tissues>";
+  expect_parts(fault(scene(image + mixed + load)), {"by class, others by label"});
+  EXPECT_EQ(fault(scene(image + "<tissues><tissue labels=\"1-4\"/></tissues>" + load)), "");
   expect_parts(fault(scene(image + load + "<tissues>\n<tissue label=\"1\"/>\n<tissue label=\"2\"/></tissues>")),
                {"scene.xml:4", "tissue 2", "1 3 6"});
   expect_parts(fault(scene(image + load + "<tissues><tissue label=\"1\"/></tissues>")),

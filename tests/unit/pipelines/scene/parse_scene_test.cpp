@@ -112,6 +112,30 @@ TEST_F(SceneFile, PartsThatAreNotNamedAreNotThere) {
   EXPECT_FALSE(effective_options(scene).contains("resection"));
 }
 
+TEST_F(SceneFile, TissuesHaveALabelSeveralOrAClass) {
+  const Scene listed = parse("<scene><tissues><tissue labels=\"3 10-12\" density=\"900\"/></tissues></scene>",
+                             {"tissues.3.youngs_modulus=50"});
+  EXPECT_EQ(listed.tissues.at(0).label, 3);
+  EXPECT_EQ(listed.tissues.at(0).labels, (std::vector<std::int16_t>{3, 10, 11, 12}));
+  EXPECT_EQ(listed.tissues.at(0).material.youngs_modulus, 50);
+  EXPECT_EQ(listed.source.lines.at("tissues.3.density"), 1);
+
+  const Scene by_class = parse(
+      "<scene><image labels=\"a.nii\"/><tissues><tissue class=\"ventricles\" youngs_modulus=\"20\"/></tissues></scene>",
+      {"tissues.3.density=1100"});
+  ASSERT_EQ(by_class.tissues.size(), 3U);
+  EXPECT_EQ(by_class.tissues[0].label, 2);
+  EXPECT_EQ(by_class.tissues[0].material.youngs_modulus, 20);
+  EXPECT_EQ(by_class.tissues[1].label, 1);
+  EXPECT_EQ(by_class.tissues[1].material.youngs_modulus, 3000);
+  EXPECT_EQ(by_class.tissues[2].material.youngs_modulus, 9000);
+  EXPECT_EQ(by_class.tissues[2].material.density, 1100);
+  EXPECT_TRUE(parse("<scene><image surface=\"a.stl\"/></scene>").tissues.empty());
+  EXPECT_EQ(parse("<scene><image labels=\"a.nii\" labels_are=\"freesurfer\"/></scene>").image.labels_are, "freesurfer");
+  EXPECT_EQ(parse("<scene><image labels=\"a.nii\" labels_are=\"t.ctbl\"/></scene>").image.labels_are,
+            folder_ / "t.ctbl");
+}
+
 TEST_F(SceneFile, SetOverridesTheFile) {
   const Scene scene = parse(R"(<scene>
   <tissues><tissue label="1" youngs_modulus="3000"/></tissues>
@@ -148,8 +172,12 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
       {"<stage name=\"solve\" nodes_per_patch=\"0\"/>", {at + "2", "'0'", "> 0"}},
       {"<stage name=\"solve\" integration_tolerance=\"-1\"/>", {at + "2", "'-1'", "0"}},
       {"<stage name=\"solve\" duration=\"0\"/>", {at + "2", "'0'", "> 0"}},
-      {"<tissues><tissue name=\"a\"/></tissues>", {at + "2", "needs the attribute 'label'"}},
+      {"<tissues><tissue name=\"a\"/></tissues>", {at + "2", "needs one of the attributes 'label'", "'class'"}},
       {"<tissues>\n<tissue label=\"1\"/>\n<tissue label=\"1\"/></tissues>", {at + "4", "two tissues of label 1"}},
+      {"<tissues><tissue label=\"1\" class=\"tumour\"/></tissues>", {at + "2", "needs one of"}},
+      {"<tissues><tissue labels=\"\"/></tissues>", {at + "2", "no label and no class"}},
+      {"<tissues><tissue labels=\"9-2\"/></tissues>", {at + "2", "'9-2'", "10-13 is 10 11 12 13"}},
+      {"<tissues><tissue class=\"skin\"/></tissues>", {at + "2", "'skin'", "parenchyma | ventricles | tumour"}},
       {"<tissues><organ/></tissues>", {at + "2", "organ", "tissue"}},
       {"<load><simulated centre=\"1 2\"/></load>", {at + "2", "'1 2'", "three numbers"}},
       {"<load><craniotomy/></load>", {at + "2", "needs the attribute 'file'"}},

@@ -88,7 +88,8 @@ TEST(SceneTable, AMaterialSetsTheConstantsAndAnUnknownOneNothing) {
   EXPECT_EQ(tissue.material.youngs_modulus, solve::named_material("tumour")->youngs_modulus);
   EXPECT_TRUE(material.read(tissue, ""));
   EXPECT_EQ(tissue.named_material, "");
-  EXPECT_TRUE(find_option(tissue_options(), "label")->required);
+  EXPECT_TRUE(names_tissue("label") && names_tissue("labels") && names_tissue("class"));
+  EXPECT_FALSE(names_tissue("name"));
 }
 
 TEST(SceneTable, TheTradeoffTakesWhatTheListedOptionsTake) {

@@ -62,4 +62,26 @@ TEST(ImageGeometry, APointOnTheOutermostHalfVoxelHasALabel) {
   EXPECT_EQ(label_at(labels, Eigen::Vector3d::Constant(std::nan(""))), 0);
 }
 
+TEST(Geometry, LabelsOnAnotherGridAreTheNearest) {
+  const auto fine = grid_around({1, 2, 3}, 40, Eigen::Vector3d::Ones(), oblique());
+  const auto coarse = grid_around({1.13, 2.21, 3.32}, 22, {1.5, 2, 2.5}, oblique_left_handed());
+  const LabelMap labels = ball(fine, {2, 2, 2}, 14);
+  const LabelMap moved = on_grid(labels, coarse);
+  const LabelMap expected =
+      image_by<std::int16_t>(coarse, [&](const Eigen::Vector3d& x) { return label_at(labels, x); });
+  EXPECT_EQ(moved.voxels, expected.voxels);
+  EXPECT_TRUE(same_geometry(moved.geometry, coarse));
+  EXPECT_EQ(on_grid(labels, fine).voxels, labels.voxels);
+}
+
+TEST(Geometry, TheShareWithinAGridCountsVoxelsWithALabel) {
+  const auto grid = grid_around({0, 0, 0}, 40, Eigen::Vector3d::Ones(), Eigen::Matrix3d::Identity());
+  const auto half = grid_around({20, 0, 0}, 40, Eigen::Vector3d::Ones(), Eigen::Matrix3d::Identity());
+  const LabelMap labels = ball(grid, {0, 0, 0}, 15);
+  EXPECT_EQ(share_within(labels, grid), 1);
+  EXPECT_NEAR(share_within(labels, half), 0.5, 0.02);
+  EXPECT_EQ(share_within(labels, grid_around({90, 0, 0}, 9, Eigen::Vector3d::Ones(), Eigen::Matrix3d::Identity())), 0);
+  EXPECT_EQ(share_within(ball(grid, {0, 0, 0}, -1), half), 1);
+}
+
 }  // namespace brainshift::test::geometry_test

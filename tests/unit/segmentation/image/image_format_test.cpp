@@ -16,12 +16,15 @@ TEST(ImageFormat, IsThatOfTheEndingInAnyCase) {
   EXPECT_EQ(image_format("A.Nii.Gz"), ImageFormat::nifti_gz);
   EXPECT_EQ(image_format("a.nrrd"), ImageFormat::nrrd);
   EXPECT_EQ(image_format("a.mha"), ImageFormat::meta);
+  for (const char* name : {"a.mgz", "A.MGH", "a.mgh.gz"}) {
+    EXPECT_EQ(image_format(name), ImageFormat::mgh);
+  }
 }
 
 TEST(ImageFormat, OfAnotherEndingIsRefusedWithTheKnownOnes) {
   for (const std::string name : {"a.gz", "a.png", "nii", "a.nii.bz2", "a.nrrd/b", ""}) {
     const std::string sentence = refusal([&] { image_format(name); });
-    EXPECT_TRUE(sentence.starts_with(name + ": images end in .nii, .nii.gz, .nrrd or .mha")) << sentence;
+    EXPECT_TRUE(sentence.starts_with(name + ": images end in .nii, .nii.gz, .nrrd, .mha, .mgz or .mgh")) << sentence;
   }
 }
 
@@ -30,6 +33,7 @@ TEST(ImageFormat, HasTheReaderOfItsName) {
   EXPECT_STREQ(make_image_io(ImageFormat::nifti_gz)->GetNameOfClass(), "NiftiImageIO");
   EXPECT_STREQ(make_image_io(ImageFormat::nrrd)->GetNameOfClass(), "NrrdImageIO");
   EXPECT_STREQ(make_image_io(ImageFormat::meta)->GetNameOfClass(), "MetaImageIO");
+  EXPECT_THROW(make_image_io(ImageFormat::mgh), std::invalid_argument);
 }
 
 }  // namespace brainshift::test::image_format_test

@@ -22,8 +22,9 @@ std::string fault(double edge_length, int classes, double ventricle_depth) {
 
 // A new member of the struct does not compile here. It goes into the table, or among those that the scene fills in.
 TEST(SegmentOptions, AreAllInTheTable) {
-  [[maybe_unused]] const auto& [edge_length, classes, ventricle_depth, brain_labels, skull_label] = SegmentOptions{};
-  EXPECT_EQ(segment_options().size() + 2, 5U) << "beside the labels";
+  [[maybe_unused]] const auto& [edge_length, classes, ventricle_depth, closing, tissue_surfaces, brain_labels,
+                                skull_label, fluid_label] = SegmentOptions{};
+  EXPECT_EQ(segment_options().size() + 3, 8U) << "beside the labels";
 }
 
 TEST(SegmentOptions, AreAllowedAsTheyAreByDefaultAndAtTheirEnds) {
@@ -44,12 +45,21 @@ TEST(SegmentOptions, OutOfRangeAreRefusedWithTheirUnit) {
 
 TEST(SegmentOptions, AreReadIntoTheMembersOfTheirNames) {
   SegmentOptions options;
-  for (const auto& [name, text] : {std::pair("edge_length", "2.5"), {"classes", "4"}, {"ventricle_depth", "7"}}) {
+  for (const auto& [name, text] : {std::pair("edge_length", "2.5"),
+                                   {"classes", "4"},
+                                   {"ventricle_depth", "7"},
+                                   {"closing", "0"},
+                                   {"tissue_surfaces", "yes"}}) {
     ASSERT_TRUE(set_option(*find_option(segment_options(), name), options, text)) << name;
   }
   EXPECT_EQ(options.edge_length, 2.5);
   EXPECT_EQ(options.classes, 4);
   EXPECT_EQ(options.ventricle_depth, 7);
+  EXPECT_EQ(options.closing, 0);
+  EXPECT_TRUE(options.tissue_surfaces);
+  options.closing = 21;
+  EXPECT_EQ(refusal([&] { check_options(options); }),
+            "closing is '21', but must be a number from 0 to 20, or nothing (mm)");
 }
 
 }  // namespace brainshift::segmentation::option_table_test

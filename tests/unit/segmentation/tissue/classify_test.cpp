@@ -28,7 +28,8 @@ class Classify : public ::testing::Test {
 };
 
 TEST_F(Classify, CallsDeepCsfVentricleAndCsfInASulcusParenchyma) {
-  const Classification result = classify(t1_, brain_, {.ventricle_depth = 12, .skull_label = {}});
+  const Classification result =
+      classify(t1_, brain_, {.ventricle_depth = 12, .closing = {}, .skull_label = {}, .fluid_label = {}});
   const auto at = [&](double x, double y, double z) {
     return label_at(result.labels, centre + Eigen::Vector3d(x, y, z));
   };

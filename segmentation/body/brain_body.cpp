@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/body/brain_body.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <stdexcept>
+
+namespace brainshift::segmentation {
+namespace {
+
+void check_size(const Mask& brain) {
+  const Eigen::Vector3d& spacing = brain.geometry.spacing;
+  Eigen::Array3i low = brain.geometry.size, high = Eigen::Array3i::Zero();
+  for (int k = 0; k < brain.geometry.size.z(); ++k) {
+    for (int j = 0; j < brain.geometry.size.y(); ++j) {
+      for (int i = 0; i < brain.geometry.size.x(); ++i) {
+        if (brain.at(i, j, k) != 0) {
+          low = low.min(Eigen::Array3i(i, j, k));
+          high = high.max(Eigen::Array3i(i, j, k) + 1);
+        }
+      }
+    }
+  }
+  std::ostringstream advice;
+  advice << "are the image's lengths in metres, centimetres or micrometres? Voxels of " << spacing.x() << " x "
+         << spacing.y() << " x " << spacing.z() << " mm are what its header says; correct it";
+  check_across(((high - low).cast<double>() * spacing.array()).maxCoeff(), advice.str());
+}
+
+// What of the tissue lies outside the body.
+void count_loose(const Mask& tissue, BrainBody& body) {
+  Mask loose = tissue;
+  for (std::size_t i = 0; i < loose.voxels.size(); ++i) {
+    loose.voxels[i] = tissue.voxels[i] != 0 && body.mask.voxels[i] == 0 ? 1 : 0;
+  }
+  body.loose_volume = volume(loose);
+  body.loose_pieces = body.loose_volume > 0 ? components(loose).sizes.size() : 0;
+}
+
+// Faces of voxels between the brain and what is around it; those of them behind which fluid lies.
+struct Faces {
+  std::size_t all = 0;
+  std::size_t to_fluid = 0;
+};
+
+Faces count_faces(const LabelMap& labels, std::int16_t fluid, const Mask& brain) {
+  Faces faces;
+  const Eigen::Array3i size = brain.geometry.size;
+  const std::array<Eigen::Array3i, 3> steps = {Eigen::Array3i(1, 0, 0), Eigen::Array3i(0, 1, 0),
+                                               Eigen::Array3i(0, 0, 1)};
+  for (const Eigen::Array3i& step : steps) {
+    for (int k = 0; k + step.z() < size.z(); ++k) {
+      for (int j = 0; j + step.y() < size.y(); ++j) {
+        for (int i = 0; i + step.x() < size.x(); ++i) {
+          const std::size_t here = brain.geometry.offset(i, j, k);
+          const std::size_t next = brain.geometry.offset(i + step.x(), j + step.y(), k + step.z());
+          if (brain.voxels[here] != brain.voxels[next]) {
+            ++faces.all;
+            faces.to_fluid += labels.voxels[brain.voxels[here] != 0 ? next : here] == fluid ? 1 : 0;
+          }
+        }
+      }
+    }
+  }
+  return faces;
+}
+
+// What can be reached from the brain without crossing the skull.
+Mask within(const LabelMap& labels, std::int16_t skull, const Mask& brain) {
+  Mask open = mask_of(labels, std::array{skull});
+  for (std::uint8_t& voxel : open.voxels) {
+    voxel = voxel == 0 ? 1 : 0;
+  }
+  const Components parts = components(open);
+  const auto seed =
+      static_cast<std::size_t>(std::find(brain.voxels.begin(), brain.voxels.end(), 1) - brain.voxels.begin());
+  for (std::size_t i = 0; i < open.voxels.size(); ++i) {
+    open.voxels[i] = parts.number[i] == parts.number[seed] && parts.number[i] != 0 ? 1 : 0;
+  }
+  return open;
+}
+
+}  // namespace
+
+void check_across(double across, const std::string& advice) {
+  // Lengths in metres make a brain of a fifth of a millimetre, and everything after this would go on in earnest.
+  constexpr double smallest = 20, largest = 500;  // mm
+  if (!(across >= smallest && across <= largest)) {
+    std::ostringstream text;
+    text << "the brain is " << across << " mm across, where " << smallest << " to " << largest
+         << " mm are expected: " << advice;
+    throw std::invalid_argument(text.str());
+  }
+}
+
+BrainBody brain_body(const Mask& tissue, double closing) {
+  if (count(tissue) == 0) {
+    throw std::invalid_argument("no voxel is brain: the mask, or what the brain's labels name, is empty");
+  }
+  BrainBody body;
+  body.mask = holes_filled(largest_component(closing > 0 ? closed(tissue, closing) : tissue));
+  check_size(body.mask);
+  if (touches_border(body.mask)) {
+    throw std::invalid_argument(
+        "the brain touches the image's border, so its surface cannot be closed; pad the images by a few voxels of 0");
+  }
+  count_loose(tissue, body);
+  return body;
+}
+
+bool encloses(const LabelMap& labels, std::int16_t skull, const Mask& brain) {
+  return !touches_border(within(labels, skull, brain));
+}
+
+Mask skull_cavity(const LabelMap& labels, std::int16_t skull, const Mask& brain) {
+  if (std::find(labels.voxels.begin(), labels.voxels.end(), skull) == labels.voxels.end()) {
+    throw std::invalid_argument("label " + std::to_string(skull) +
+                                " is named but no voxel of the label map carries it; correct the label or the image");
+  }
+  Mask open = within(labels, skull, brain);
+  if (touches_border(open)) {
+    throw std::invalid_argument("the skull's label " + std::to_string(skull) +
+                                " does not enclose the brain; close its gaps, or leave the skull's label out");
+  }
+  return open;
+}
+
+Mask fluid_space(const LabelMap& labels, std::int16_t fluid, const Mask& brain, double reach) {
+  const Faces faces = count_faces(labels, fluid, brain);
+  if (2 * faces.to_fluid < faces.all) {
+    return {};
+  }
+  Mask space = grown(brain, reach);
+  for (std::size_t i = 0; i < space.voxels.size(); ++i) {
+    space.voxels[i] = brain.voxels[i] != 0 || (space.voxels[i] != 0 && labels.voxels[i] == fluid) ? 1 : 0;
+  }
+  return holes_filled(largest_component(closed(space, reach / 2)));
+}
+
+}  // namespace brainshift::segmentation

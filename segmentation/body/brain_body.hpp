@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "segmentation/image/mask.hpp"
+#include "segmentation/interface/options.hpp"
+
+namespace brainshift::segmentation {
+
+/// The brain as one body without holes.
+struct BrainBody {
+  Mask mask;
+  double loose_volume = 0;  ///< of tissue that hangs together with none of it and was dropped, mm³
+  std::size_t loose_pieces = 0;
+};
+
+/// The largest piece of the tissue, its sulci closed where they are narrower than twice the radius (mm; 0: not closed),
+/// holes filled. Throws std::invalid_argument when there is none, it is not of a brain's size, or the image cuts it
+/// off.
+BrainBody brain_body(const Mask& tissue, double closing);
+
+/// Throws std::invalid_argument, with the advice, unless a brain can be so many mm across.
+void check_across(double across, const std::string& advice);
+
+/// Whether the skull's label encloses the brain.
+bool encloses(const LabelMap& labels, std::int16_t skull, const Mask& brain);
+
+/// What lies within the skull's label: its own inner surface bounds it. Throws std::invalid_argument when no voxel
+/// carries it, or it does not enclose the brain.
+Mask skull_cavity(const LabelMap& labels, std::int16_t skull, const Mask& brain);
+
+/// The brain with the fluid around it, as far as `reach` (mm) from the brain. Empty (no voxels) where fluid touches
+/// less than half of the brain's surface: then it does not say where the skull is.
+Mask fluid_space(const LabelMap& labels, std::int16_t fluid, const Mask& brain, double reach);
+
+}  // namespace brainshift::segmentation

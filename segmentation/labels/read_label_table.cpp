@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "segmentation/files/lower_case.hpp"
+#include "segmentation/files/readable_file.hpp"
+#include "segmentation/files/text_lines.hpp"
+#include "segmentation/interface/options.hpp"
+#include "segmentation/labels/label_table.hpp"
+#include "segmentation/options/values.hpp"
+
+namespace brainshift::segmentation {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The words of "Left-Inf-Lat-Vent" or "ctx_lh_G_oc-temp", in lower case.
+std::vector<std::string> words_of(const std::string& name) {
+  std::vector<std::string> words(1);
+  for (const char letter : in_lower_case(name)) {
+    if (std::isalpha(static_cast<unsigned char>(letter)) != 0) {
+      words.back() += letter;
+    } else if (!words.back().empty()) {
+      words.emplace_back();
+    }
+  }
+  return words;
+}
+
+// A row of the table: the number and the name, or nothing.
+struct Row {
+  std::string number;
+  std::string name;
+};
+
+std::vector<std::string> split_at_tabs(const std::string& line) {
+  std::vector<std::string> fields(1);
+  for (const char letter : line) {
+    if (letter == '\t') {
+      fields.emplace_back();
+    } else {
+      fields.back() += letter;
+    }
+  }
+  return fields;
+}
+
+// Columns of a tab-separated table with the header `index` and `name`.
+struct Columns {
+  std::size_t index;
+  std::size_t name;
+};
+
+std::optional<Columns> columns_of(const std::string& header) {
+  const auto fields = split_at_tabs(header);
+  const auto index = std::find(fields.begin(), fields.end(), "index");
+  const auto name = std::find(fields.begin(), fields.end(), "name");
+  if (index == fields.end() || name == fields.end()) {
+    return std::nullopt;
+  }
+  return Columns{static_cast<std::size_t>(index - fields.begin()), static_cast<std::size_t>(name - fields.begin())};
+}
+
+Row row_of(const std::string& line, const std::optional<Columns>& columns) {
+  if (columns) {
+    const auto fields = split_at_tabs(line);
+    const std::size_t last = std::max(columns->index, columns->name);
+    return last < fields.size() ? Row{fields[columns->index], fields[columns->name]} : Row{};
+  }
+  Row row;
+  std::istringstream(line) >> row.number >> row.name;
+  return row;
+}
+
+void add_row(LabelTable& table, const Row& row, const fs::path& file, std::size_t line) {
+  const auto number = read_number<int>(trimmed(row.number));
+  if (!number || row.name.empty()) {
+    fail_at_line(file, line,
+                 "a label's number and its name are expected, as '10 Left-Thalamus', or columns 'index' and 'name'");
+  }
+  if (*number < 0 || *number > static_cast<int>(label_numbers.high)) {
+    return;  // a list of colours names numbers that no label map of ours holds
+  }
+  table.classes[static_cast<std::int16_t>(*number)] = class_of_name(row.name);
+}
+
+}  // namespace
+
+std::int16_t class_of_name(const std::string& name) {
+  struct Word {
+    std::string_view word;
+    std::int16_t tissue;
+  };
+  // The first that fits counts.
+  constexpr auto words = std::to_array<Word>({{"background", 0},
+                                              {"unknown", 0},
+                                              {"exterior", 0},
+                                              {"air", 0},
+                                              {"skin", 0},
+                                              {"scalp", 0},
+                                              {"eye", 0},
+                                              {"eyes", 0},
+                                              {"dura", 0},
+                                              {"muscle", 0},
+                                              {"fat", 0},
+                                              {"skull", default_label::skull},
+                                              {"bone", default_label::skull},
+                                              {"ventricle", default_label::ventricles},
+                                              {"ventricles", default_label::ventricles},
+                                              {"vent", default_label::ventricles},
+                                              {"choroid", default_label::ventricles},
+                                              {"csf", default_label::csf},
+                                              {"fluid", default_label::csf},
+                                              {"cerebrospinal", default_label::csf},
+                                              {"tumor", default_label::tumour},
+                                              {"tumour", default_label::tumour},
+                                              {"glioma", default_label::tumour},
+                                              {"metastasis", default_label::tumour},
+                                              {"enhancing", default_label::tumour},
+                                              {"necrosis", default_label::tumour},
+                                              {"extracerebral", 0}});
+  const auto in_name = words_of(name);
+  for (const Word& known : words) {
+    if (std::find(in_name.begin(), in_name.end(), known.word) != in_name.end()) {
+      return known.tissue;
+    }
+  }
+  return default_label::parenchyma;
+}
+
+LabelTable read_label_table(const fs::path& file) {
+  check_readable(file);
+  const auto lines = read_lines(file);
+  const auto columns = columns_of(lines.front());
+  LabelTable table{"those of " + file.string(), {}};
+  for (std::size_t i = columns ? 1 : 0; i < lines.size(); ++i) {
+    const std::string_view text = trimmed(lines[i]);
+    if (!text.empty() && text.front() != '#') {
+      add_row(table, row_of(lines[i], columns), file, i + 1);
+    }
+  }
+  if (table.classes.empty()) {
+    refuse(file, "names no label; lines 'number name', or columns 'index' and 'name', are expected");
+  }
+  return table;
+}
+
+}  // namespace brainshift::segmentation

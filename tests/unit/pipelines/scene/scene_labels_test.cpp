@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/scene/scene_labels.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/pipelines/scene_file.hpp"
+
+namespace brainshift::pipelines::scene_labels_test {
+
+/// FreeSurfer's numbers one behind the other, and two that it does not know.
+LabelMap freesurfer_labels() {
+  LabelMap map;
+  map.voxels = {2, 3, 4, 7, 8, 10, 11, 12, 13, 16, 17, 18, 24, 41, 42, 43, 507, 136, 0, 0};
+  map.geometry.size = {20, 1, 1};
+  return map;
+}
+
+class SceneLabels : public SceneFile {
+ protected:
+  ImageInputs image_of(const LabelMap& map, const std::string& labels_are = "") const {
+    write_image(folder_ / "labels.nii.gz", map);
+    ImageInputs image;
+    image.labels = folder_ / "labels.nii.gz";
+    image.labels_are = labels_are;
+    return image;
+  }
+  std::string fault_of(const ImageInputs& image) const {
+    try {
+      read_labels(image, {.by_class = true, .joined = {}});
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return {};
+  }
+};
+
+TEST_F(SceneLabels, FreeSurfersNumbersAreRecognisedSaidAndReadByClass) {
+  const auto read = read_labels(image_of(freesurfer_labels()), {.by_class = true, .joined = {}});
+  EXPECT_EQ(read.map.voxels, (std::vector<std::int16_t>{1, 1, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 4, 1, 1, 2, 0, 0, 0, 0}));
+  ASSERT_EQ(read.notes.size(), 2U);
+  expect_parts(read.notes[0], {"labels.nii.gz", "taken for FreeSurfer's", "labels_are"});
+  expect_parts(read.notes[1], {"136 (0 ml)", "507 (0 ml)", "not brain"});
+  EXPECT_EQ(read_labels(image_of(freesurfer_labels(), "freesurfer"), {.by_class = true, .joined = {}}).notes.size(),
+            1U);
+}
+
+TEST_F(SceneLabels, OtherNumbersNeedATable) {
+  expect_parts(fault_of(image_of(block_labels())), {"labels.nii.gz", "1 3 6", "labels_are"});
+  LabelMap tumour_alone = block_labels();
+  tumour_alone.at(2, 1, 1) = 1;
+  expect_parts(fault_of(image_of(tumour_alone, "freesurfer")), {"no voxel is brain", "FreeSurfer's"});
+  tumour_alone.at(1, 2, 1) = 4;
+  expect_parts(fault_of(image_of(tumour_alone, "brats")), {"no voxel is brain", "tumour="});
+  std::ofstream(folder_ / "own.txt") << "1 Brain\n3 Ventricle\n6 Skin\n";
+  const auto own =
+      read_labels(image_of(block_labels(), (folder_ / "own.txt").string()), {.by_class = true, .joined = {}});
+  EXPECT_EQ(own.map.at(1, 1, 1), 1);
+  EXPECT_EQ(own.map.at(2, 1, 1), 2);
+  EXPECT_EQ(own.map.at(1, 2, 1), 0);
+  EXPECT_TRUE(own.notes.empty());
+}
+
+TEST_F(SceneLabels, AMapWithoutVentriclesIsReadAndSaidSo) {
+  LabelMap map = block_labels();
+  map.voxels.assign(64, 2);
+  const auto read = read_labels(image_of(map, "freesurfer"), {.by_class = true, .joined = {}});
+  ASSERT_EQ(read.notes.size(), 1U);
+  expect_parts(read.notes[0], {"no ventricles"});
+}
+
+TEST_F(SceneLabels, NumbersThatATissueListsAreJoined) {
+  const Scene scene = parse("<scene><tissues><tissue labels=\"3 6\"/><tissue label=\"1\"/></tissues></scene>");
+  const LabelReading reading = label_reading(scene);
+  EXPECT_FALSE(reading.by_class);
+  const auto read = read_labels(image_of(block_labels()), reading);
+  EXPECT_EQ(read.map.at(1, 2, 1), 3);
+  EXPECT_EQ(read.map.at(1, 1, 1), 1);
+}
+
+}  // namespace brainshift::pipelines::scene_labels_test

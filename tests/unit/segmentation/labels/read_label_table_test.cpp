@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "segmentation/interface/options.hpp"
+#include "segmentation/labels/label_table.hpp"
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/segmentation/builders.hpp"
+
+namespace brainshift::test::read_label_table_test {
+
+using namespace segmentation;
+
+class TableFile : public testing::Test {
+ protected:
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(scratch_.path() / name) << text;
+    return scratch_.path() / name;
+  }
+  ScratchFolder scratch_;
+};
+
+TEST_F(TableFile, ColourTablesOfFreeSurferAndSlicerAreRead) {
+  const auto table = read_label_table(write("lut.ctbl",
+                                            "# colours\n0 Unknown 0 0 0 0\n\n  4 Left-Lateral-Ventricle 120 18 134 0\n"
+                                            "28 Left-VentralDC 1 2 3 0\n24 CSF 60 60 60 0\n165 Skull 120 120 120 0\n"
+                                            "99000 too-large 1 2 3 0\n"));
+  EXPECT_EQ(table.classes, (std::map<std::int16_t, std::int16_t>{{0, 0}, {4, 2}, {24, 4}, {28, 1}, {165, 5}}));
+}
+
+TEST_F(TableFile, ColumnsOfBidsAreReadInAnyOrder) {
+  const auto table = read_label_table(write(
+      "a_dseg.tsv", "name\tindex\tcolor\nGrey matter\t1\t#fff\nThird ventricle\t7\t#000\nWhole tumour\t9\t#0f0\n"));
+  EXPECT_EQ(table.classes, (std::map<std::int16_t, std::int16_t>{{1, 1}, {7, 2}, {9, 3}}));
+}
+
+TEST_F(TableFile, WhatIsNoTableIsRefusedWithItsLine) {
+  const auto refused = [](const std::filesystem::path& file, const std::vector<std::string>& words) {
+    return throws_saying<std::invalid_argument>([&] { read_label_table(file); }, words);
+  };
+  EXPECT_TRUE(refused(write("a.txt", "# nothing\n"), {"a.txt", "names no label"}));
+  EXPECT_TRUE(refused(write("b.txt", "1 Brain\nbrain 2\n"), {"b.txt:2", "number and its name"}));
+  EXPECT_TRUE(refused(write("c.tsv", "index\tname\n1\n"), {"c.tsv:2"}));
+  EXPECT_TRUE(refused(scratch_.path() / "none.txt", {"no such file"}));
+}
+
+TEST(ClassOfName, FollowsItsWords) {
+  EXPECT_EQ(class_of_name("Right-Inf-Lat-Vent"), default_label::ventricles);
+  EXPECT_EQ(class_of_name("choroid plexus"), default_label::ventricles);
+  EXPECT_EQ(class_of_name("CSF-ExtraCerebral"), default_label::csf);
+  EXPECT_EQ(class_of_name("Left-Cerebral-Exterior"), 0);
+  EXPECT_EQ(class_of_name("ctx-lh-precuneus"), default_label::parenchyma);
+  EXPECT_EQ(class_of_name("Tumor core"), default_label::tumour);
+}
+
+}  // namespace brainshift::test::read_label_table_test
