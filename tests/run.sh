@@ -33,5 +33,6 @@ ctest --test-dir build --output-on-failure --parallel "$(nproc)"
 build build-sanitize unit_tests "${developer[@]}" -DBRAINSHIFT_SANITIZE=ON -DBRAINSHIFT_FUZZ=ON \
   -DBRAINSHIFT_TEST_OBJECTS="$root/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' \
   -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14
-LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
+# One thread a test, as the sanitizers' threads wait long for each other; tests of several threads ask for them.
+OMP_NUM_THREADS=1 LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
   ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(nproc)"

@@ -45,7 +45,7 @@ void clear_own_folder(const fs::path& folder) {
   for (fs::directory_iterator entry(folder, fault), end; !fault && entry != end; entry.increment(fault)) {
     entries.push_back(entry->path());
   }
-  std::ranges::stable_partition(entries, [](const fs::path& entry) { return !is_mark(entry); });
+  std::stable_partition(entries.begin(), entries.end(), [](const fs::path& entry) { return !is_mark(entry); });
   for (const fs::path& entry : entries) {
     fs::remove_all(entry, fault);
   }

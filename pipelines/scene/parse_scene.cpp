@@ -285,16 +285,16 @@ void complete_tissues(Scene& scene) {
     const char* name;
     const char* material;
   };
-  for (const auto& [number, name, material] :
+  for (const Usual& usual :
        {Usual{label::parenchyma, "parenchyma", "brain"}, Usual{label::ventricles, "ventricles", "ventricle"},
         Usual{label::tumour, "tumour", "tumour"}}) {
-    const auto same = [number](const Tissue& tissue) { return tissue.label == number; };
+    const auto same = [&usual](const Tissue& tissue) { return tissue.label == usual.label; };
     if (std::none_of(scene.tissues.begin(), scene.tissues.end(), same)) {
       Tissue tissue;
-      tissue.label = tissue.tissue_class = number;
-      tissue.name = name;
-      tissue.named_material = material;
-      tissue.material = solve::named_material(material).value();
+      tissue.label = tissue.tissue_class = usual.label;
+      tissue.name = usual.name;
+      tissue.named_material = usual.material;
+      tissue.material = solve::named_material(usual.material).value();
       scene.tissues.push_back(std::move(tissue));
     }
   }

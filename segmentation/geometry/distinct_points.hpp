@@ -17,7 +17,7 @@ inline Points distinct_points(const Points& points) {
     rows.push_back({point[0], point[1], point[2]});
   }
   std::ranges::sort(rows);
-  rows.erase(std::ranges::unique(rows).begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   Points distinct(static_cast<Eigen::Index>(rows.size()), 3);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     distinct.row(static_cast<Eigen::Index>(i)) << rows[i][0], rows[i][1], rows[i][2];

@@ -38,8 +38,8 @@ TEST(MaterialOptions, SurviveBeingWrittenAndRead) {
 }
 
 TEST(MaterialOptions, OutOfRangeAreRefusedWithTheirUnit) {
-  EXPECT_EQ(fault({.youngs_modulus = 0}), "youngs_modulus is '0', but must be a number > 0 (Pa)");
-  EXPECT_EQ(fault({.density = -1}), "density is '-1', but must be a number > 0 (kg/m3)");
+  EXPECT_EQ(fault({.youngs_modulus = 0}), "youngs_modulus is '0', but must be a number > 0 and <= 1e+15 (Pa)");
+  EXPECT_EQ(fault({.density = -1}), "density is '-1', but must be a number > 0 and <= 100000000 (kg/m3)");
   EXPECT_EQ(fault({.law = Law::own}).substr(0, 6), "law is") << "a scene has no such law";
   EXPECT_EQ(fault({.prony = {{0.5, std::nan("")}}}),
             "prony is '0.5,nan', but must be pairs share,time separated by semicolons, or nothing (1 and s)");
