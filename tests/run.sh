@@ -18,8 +18,9 @@ case ${1:-} in
     ;;
 esac
 
-# Tests run side by side: a thread that waits must not take the processor from the next test's.
-export OMP_WAIT_POLICY=passive
+# Tests run side by side, one thread each, where they do not ask for more: on the processors of the others its threads
+# would wait for each other.
+export OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1
 
 cd "$root"
 git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
@@ -33,6 +34,5 @@ ctest --test-dir build --output-on-failure --parallel "$(nproc)"
 build build-sanitize unit_tests "${developer[@]}" -DBRAINSHIFT_SANITIZE=ON -DBRAINSHIFT_FUZZ=ON \
   -DBRAINSHIFT_TEST_OBJECTS="$root/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' \
   -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14
-# One thread a test, as the sanitizers' threads wait long for each other; tests of several threads ask for them.
-OMP_NUM_THREADS=1 LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
+LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
   ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(nproc)"
