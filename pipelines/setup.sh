@@ -34,11 +34,14 @@ install_packages() {
   [ ${#image[@]} = 0 ] || as_root "${apt[@]}" "${image[@]}" || echo "mricron-data cannot be had."
 }
 
+# How many processors may be used. nproc alone answers with OMP_NUM_THREADS where that is set.
+processors() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
+
 # build FOLDER TARGET [cmake options]: a compiler that reads CGAL and ITK takes up to 2 GB.
 build() {
   local folder=$1 target=$2 jobs room
   shift 2
-  jobs=$(nproc)
+  jobs=$(processors)
   room=$(awk '/MemAvailable/ { print int($2 / 2000000) }' /proc/meminfo)
   [ "$room" -ge "$jobs" ] || jobs=$((room > 0 ? room : 1))
   cmake -S "$root" -B "$folder" -G Ninja "$@"

@@ -23,11 +23,11 @@ while [ $# -gt 0 ]; do
 done
 [ $install = no ] || install_packages libbenchmark-dev python3 gcovr
 
-export OMP_WAIT_POLICY=passive
+export OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1
 # Threads that count a line at once may lose a count, not a line.
 build "$root/build-coverage" all -DBRAINSHIFT_TESTS=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 --coverage'
 find "$root/build-coverage" -name '*.gcda' -delete
-ctest --test-dir "$root/build-coverage" "${tests[@]}" --exclude-regex 'structure|benchmark' --parallel "$(nproc)" ||
+ctest --test-dir "$root/build-coverage" "${tests[@]}" --exclude-regex 'structure|benchmark' --parallel "$(processors)" ||
   echo "Some tests failed; what they ran is counted."
 gcovr --root "$root" --object-directory "$root/build-coverage" --exclude 'tests/.*' --exclude 'build.*' \
   --exclude 'pipelines/examples/.*' --exclude-unreachable-branches --json-summary "$root/build-coverage/coverage.json"

@@ -27,7 +27,7 @@ git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
 
 developer=(-DBRAINSHIFT_TESTS=ON -DBRAINSHIFT_DEVELOPER=ON)
 build build all "${developer[@]}" -DCMAKE_BUILD_TYPE=Release
-ctest --test-dir build --output-on-failure --parallel "$(nproc)"
+ctest --test-dir build --output-on-failure --parallel "$(processors)"
 
 # Clang compiles the sanitizers' checks in half of GCC's time, and warns of other things. The tests themselves are those
 # of the release build.
@@ -35,4 +35,4 @@ build build-sanitize unit_tests "${developer[@]}" -DBRAINSHIFT_SANITIZE=ON -DBRA
   -DBRAINSHIFT_TEST_OBJECTS="$root/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' \
   -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14
 LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
-  ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(nproc)"
+  ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(processors)"

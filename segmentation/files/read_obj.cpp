@@ -52,8 +52,8 @@ std::optional<std::vector<std::size_t>> parse_face(std::istringstream& words, st
   return corners.size() >= 3 ? std::optional(corners) : std::nullopt;
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& file, std::size_t line_number, const std::string& line,
-                         const std::string& expected) {
+[[noreturn]] void refuse_line(const std::filesystem::path& file, std::size_t line_number, const std::string& line,
+                              const std::string& expected) {
   throw std::invalid_argument(file.string() + ":" + std::to_string(line_number) + ": expected " + expected +
                               ", found \"" + line.substr(0, 80) + "\"");
 }
@@ -71,18 +71,18 @@ PolygonSoup read_obj(const std::filesystem::path& file) {
     if (keyword == "v") {
       const auto point = parse_vertex(words);
       if (!point) {
-        refuse(file, line_number, line, "a vertex \"v x y z\"");
+        refuse_line(file, line_number, line, "a vertex \"v x y z\"");
       }
       soup.points.push_back(*point);
     } else if (keyword == "f") {
       const auto corners = parse_face(words, soup.points.size());
       if (!corners) {
-        refuse(file, line_number, line, "a face \"f i j k\" of at least three vertices");
+        refuse_line(file, line_number, line, "a face \"f i j k\" of at least three vertices");
       }
       soup.polygons.push_back(*corners);
     } else if (!keyword.empty() && keyword.front() != '#' &&
                std::isalpha(static_cast<unsigned char>(keyword.front())) == 0) {
-      refuse(file, line_number, line, "a statement of a Wavefront file");
+      refuse_line(file, line_number, line, "a statement of a Wavefront file");
     }
   }
   return soup;
