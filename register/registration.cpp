@@ -25,7 +25,9 @@ void check_image(const Image<T>& image, const char* what) {
 
 void check(const RegisterInput& input, const RegisterOptions& options) {
   check_options(options);
-  check_image(input.t1, "the T1");
+  if (!input.t1.voxels.empty() || !input.labels) {
+    check_image(input.t1, "the T1");
+  }
   if (input.labels) {
     check_image(*input.labels, "the label map");
     if (!same_geometry(input.labels->geometry, input.t1.geometry)) {
@@ -63,7 +65,9 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   InvertedField inverted = resampling_field(result.forward, options.inverse_tolerance);
   result.resampling = std::move(inverted.field);
   report(progress, 0.8, "warping the images");
-  result.warped = warp(input.t1, result.resampling, options.interpolation);
+  if (!input.t1.voxels.empty()) {
+    result.warped = warp(input.t1, result.resampling, options.interpolation);
+  }
   if (input.labels) {
     result.warped_labels = warp(*input.labels, result.resampling);
   }

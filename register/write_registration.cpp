@@ -47,7 +47,9 @@ void write_registration(const std::filesystem::path& folder, const Registration&
   });
   write_image(folder / "intraop_to_preop.nii.gz", registration.resampling);
   write_image(folder / "preop_to_intraop.nii.gz", registration.forward);
-  write_image(folder / "warped.nii.gz", registration.warped);
+  if (!registration.warped.voxels.empty()) {
+    write_image(folder / "warped.nii.gz", registration.warped);
+  }
   write_image(folder / "jacobian.nii.gz", registration.jacobian);
   if (registration.warped_labels) {
     write_image(folder / "warped_labels.nii.gz", *registration.warped_labels);

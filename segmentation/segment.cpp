@@ -149,20 +149,32 @@ void make_surfaces(Segmentation& result, const Mask& brain, const std::vector<st
   }
 }
 
-// What closing and filling took in becomes the first of the brain's labels; loose pieces become background.
-void fit_labels(LabelMap& labels, const Mask& tissue, const Mask& brain, std::int16_t filling) {
+// What closing and filling took in becomes the first of the brain's labels; loose pieces become background. Returns
+// where the former is 1.
+LabelMap fit_labels(LabelMap& labels, const Mask& tissue, const Mask& brain, std::int16_t filling) {
+  LabelMap closed{labels.geometry, std::vector<std::int16_t>(labels.voxels.size())};
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
     if (brain.voxels[i] != tissue.voxels[i]) {
+      closed.voxels[i] = static_cast<std::int16_t>(brain.voxels[i]);
       labels.voxels[i] = brain.voxels[i] != 0 ? filling : std::int16_t{0};
     }
   }
+  return closed;
 }
 
-void note_body(Segmentation& result, const BrainBody& body, const Mask& tissue) {
+// known: the labels are of a table, so that this is a human brain.
+void note_body(Segmentation& result, const BrainBody& body, const Mask& tissue, bool known) {
   result.body = BodyMeasures{.tissue_volume = volume(tissue),
                              .volume = volume(body.mask),
                              .loose_volume = body.loose_volume,
                              .loose_pieces = body.loose_pieces};
+  constexpr double child = 900e3, largest = 2000e3;  // mm³; brains of adults have 1000 to 1800 ml
+  if (known && (result.body->volume < child || result.body->volume > largest)) {
+    std::ostringstream text;
+    text << "warning: the brain has " << std::lround(result.body->volume / 1000)
+         << " ml, where adults have 1000 to 1800; is a part missing, or are the image's lengths wrong?";
+    result.notes.push_back(text.str());
+  }
   constexpr double worth_saying = 1000;  // mm³
   if (body.loose_volume > worth_saying) {
     std::ostringstream text;
@@ -185,9 +197,9 @@ Segmentation segment_labels(const SegmentInput& input, const SegmentOptions& opt
   const Mask tissue = mask_of(*result.labels, options.brain_labels);
   report(progress, 0.1, "the brain as one body");
   const BrainBody body = brain_body(tissue, options.closing.value_or(0));
-  note_body(result, body, tissue);
+  note_body(result, body, tissue, options.fluid_label.has_value());
   if (options.closing.value_or(0) > 0) {
-    fit_labels(*result.labels, tissue, body.mask, options.brain_labels.front());
+    result.closed = fit_labels(*result.labels, tissue, body.mask, options.brain_labels.front());
   }
   report(progress, 0.4, "surfaces");
   make_surfaces(result, body.mask, options.brain_labels, options, progress);
@@ -206,7 +218,7 @@ Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options
   Segmentation result;
   result.labels = std::move(classified.labels);
   result.memberships = std::move(classified.memberships);
-  note_body(result, body, tissue);
+  note_body(result, body, tissue, false);
   if (input.tumour_mask) {
     add_tumour(*result.labels, *input.tumour_mask);
   }

@@ -10,6 +10,9 @@ void write_segmentation(const std::filesystem::path& folder, const Segmentation&
   if (segmentation.labels) {
     write_image(folder / "labels.nii.gz", *segmentation.labels);
   }
+  if (segmentation.closed) {
+    write_image(folder / "closed.nii.gz", *segmentation.closed);
+  }
   write_surface(folder / "brain.vtp", segmentation.brain);
   write_surface(folder / "skull.vtp", segmentation.skull);
   for (const auto& [label, surface] : segmentation.tissues) {

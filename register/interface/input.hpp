@@ -11,9 +11,9 @@ namespace brainshift::registration {
 
 struct RegisterInput {
   Solution solution;
-  Surface brain;  ///< preop brain surface, closed, outward: outside it the field fades
-  ScalarImage t1;
-  std::optional<LabelMap> labels;   ///< on the T1's grid
+  Surface brain;                   ///< preop brain surface, closed, outward: outside it the field fades
+  ScalarImage t1;                  ///< its grid is the fields'; without voxels there is no image to warp, only the grid
+  std::optional<LabelMap> labels;  ///< on the T1's grid
   Points landmarks = Points(0, 3);  ///< preop, mm LPS
 };
 

@@ -28,7 +28,7 @@ struct RegisterMeasures {
 struct Registration {
   VectorImage forward;     ///< preop_to_intraop: preop point -> displacement, rounded to 1/4096 mm
   VectorImage resampling;  ///< intraop_to_preop: intraop point -> displacement back, rounded to 1/4096 mm
-  ScalarImage warped;
+  ScalarImage warped;      ///< without voxels where the T1 has none
   std::optional<LabelMap> warped_labels;
   ScalarImage jacobian;                   ///< determinant of the forward map's gradient, in the world
   Points landmarks = Points(0, 3);        ///< intraop

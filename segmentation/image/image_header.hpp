@@ -6,6 +6,7 @@
 #include <Eigen/Dense>  // before ITK, which brings an Eigen of its own under the same include guards
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace brainshift {
@@ -19,8 +20,9 @@ struct ImageHeader {
   Eigen::Matrix3d direction = Eigen::Matrix3d::Identity();  ///< columns: the axes, in the file's frame
   std::uint64_t voxels_at = 0;                              ///< where the voxels begin, bytes; uncompressed in .nii.gz
   bool compressed = false;
-  bool swapped = false;   ///< the other byte order than this machine's; NIfTI and MGH alone
-  bool floating = false;  ///< values are floating-point numbers; NIfTI and MGH alone
+  bool swapped = false;         ///< the other byte order than this machine's; NIfTI and MGH alone
+  std::string frame_note = {};  ///< what in the file contradicts itself on the place, and which was taken; or empty
+  bool floating = false;        ///< values are floating-point numbers; NIfTI and MGH alone
 
   std::uint64_t values() const;
   std::uint64_t bytes() const { return values() * bytes_a_value; }

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <string_view>
 
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/image/bytes.hpp"
+#include "segmentation/image/frame_note.hpp"
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_header.hpp"
 
@@ -142,13 +144,42 @@ void read_sform(const fs::path& file, const NiftiFields& fields, ImageHeader& he
   header.origin = form.col(3);
 }
 
+// Of a corner of the image: how far apart two headers place it, mm.
+double apart(const ImageHeader& a, const ImageHeader& b, const Eigen::Vector3d& index) {
+  const auto place = [&](const ImageHeader& header) -> Eigen::Vector3d {
+    return header.origin + header.direction * header.spacing.cwiseProduct(index);
+  };
+  return (place(a) - place(b)).norm();
+}
+
+// Which of two forms that place the voxels differently was taken.
+std::string note_forms(const NiftiFields& fields, const ImageHeader& by_qform, const ImageHeader& taken) {
+  ImageHeader by_sform = taken;
+  const auto form = sform(fields);
+  set_axes(by_sform, form.leftCols<3>());
+  by_sform.origin = form.col(3);
+  const Eigen::Vector3d last(fields.dimension(1) - 1, fields.dimension(2) - 1, fields.dimension(3) - 1);
+  const double most = std::max(apart(by_qform, by_sform, Eigen::Vector3d::Zero()), apart(by_qform, by_sform, last));
+  constexpr double worth_saying = 0.5;  // mm
+  if (!(most > worth_saying)) {
+    return {};
+  }
+  const bool took_sform = taken.direction != by_qform.direction || taken.origin != by_qform.origin;
+  return "its sform and qform place voxels up to " + std::to_string(std::lround(most)) + " mm apart; the " +
+         (took_sform ? "sform" : "qform") + " was taken";
+}
+
 void read_nifti_geometry(const fs::path& file, const NiftiFields& fields, ImageHeader& header) {
   header.spacing = Eigen::Vector3d(fields.step(1), fields.step(2), fields.step(3)).cwiseAbs();
   if (fields.qform_code() > 0) {
     read_qform(file, fields, header);
   }
+  const ImageHeader by_qform = header;
   if (fields.sform_code() > 0) {
     read_sform(file, fields, header);
+  }
+  if (fields.qform_code() > 0 && fields.sform_code() > 0) {
+    header.frame_note = note_forms(fields, by_qform, header);
   }
 }
 
@@ -179,6 +210,11 @@ ImageHeader read_nifti_header(const fs::path& file) {
   header.voxels_at = std::max(first_voxel, static_cast<std::size_t>(offset));
   header.compressed = is_gzip(file);
   return header;
+}
+
+std::string frame_note(const fs::path& file) {
+  const std::string name = in_lower_case(file.filename().string());
+  return name.ends_with(".nii") || name.ends_with(".nii.gz") ? read_nifti_header(file).frame_note : "";
 }
 
 }  // namespace brainshift

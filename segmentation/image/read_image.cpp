@@ -180,8 +180,10 @@ LabelMap read_label_map(const fs::path& file) {
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
     const double value = values->GetBufferPointer()[i];
     if (!(value >= lowest && value <= highest && value == std::floor(value))) {
-      throw std::invalid_argument(file.string() + ": " + voxel_name(labels.geometry.size, i) + " holds " +
-                                  write_number(value) + "; labels are whole numbers from -32768 to 32767");
+      throw std::invalid_argument(
+          file.string() + ": " + voxel_name(labels.geometry.size, i) + " holds " + write_number(value) +
+          "; labels are whole numbers from -32768 to 32767" +
+          (value > 0 && value < 1 ? ": are these probabilities? Give the map of labels" : ": renumber or round them"));
     }
     labels.voxels[i] = static_cast<std::int16_t>(value);
   }

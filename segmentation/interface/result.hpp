@@ -29,6 +29,7 @@ struct Segmentation {
   std::map<std::int16_t, Surface> tissues;          ///< one a brain label, where asked for
   std::map<std::string, SurfaceMeasures> measures;  ///< "brain", "skull", "tissue_<label>"
   std::optional<BodyMeasures> body;                 ///< absent when a surface came in
+  std::optional<LabelMap> closed;                   ///< 1 where closing and filling took in what no label called brain
   std::vector<std::string> notes;                   ///< sentences for the user: what was dropped, filled or not reached
 };
 

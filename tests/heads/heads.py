@@ -3,8 +3,10 @@
 import array
 import base64
 import csv
+import html
 import json
 import pathlib
+import resource
 import struct
 import subprocess
 import sys
@@ -15,7 +17,9 @@ import zlib
 DIRECTION = (0.5, -0.1, 0.86)  # of the opening from the brain's middle, LPS: the left frontal and parietal lobe
 FIELDS = ("head", "converged", "seconds", "segment_seconds", "peak_mb", "smallest_jacobian", "folded_voxels",
           "brain_ml")
-MORE = ("distance_95_mm", "nodes", "steps", "penetration_mm", "fault")
+MORE = ("processor_seconds", "distance_95_mm", "nodes", "steps", "penetration_mm", "fault")
+PICTURES = ("axial_labels", "coronal_labels", "sagittal_labels", "axial_displacement", "coronal_displacement",
+            "sagittal_displacement", "surface")
 BOUNDS = {"seconds": 30, "segment_seconds": 10, "peak_mb": 1500, "folded_voxels": 0}
 LEAST_JACOBIAN = 0.3
 
@@ -74,35 +78,34 @@ def entry(folder):
     return json.loads(file.read_text())["entry"] if file.exists() else {}
 
 
-def run_head(program, folder, row, out):
+def run_head(program, folder, row, out, options):
     run = out / row["head"]
     run.mkdir(parents=True, exist_ok=True)
     scene = run / "scene.xml"
-    begin = time.monotonic()
+    begin, used = time.monotonic(), processor_seconds()
     scene.write_text(scene_text(folder, row, (0, 0, 0)))
     fault = run_program(program, "run", scene, "--out", run / "run", "--until", "segment", "--force")
     if not fault:
         scene.write_text(scene_text(folder, row, opening(run / "run/segment/brain.vtp")))
-        fault = run_program(program, "run", scene, "--out", run / "run")
-    moved = run / "run/register"
-    if not fault and not row["t1"]:  # the fields and the labels; there is no image to warp
-        moved = run / "run/register_labels"
-        labels = run / "run/segment/labels.nii.gz"
-        fault = run_program(program, "register", "--solution", run / "run/solve/solution.vtu", "--brain",
-                            run / "run/segment/brain.vtp", "--t1", labels, "--labels", labels,
-                            "--out", moved)
-    return row_of(row["head"], run / "run", moved, time.monotonic() - begin, fault)
+        fault = run_program(program, "run", scene, "--out", run / "run", *options)
+    return row_of(row["head"], run / "run", time.monotonic() - begin, processor_seconds() - used, fault)
 
 
-def row_of(head, run, moved, seconds, fault):
-    stages = [entry(run / name) for name in ("segment", "discretise", "solve")] + [entry(moved)]
+def processor_seconds():
+    """Of the programs that have ended."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def row_of(head, run, seconds, used, fault):
+    stages = [entry(run / name) for name in ("segment", "discretise", "solve", "register")]
     segment, discretise, solve, register = (stage.get("measures", {}) for stage in stages)
     brain = segment.get("brain", {})
     return {"head": head, "converged": "yes" if solve.get("converged") else "no", "seconds": round(seconds, 1),
             "segment_seconds": stages[0].get("seconds"),
             "peak_mb": max((stage.get("peak_memory_mb", 0) for stage in stages)),
             "smallest_jacobian": solve.get("smallest_jacobian"), "folded_voxels": register.get("folded_voxels"),
-            "brain_ml": round(brain.get("volume_mm3", 0) / 1000),
+            "brain_ml": round(brain.get("volume_mm3", 0) / 1000), "processor_seconds": round(used, 1),
             "distance_95_mm": brain.get("boundary_distance_95_mm"),
             "nodes": stages[1].get("sizes", {}).get("nodes"), "steps": stages[2].get("sizes", {}).get("steps"),
             "penetration_mm": solve.get("largest_penetration_mm"), "fault": fault}
@@ -116,6 +119,10 @@ def missed(row):
     return (["converged"] if row["converged"] == "no" else []) + names
 
 
+def text_of(value):
+    return f"{value:.3g}" if isinstance(value, float) else str(value if value is not None else "")
+
+
 def write_tables(rows, out):
     with open(out / "heads.csv", "w", newline="", encoding="utf-8") as stream:
         table = csv.DictWriter(stream, FIELDS, extrasaction="ignore", lineterminator="\n")
@@ -123,24 +130,51 @@ def write_tables(rows, out):
         table.writerows(rows)
     columns = FIELDS + MORE
     lines = ["| " + " | ".join(columns) + " | misses |", "|" + " --- |" * (len(columns) + 1)]
-    for row in sorted(rows, key=lambda r: (-len(missed(r)), r["smallest_jacobian"] or 0)):
-        cells = [f"{row[c]:.3g}" if isinstance(row[c], float) else str(row[c] if row[c] is not None else "")
-                 for c in columns]
+    for row in outliers_first(rows):
+        cells = [text_of(row[c]) for c in columns]
         lines.append("| " + " | ".join(cells) + " | " + ", ".join(missed(row)) + " |")
     (out / "heads.md").write_text("# Heads\n\n" + "\n".join(lines) + "\n", encoding="utf-8")
     print("\n".join(lines))
 
 
+def outliers_first(rows):
+    return sorted(rows, key=lambda r: (-len(missed(r)), r["smallest_jacobian"] or 0))
+
+
+def section(row, out):
+    """A head on the page: what it measured and misses, its slices and its surface."""
+    report = pathlib.Path(row["head"]) / "run/report"
+    pictures = "".join(f'<img src="{html.escape(str(report / name))}.svg" alt="{name}" loading="lazy"/>\n'
+                       for name in PICTURES if (out / report / f"{name}.svg").exists())
+    figures = ", ".join(f"{name} {text_of(row[name])}" for name in FIELDS[1:] + MORE if row[name] not in ("", None))
+    misses = ", ".join(missed(row))
+    return (f'<h2>{html.escape(row["head"])}</h2>\n<p>{html.escape(figures)}</p>\n'
+            + (f"<p><b>misses: {misses}</b></p>\n" if misses else "") + pictures)
+
+
+def write_page(rows, out):
+    style = "body{font:15px sans-serif;margin:24px}img{width:32%;vertical-align:top;margin:2px}"
+    body = "".join(section(row, out) for row in outliers_first(rows))
+    (out / "index.html").write_text(f'<!DOCTYPE html>\n<meta charset="utf-8"/><title>Heads</title>'
+                                    f"<style>{style}</style>\n<h1>Heads</h1>\n{body}", encoding="utf-8")
+
+
 def main():
-    program, out = sys.argv[1], pathlib.Path(sys.argv[2])
+    quick = sys.argv[1] == "--quick"
+    program, out, *folders = sys.argv[2 if quick else 1:]
+    options = ("--set", "discretise.nodes=2000") if quick else ()
+    if quick:
+        del BOUNDS["seconds"], BOUNDS["segment_seconds"]
+    out = pathlib.Path(out)
     out.mkdir(parents=True, exist_ok=True)
     rows = []
-    for folder in map(pathlib.Path, sys.argv[3:]):
+    for folder in map(pathlib.Path, folders):
         with open(folder / "heads.tsv", newline="", encoding="utf-8") as stream:
             for row in csv.DictReader(stream, delimiter="\t"):
-                rows.append(run_head(program, folder, {k: v or "" for k, v in row.items()}, out))
+                rows.append(run_head(program, folder, {k: v or "" for k, v in row.items()}, out, options))
                 print(rows[-1]["head"], rows[-1]["fault"] or "done", file=sys.stderr, flush=True)
     write_tables(rows, out)
+    write_page(rows, out)
     sys.exit(1 if any(missed(row) or row["fault"] for row in rows) else 0)
 
 

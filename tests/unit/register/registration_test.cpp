@@ -74,6 +74,17 @@ TEST_F(RegisterImages, DoesWithoutLabelsAndLandmarks) {
   EXPECT_EQ(result.landmarks.rows(), 0);
 }
 
+TEST_F(RegisterImages, WithoutAnImageWarpsTheLabelsOnTheSameFields) {
+  const Registration with = register_images(input, {});
+  input.t1.voxels.clear();
+  const Registration without = register_images(input, {});
+  EXPECT_TRUE(without.warped.voxels.empty());
+  EXPECT_EQ(without.warped_labels->voxels, with.warped_labels->voxels);
+  EXPECT_EQ(without.forward.voxels, with.forward.voxels);
+  input.labels.reset();
+  EXPECT_THROW(register_images(input, {}), std::invalid_argument) << "there is nothing to warp";
+}
+
 TEST_F(RegisterImages, ReportsProgressThatGrowsToOne) {
   double last = 0;
   register_images(input, {}, [&](double fraction, std::string_view) {

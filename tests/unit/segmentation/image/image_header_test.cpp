@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "segmentation/image/frame_note.hpp"
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image.hpp"
 #include "tests/unit/scratch_folder.hpp"
@@ -99,6 +100,20 @@ TEST(ImageHeader, ANiftiFormThatIsShearedOrOfAnotherVoxelIsRefused) {
   EXPECT_TRUE(refused(folder.write("a.nii", sheared), {"sheared"}));
   EXPECT_TRUE(refused(folder.write("a.nii", doubled), {"pixdim"}));
   EXPECT_TRUE(refused(folder.write("a.nii", tiny), {"sform"}));
+}
+
+TEST(ImageHeader, FormsThatDisagreeAreTold) {
+  const ScratchFolder folder;
+  std::string shifted = nifti_bytes();
+  EXPECT_EQ(frame_note(folder.write("a.nii", shifted)), "");
+  put<float>(shifted, 292, 7);
+  const std::string note = frame_note(folder.write("a.nii", shifted));
+  EXPECT_NE(note.find("7 mm apart; the sform was taken"), std::string::npos) << note;
+  EXPECT_EQ(read_nifti_header(folder / "a.nii").origin.x(), 7);
+  put<std::int16_t>(shifted, 252, 0);
+  EXPECT_EQ(frame_note(folder.write("a.nii", shifted)), "") << "there is one form alone";
+  EXPECT_EQ(frame_note("image.mgz"), "");
+  EXPECT_EQ(frame_note(""), "");
 }
 
 TEST(ImageHeader, ANiftiFieldThatCannotBeIsRefused) {

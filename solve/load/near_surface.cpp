@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/load/near_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "segmentation/geometry/point_tree.hpp"
+
+namespace brainshift::solve {
+namespace {
+
+struct Distances {
+  double median = 0;
+  double farthest = 0;
+  Eigen::Index farthest_row = 0;
+};
+
+Distances distances_to(const PointTree& surface, const Points& measured) {
+  Distances result;
+  std::vector<double> distances;
+  for (Eigen::Index p = 0; p < measured.rows(); ++p) {
+    const Eigen::RowVector3d place = measured.row(p);
+    distances.push_back(std::sqrt(surface.nearest(place.data()).second));
+    if (distances.back() > result.farthest) {
+      result.farthest = distances.back();
+      result.farthest_row = p;
+    }
+  }
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  result.median = *middle;
+  return result;
+}
+
+/// Whether the points lie on the surface with x and y turned. Three times as near is more than the brain's symmetry
+/// makes.
+bool on_it_when_turned(const Distances& as_given, const Distances& turned, double farthest_allowed) {
+  constexpr double on = 5.0;  // mm
+  return (turned.median < on && 3 * turned.median < as_given.median) ||
+         (as_given.farthest > farthest_allowed && turned.farthest <= farthest_allowed);
+}
+
+}  // namespace
+
+std::string rounded(double number) {
+  const std::string text = std::to_string(number);
+  return text.substr(0, text.find('.') + 2);
+}
+
+void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed) {
+  const PointTree tree(surface);
+  const Distances as_given = distances_to(tree, measured);
+  constexpr double off = 10.0;  // mm, in the median: points on a cortex lie within a spacing of its nodes
+  if (as_given.median <= off && as_given.farthest <= farthest_allowed) {
+    return;
+  }
+  Points turned_points = measured;
+  turned_points.leftCols(2) *= -1;
+  const Distances turned = distances_to(tree, turned_points);
+  if (on_it_when_turned(as_given, turned, farthest_allowed)) {
+    throw std::invalid_argument(
+        "load: the measured points lie " + rounded(as_given.median) + " mm off the brain's surface (median; farthest " +
+        rounded(as_given.farthest) + " mm), and with x and y flipped all lie within " + rounded(turned.farthest) +
+        " mm of it: RAS was most likely taken for LPS, or LPS for RAS; correct the frame that the load's file names");
+  }
+  if (as_given.farthest > farthest_allowed) {
+    const Eigen::RowVector3d p = measured.row(as_given.farthest_row);
+    throw std::invalid_argument("load: measured point " + std::to_string(as_given.farthest_row + 1) + " of " +
+                                std::to_string(measured.rows()) + " at (" + rounded(p.x()) + ", " + rounded(p.y()) +
+                                ", " + rounded(p.z()) + ") LPS is " + rounded(as_given.farthest) +
+                                " mm from the nearest surface node, " + rounded(farthest_allowed) +
+                                " mm are allowed; are image and load in the same frame?");
+  }
+}
+
+}  // namespace brainshift::solve
