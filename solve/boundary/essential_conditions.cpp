@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +20,44 @@ Eigen::VectorXd component_of(const NodalVectors& vectors, int axis) {
   using Stride = Eigen::InnerStride<4>;
   return Eigen::Map<const Eigen::VectorXd, 0, Stride>(vectors.data() + axis,
                                                       static_cast<Eigen::Index>(vectors.size() / 4));
+}
+
+bool same_columns(const Points& values) {
+  return values.col(0) == values.col(1) && values.col(0) == values.col(2);
+}
+
+Eigen::VectorXd stacked(const Eigen::VectorXd& above, const Eigen::VectorXd& below) {
+  Eigen::VectorXd both(above.size() + below.size());
+  both << above, below;
+  return both;
+}
+
+/// C of the conditions at these nodes, then at the inner points; mm².
+Eigen::SparseMatrix<double> compliance(const Measurement& measured, const std::vector<std::int32_t>& nodes, int axis) {
+  Eigen::SparseMatrix<double> root(static_cast<Eigen::Index>(nodes.size()) + measured.inner.rows(),
+                                   measured.sigma.rows() + measured.inner.rows());
+  std::vector<Eigen::Triplet<double>> entries;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> spread = measured.spread;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(spread, nodes[i]); entry; ++entry) {
+      entries.emplace_back(static_cast<int>(i), static_cast<int>(entry.col()),
+                           entry.value() * measured.sigma(entry.col(), axis));
+    }
+  }
+  for (Eigen::Index i = 0; i < measured.inner.rows(); ++i) {
+    entries.emplace_back(static_cast<int>(nodes.size()) + static_cast<int>(i),
+                         static_cast<int>(measured.sigma.rows() + i), measured.inner_sigma(i, axis));
+  }
+  root.setFromTriplets(entries.begin(), entries.end());
+  return root * root.transpose();
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> stacked(const Eigen::SparseMatrix<double, Eigen::RowMajor>& above,
+                                                     const Eigen::SparseMatrix<double, Eigen::RowMajor>& below) {
+  Eigen::SparseMatrix<double, Eigen::RowMajor> both(above.rows() + below.rows(), above.cols());
+  both.topRows(above.rows()) = above;
+  both.bottomRows(below.rows()) = below;
+  return both;
 }
 
 }  // namespace
@@ -52,11 +91,32 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
   }
 }
 
-bool EssentialConditions::nothing_prescribed() const {
-  return std::all_of(component_.begin(), component_.end(), [](const Component& c) { return c.node.empty(); });
+EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows,
+                                         std::vector<std::int32_t> names, const Measurement& measured,
+                                         const ShapeRows& inner_rows)
+    : EssentialConditions(prescribed, nodal_rows, names) {
+  constexpr double millijoule = 1e6;  // µN mm
+  const double weight = millijoule * measured.weight;
+  names_ = std::move(names);
+  std::vector<std::int32_t> inner(inner_rows.size());
+  std::iota(inner.begin(), inner.end(), 0);
+  const RowMatrix inner_shape = shape_matrix(inner_rows, inner, prescribed.rows());
+  same_compliance_ = same_columns(measured.sigma) && same_columns(measured.inner_sigma);
+  for (int axis = 0; axis < 3; ++axis) {
+    Component& c = component_[static_cast<std::size_t>(axis)];
+    c.compliance = compliance(measured, c.node, axis) / weight;
+    c.shape = stacked(c.shape, inner_shape);
+    c.prescribed = stacked(c.prescribed, measured.inner_displacement.col(axis));
+    c.loaded = stacked(c.loaded, Eigen::VectorXd::Ones(measured.inner.rows()));
+    c.multiplier = c.scratch = c.multiplier_before = Eigen::VectorXd::Zero(c.prescribed.size());
+  }
 }
 
-void EssentialConditions::factorise(std::span<const double> mass) {
+bool EssentialConditions::nothing_prescribed() const {
+  return std::all_of(component_.begin(), component_.end(), [](const Component& c) { return c.prescribed.size() == 0; });
+}
+
+void EssentialConditions::factorise(std::span<const double> mass, double alpha) {
   if (nothing_prescribed()) {
     return;
   }
@@ -67,7 +127,7 @@ void EssentialConditions::factorise(std::span<const double> mass) {
   const Eigen::Map<const Eigen::VectorXd> inverse(inverse_mass_.data(), static_cast<Eigen::Index>(mass.size()));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Component& c = component_[axis];
-    if (c.node.empty()) {
+    if (c.prescribed.size() == 0) {
       continue;
     }
     if (imposition_ == Imposition::simplified) {
@@ -76,11 +136,14 @@ void EssentialConditions::factorise(std::span<const double> mass) {
       c.lumped = c.shape.cwiseAbs() * at_nodes;
       continue;
     }
-    if (axis > 0 && c.node == component_[axis - 1].node) {
+    if (axis > 0 && same_compliance_ && c.node == component_[axis - 1].node) {
       c.factor = component_[axis - 1].factor;
       continue;
     }
-    const Eigen::SparseMatrix<double> system = c.shape * inverse.asDiagonal() * c.shape.transpose();
+    Eigen::SparseMatrix<double> system = c.shape * inverse.asDiagonal() * c.shape.transpose();
+    if (c.compliance.rows() > 0) {
+      system += c.compliance / alpha;
+    }
     c.factor = std::make_shared<Factor>(system);
     Eigen::Index worst = 0;
     const auto& [ldlt, pivot] = *c.factor;
@@ -88,8 +151,9 @@ void EssentialConditions::factorise(std::span<const double> mass) {
     const Eigen::VectorXd pivots = pivot.cwiseQuotient(diagonal);
     if (!(ldlt.info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot)) {
       const auto at = static_cast<std::size_t>(ldlt.permutationPinv().indices()[worst]);
-      throw TooFewNodes("the prescribed displacements contradict or repeat each other at node " +
-                        std::to_string(names_[static_cast<std::size_t>(c.node[at])]) +
+      throw TooFewNodes("the prescribed displacements contradict or repeat each other at " +
+                        (at < c.node.size() ? "node " + std::to_string(names_[static_cast<std::size_t>(c.node[at])])
+                                            : "inner measured point " + std::to_string(at - c.node.size() + 1)) +
                         ": too many constrained nodes lie too near it; constrain fewer or add free nodes");
     }
   }
@@ -104,11 +168,15 @@ void EssentialConditions::Factor::solve(Eigen::VectorXd& x, Eigen::VectorXd& scr
 }
 
 void EssentialConditions::apply(double fraction, NodalVectors& parameters) {
+  fraction_ = {fraction_[1], fraction};
 #pragma omp parallel for schedule(static, 1)
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
-    if (c.node.empty()) {
+    if (c.prescribed.size() == 0) {
       continue;
+    }
+    if (c.multiplier_before.size() > 0) {
+      std::swap(c.multiplier, c.multiplier_before);
     }
     for (Eigen::Index i = 0; i < c.shape.rows(); ++i) {
       c.multiplier[i] = fraction * c.prescribed[i];
@@ -155,7 +223,7 @@ double EssentialConditions::largest_error(double fraction, const NodalVectors& p
   double largest = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const Component& c = component_[static_cast<std::size_t>(axis)];
-    if (!c.node.empty()) {
+    if (c.prescribed.size() > 0) {
       largest =
           std::max(largest, (c.shape * component_of(parameters, axis) - fraction * c.prescribed).cwiseAbs().maxCoeff());
     }
@@ -167,6 +235,18 @@ double EssentialConditions::multiplier_work() const {
   double work = 0;
   for (const Component& c : component_) {
     work += c.multiplier.dot(c.prescribed);
+  }
+  return work;
+}
+
+double EssentialConditions::spring_work(const NodalVectors& before, const NodalVectors& now) const {
+  double work = 0;
+  for (int axis = 0; axis < 3 && fraction_[0] == fraction_[1]; ++axis) {
+    const Component& c = component_[static_cast<std::size_t>(axis)];
+    if (c.multiplier_before.size() > 0) {
+      const Eigen::VectorXd moved = c.shape * (component_of(now, axis) - component_of(before, axis));
+      work -= moved.dot(c.multiplier - c.multiplier_before);
+    }
   }
   return work;
 }

@@ -12,6 +12,7 @@
 
 #include "segmentation/geometry/points.hpp"
 #include "solve/arrays/nodal_vectors.hpp"
+#include "solve/interface/conditions.hpp"
 #include "solve/interface/options.hpp"
 #include "solve/shape/shape_rows.hpp"
 
@@ -30,9 +31,15 @@ class EssentialConditions {
   EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names,
                       Imposition imposition = Imposition::exact);
 
-  /// Factorises (or lumps) V M⁻¹ Vᵀ for nodal masses (one a node). Throws TooFewNodes, naming a node, when it is
-  /// singular: two constrained nodes say the same.
-  void factorise(std::span<const double> mass);
+  /// The same with the noise of a measurement. inner_rows: shape functions at its inner points. Conditions that give
+  /// way are springs s C⁻¹ that act at the end of the step: (V M⁻¹ Vᵀ + C/(sα)) μ = ū − V û. This is stable however
+  /// stiff they are, and as σ → 0 it is the exact imposition.
+  EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names,
+                      const Measurement& measured, const ShapeRows& inner_rows);
+
+  /// Factorises (or lumps) V M⁻¹ Vᵀ for nodal masses (one a node); alpha of the steps, where conditions give way.
+  /// Throws TooFewNodes, naming a node, when it is singular: two constrained nodes say the same.
+  void factorise(std::span<const double> mass, double alpha = 1);
 
   /// Projects the parameters onto V û = fraction · ū. The multipliers are kept.
   void apply(double fraction, NodalVectors& parameters);
@@ -50,6 +57,10 @@ class EssentialConditions {
   /// Σ μ·ū over all conditions: the rate of work of the reactions by the load's fraction, times α.
   double multiplier_work() const;
 
+  /// Stiffness of the springs in the last step, Δuᵀ (s C⁻¹) Δu α, from û before it and now; 0 where nothing gives way
+  /// or the load came on.
+  double spring_work(const NodalVectors& before, const NodalVectors& now) const;
+
   /// These nodes are held, not loaded, whatever is prescribed there: reaction_of_loaded() leaves them out.
   void count_as_held(std::span<const std::int32_t> nodes);
 
@@ -65,12 +76,14 @@ class EssentialConditions {
   using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   struct Component {
     std::vector<std::int32_t> node;
-    RowMatrix shape;             ///< V, (conditions × nodes)
-    Eigen::VectorXd prescribed;  ///< ū, mm
-    Eigen::VectorXd multiplier;  ///< μ
-    Eigen::VectorXd loaded;      ///< 1 where the node is loaded, else 0
-    Eigen::VectorXd lumped;      ///< of the simplified form
-    Eigen::VectorXd scratch;     ///< of apply()
+    RowMatrix shape;                         ///< V, (conditions × nodes)
+    Eigen::VectorXd prescribed;              ///< ū, mm
+    Eigen::VectorXd multiplier;              ///< μ
+    Eigen::VectorXd loaded;                  ///< 1 where the node is loaded, else 0
+    Eigen::VectorXd lumped;                  ///< of the simplified form
+    Eigen::VectorXd scratch;                 ///< of apply()
+    Eigen::SparseMatrix<double> compliance;  ///< C/s, mm/µN; empty: held exactly
+    Eigen::VectorXd multiplier_before;       ///< μ of the step before; empty: held exactly
     std::shared_ptr<Factor> factor;
   };
   bool nothing_prescribed() const;
@@ -79,6 +92,8 @@ class EssentialConditions {
   std::vector<double> inverse_mass_;
   std::vector<std::int32_t> names_;
   Imposition imposition_ = Imposition::exact;
+  bool same_compliance_ = true;           // of the three components
+  std::array<double, 2> fraction_{0, 0};  // of the last two steps
 };
 
 }  // namespace brainshift::solve

@@ -13,11 +13,19 @@ namespace brainshift::solve {
 struct CraniotomyLoad {
   Points positions;     ///< preop, mm, LPS
   Points displacement;  ///< to intraop, mm, LPS
+  /// Standard deviation of the displacement along each axis, mm, from smallest_noise on. No rows: not known, the load
+  /// is imposed exactly.
+  Points sigma = Points(0, 3);
 };
 
+/// mm: below it a standard deviation is no noise but a slip.
+inline constexpr double smallest_noise = 1e-6;
+
 /// Reads `x,y,z,ux,uy,uz` (mm). That header line is required; a comment line before it names the frame, "# frame: LPS"
-/// or "# frame: RAS" (converted). Throws std::invalid_argument with file and line where a line does not parse or is not
-/// finite, or the frame is not named; with the file where it cannot be read or holds no measurement.
+/// or "# frame: RAS" (converted). A column `sigma`, or three, `sigma_x,sigma_y,sigma_z`, hold standard deviations (mm).
+/// Throws std::invalid_argument with file and line where a standard deviation is less than smallest_noise, and where a
+/// line does not parse or is not finite, or the frame is not named; with the file where it cannot be read or holds no
+/// measurement.
 CraniotomyLoad read_craniotomy_csv(const std::filesystem::path& file);
 
 /// Writes the same, in LPS; numbers survive unchanged. Throws std::runtime_error when it cannot be written whole.

@@ -14,6 +14,7 @@
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/load/extension.hpp"
 #include "solve/load/load_options.hpp"
+#include "solve/load/near_surface.hpp"
 
 namespace brainshift::solve {
 namespace {
@@ -44,50 +45,8 @@ std::vector<Eigen::Index> surface_nodes(const NodeCloud& cloud) {
   return nodes;
 }
 
-struct Neighbour {
-  Eigen::Index row;
-  double distance;
-};
-
 double distance_to(const PointTree& points, const Eigen::RowVector3d& place) {
   return std::sqrt(points.nearest(place.data()).second);
-}
-
-/// The measured point that lies farthest from any surface node.
-Neighbour farthest_point(const Points& measured, const PointTree& surface) {
-  Neighbour farthest{0, 0};
-  for (Eigen::Index p = 0; p < measured.rows(); ++p) {
-    const double distance = distance_to(surface, measured.row(p));
-    if (distance > farthest.distance) {
-      farthest = {p, distance};
-    }
-  }
-  return farthest;
-}
-
-std::string rounded(double number) {
-  const std::string text = std::to_string(number);
-  return text.substr(0, text.find('.') + 2);
-}
-
-void check_near_surface(const Points& measured, const PointTree& surface, double farthest_allowed) {
-  const Neighbour worst = farthest_point(measured, surface);
-  if (worst.distance <= farthest_allowed) {
-    return;
-  }
-  const Eigen::RowVector3d p = measured.row(worst.row);
-  Points flipped = measured;
-  flipped.leftCols(2) *= -1;
-  const double distance_flipped = farthest_point(flipped, surface).distance;
-  std::string hint = "are image and load in the same frame?";
-  if (distance_flipped <= farthest_allowed) {
-    hint = "with x and y flipped all points lie within " + rounded(distance_flipped) +
-           " mm: RAS was most likely taken for LPS, or LPS for RAS";
-  }
-  throw std::invalid_argument(
-      "load: measured point " + std::to_string(worst.row + 1) + " of " + std::to_string(measured.rows()) + " at (" +
-      rounded(p.x()) + ", " + rounded(p.y()) + ", " + rounded(p.z()) + ") LPS is " + rounded(worst.distance) +
-      " mm from the nearest surface node, " + rounded(farthest_allowed) + " mm are allowed; " + hint);
 }
 
 /// A plane with two axes in it and its normal.
@@ -157,7 +116,7 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
   const std::vector<Eigen::Index> nodes = surface_nodes(cloud);
   const Points surface = cloud.positions(nodes, Eigen::all);
   const PointTree surface_tree(surface);
-  check_near_surface(load.positions, surface_tree, options.farthest);
+  check_near_surface(load.positions, surface, options.farthest);
   check_moved(load.displacement, surface);
   const double margin =
       options.margin >= 0 ? options.margin : default_margin(load.positions, cloud, nodes, surface_tree);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "solve/boundary/contact.hpp"
@@ -86,6 +87,79 @@ TEST(EssentialConditions, RefuseTwoNodesThatSayTheSame) {
   }
   EssentialConditions conditions(prescribed, same, names(prescribed));
   EXPECT_THROW(conditions.factorise(cloud.mass), std::invalid_argument);
+}
+
+/// Every fifth node is measured, for itself; and a point inside.
+struct MeasuredBox : WeightedBox {
+  Points prescribed = Points::Constant(nodes.positions.rows(), 3, std::nan(""));
+  Measurement measured;
+  ShapeRows inner;
+
+  explicit MeasuredBox(double sigma) {
+    std::vector<Eigen::Triplet<double>> share;
+    for (Eigen::Index a = 0; a < prescribed.rows(); a += 5) {
+      prescribed.row(a) << 1, 0.5, -2;
+      share.emplace_back(static_cast<int>(a), static_cast<int>(share.size()), 1.0);
+    }
+    const auto points = static_cast<Eigen::Index>(share.size());
+    measured.spread.resize(prescribed.rows(), points);
+    measured.spread.setFromTriplets(share.begin(), share.end());
+    measured.sigma = sigma * (Points::Ones(points, 3) + random_points(static_cast<int>(points), 1));
+    measured.inner = Points::Constant(1, 3, side / 2);
+    measured.inner_displacement = Points::Constant(1, 3, 3);
+    measured.inner_sigma = Points::Constant(1, 3, sigma);
+    measured.weight = 1;
+    inner = shape.evaluate(measured.inner, false);
+  }
+};
+
+TEST(MeasuredConditions, AreTheExactOnesAsTheNoiseVanishes) {
+  MeasuredBox box(1e-6);
+  EssentialConditions soft(box.prescribed, box.rows, names(box.prescribed), box.measured, box.inner);
+  soft.factorise(box.mass, 3);
+  NodalVectors u = box.random_parameters(3);
+  soft.apply(1, u);
+  EXPECT_LE(soft.largest_error(1, u), 1e-5);
+}
+
+TEST(MeasuredConditions, GiveWayByVarianceTimesForceOverWeight) {
+  constexpr double alpha = 3, weight = 1e6;  // of 1 mJ, µN mm
+  MeasuredBox box(800);
+  EssentialConditions soft(box.prescribed, box.rows, names(box.prescribed), box.measured, box.inner);
+  soft.factorise(box.mass, alpha);
+  NodalVectors u = box.random_parameters(3);
+  soft.apply(0.7, u);
+  const Points force = soft.reactions(alpha, box.nodes.size()), displacement = box.displacement(u);
+  double largest = 0;
+  for (Eigen::Index p = 0; p < box.measured.sigma.rows(); ++p) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double residual = 0.7 * box.prescribed(5 * p, axis) - displacement(5 * p, axis);
+      const double given = std::pow(box.measured.sigma(p, axis), 2) * force(5 * p, axis) / weight;
+      EXPECT_NEAR(residual, given, 1e-9);
+      largest = std::max(largest, std::abs(residual));
+    }
+  }
+  EXPECT_GT(largest, 0.01);
+}
+
+TEST(MeasuredConditions, AddTheirSpringsToTheStiffnessOfAStep) {
+  constexpr double alpha = 3, weight = 1e6;
+  MeasuredBox box(800);
+  box.measured.inner = box.measured.inner_displacement = box.measured.inner_sigma = Points(0, 3);
+  EssentialConditions soft(box.prescribed, box.rows, names(box.prescribed), box.measured, {});
+  soft.factorise(box.mass, alpha);
+  NodalVectors first = box.random_parameters(1), second = box.random_parameters(2);
+  soft.apply(0.5, first);
+  soft.apply(1, first);
+  EXPECT_EQ(soft.spring_work(first, first), 0);  // the load came on
+  soft.apply(1, first);
+  soft.apply(1, second);
+  const Points moved = box.displacement(second) - box.displacement(first);
+  double work = 0;
+  for (Eigen::Index p = 0; p < box.measured.sigma.rows(); ++p) {
+    work += alpha * weight * moved.row(5 * p).cwiseQuotient(box.measured.sigma.row(p)).squaredNorm();
+  }
+  EXPECT_NEAR(soft.spring_work(first, second), work, 1e-6 * work);
 }
 
 }  // namespace brainshift::solve::essential_conditions_test

@@ -86,4 +86,28 @@ TEST(CraniotomyCsv, SaysWhichFileCannotBeWritten) {
   EXPECT_THROW(write_craniotomy_csv("/dev/full", load), std::runtime_error);
 }
 
+TEST(CraniotomyCsv, TakesOneStandardDeviationAPointOrThreeAndGivesThemBack) {
+  const ScratchFolder folder;
+  const auto one = read_craniotomy_csv(
+      folder.write("one.csv", "# frame: RAS\nx,y,z,ux,uy,uz,sigma\n1,2,3,4,5,6,0.5\n1,2,4,4,5,6,1e-6\n"));
+  EXPECT_EQ(one.sigma.row(0), Eigen::RowVector3d(0.5, 0.5, 0.5));
+  const auto three = read_craniotomy_csv(
+      folder.write("three.csv", "# frame: RAS\nx,y,z,ux,uy,uz,sigma_x,sigma_y,sigma_z\n1,2,3,4,5,6,0.5,0.25,2\n"));
+  EXPECT_EQ(three.sigma.row(0), Eigen::RowVector3d(0.5, 0.25, 2));
+  write_craniotomy_csv(folder / "again.csv", three);
+  EXPECT_EQ(read_craniotomy_csv(folder / "again.csv").sigma, three.sigma);
+}
+
+TEST(CraniotomyCsv, RefusesAStandardDeviationThatIsNoneAndNamesTheLine) {
+  const ScratchFolder folder;
+  for (const std::string sigma : {"0", "-1", "1e-7", "", "nan", "much"}) {
+    const auto file =
+        folder.write("bad.csv", "# frame: LPS\nx,y,z,ux,uy,uz,sigma\n1,2,3,4,5,6,1\n1,2,3,4,5,6," + sigma + "\n");
+    const std::string fault = refusal([&] { read_craniotomy_csv(file); });
+    EXPECT_NE(fault.find("bad.csv:4:"), std::string::npos) << sigma << " -> " << fault;
+  }
+  const auto file = folder.write("two.csv", "# frame: LPS\nx,y,z,ux,uy,uz,sigma_x,sigma_y\n1,2,3,4,5,6,1,1\n");
+  EXPECT_NE(refusal([&] { read_craniotomy_csv(file); }).find("sigma_z"), std::string::npos);
+}
+
 }  // namespace brainshift::solve::craniotomy_csv_test

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/patient_registration.hpp"
+
+#include <Eigen/Geometry>
+
+namespace brainshift::pipelines {
+namespace {
+
+/// The small motion of a fit as a rigid one.
+solve::RigidMotion motion_of(const solve::MeasuredFit& fit) {
+  const Eigen::Vector3d turn = fit.motion.tail<3>() / fit.motion_size;
+  solve::RigidMotion motion;
+  if (turn.norm() > 0) {
+    motion.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  }
+  motion.translation = fit.motion.head<3>() + fit.motion_centre - motion.rotation * fit.motion_centre;
+  return motion;
+}
+
+}  // namespace
+
+solve::RigidMotion patient_registration(const solve::CraniotomyLoad& load, const solve::SolveOptions& options,
+                                        const std::function<void(const solve::CraniotomyLoad&, solve::Model&)>& impose,
+                                        solve::Model& model) {
+  constexpr int most_rounds = 6;
+  constexpr double at_rest = 0.01;  // mm
+  solve::RigidMotion whole = solve::fit_rigid(load.positions, load.positions + load.displacement, load.sigma);
+  for (int round = 0; round < most_rounds; ++round) {
+    impose(solve::registered(load, whole), model);
+    model.conditions.measured->registration_unknown = true;
+    const solve::MeasuredFit fit = solve::fit_measured(model, options);
+    if (fit.motion.cwiseAbs().maxCoeff() <= at_rest) {
+      break;
+    }
+    const solve::RigidMotion more = motion_of(fit);
+    whole = {whole.rotation * more.rotation, whole.rotation * more.translation + whole.translation};
+  }
+  return whole;
+}
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include "solve/load/rigid_fit.hpp"
+#include "solve/run/measured.hpp"
+
+namespace brainshift::pipelines {
+
+/// The rigid transform T between image and tracker that a load with noise tells: what is measured at y lies at T⁻¹ y in
+/// the frame of the image. Begins with the best fit of the points and goes on by the motion that fit_measured() finds
+/// beside the deformation, until it rests. impose: sets the conditions of the model from a load.
+solve::RigidMotion patient_registration(const solve::CraniotomyLoad& load, const solve::SolveOptions& options,
+                                        const std::function<void(const solve::CraniotomyLoad&, solve::Model&)>& impose,
+                                        solve::Model& model);
+
+}  // namespace brainshift::pipelines

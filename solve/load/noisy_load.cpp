@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/load/noisy_load.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "segmentation/geometry/point_tree.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+CraniotomyLoad rows_of(const CraniotomyLoad& load, const std::vector<Eigen::Index>& rows) {
+  return {load.positions(rows, Eigen::all), load.displacement(rows, Eigen::all), load.sigma(rows, Eigen::all)};
+}
+
+using Cell = std::array<double, 3>;
+
+std::map<Cell, std::vector<Eigen::Index>> cells_of(const Points& positions, double edge) {
+  std::map<Cell, std::vector<Eigen::Index>> cells;
+  for (Eigen::Index p = 0; p < positions.rows(); ++p) {
+    const Eigen::RowVector3d x = positions.row(p);
+    const Eigen::RowVector3d at = edge > 0 ? (x / edge).array().floor().matrix().eval() : x;
+    cells[{at[0], at[1], at[2]}].push_back(p);
+  }
+  return cells;
+}
+
+CraniotomyLoad means_of(const CraniotomyLoad& load, const std::map<Cell, std::vector<Eigen::Index>>& cells) {
+  CraniotomyLoad joint{Points::Zero(static_cast<Eigen::Index>(cells.size()), 3), {}, {}};
+  joint.displacement = joint.sigma = joint.positions;
+  Eigen::Index row = 0;
+  for (const auto& [cell, members] : cells) {
+    const Points weight = load.sigma(members, Eigen::all).array().square().inverse();
+    const Eigen::RowVector3d total = weight.colwise().sum();
+    const Points u = load.displacement(members, Eigen::all);
+    joint.positions.row(row) = load.positions(members, Eigen::all).colwise().mean();
+    joint.displacement.row(row) = weight.cwiseProduct(u).colwise().sum().cwiseQuotient(total);
+    joint.sigma.row(row) = total.cwiseInverse().cwiseSqrt();
+    ++row;
+  }
+  return joint;
+}
+
+/// Depth below the surface about the nearest surface nodes, along the normal of their plane; negative outside.
+double depth_below(const Points& rim, const PointTree& tree, const Eigen::RowVector3d& middle,
+                   const Eigen::RowVector3d& x) {
+  std::array<std::size_t, 7> row{};
+  std::array<double, 7> squared{};
+  const std::size_t count = tree.nearest(x.data(), row.size(), row.data(), squared.data());
+  Points near(static_cast<Eigen::Index>(count), 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    near.row(static_cast<Eigen::Index>(i)) = rim.row(static_cast<Eigen::Index>(row[i]));
+  }
+  const Eigen::RowVector3d centre = near.colwise().mean();
+  const Points about = near.rowwise() - centre;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(about.transpose() * about);
+  Eigen::RowVector3d outward = spread.eigenvectors().col(0).transpose();
+  outward *= outward.dot(centre - middle) < 0 ? -1 : 1;
+  return (centre - x).dot(outward);
+}
+
+/// Which points lie inside the brain.
+std::vector<Eigen::Index> inner_points(const NodeCloud& cloud, const CraniotomyLoad& load) {
+  std::vector<Eigen::Index> surface;
+  for (std::size_t a = 0; a < cloud.size(); ++a) {
+    if (cloud.on_surface[a] != 0) {
+      surface.push_back(static_cast<Eigen::Index>(a));
+    }
+  }
+  const Points rim = cloud.positions(surface, Eigen::all);
+  const PointTree nodes(cloud.positions), outer(rim);
+  const Eigen::RowVector3d middle = cloud.positions.colwise().mean();
+  std::vector<Eigen::Index> inner;
+  for (Eigen::Index p = 0; p < load.positions.rows() && !surface.empty(); ++p) {
+    const Eigen::RowVector3d x = load.positions.row(p);
+    if (!x.allFinite()) {
+      continue;  // prescribed_on_surface_nodes() refuses it
+    }
+    const auto [near, squared] = nodes.nearest(x.data());
+    const bool in_cloud = std::sqrt(squared) <= 1.5 * cloud.spacing[near];
+    if (in_cloud && depth_below(rim, outer, middle, x) > cortex_depth) {
+      inner.push_back(p);
+    }
+  }
+  return inner;
+}
+
+/// The share of each point of the cortex in what is prescribed at each node: what becomes of a displacement of 1 mm of
+/// this point alone, three points at once.
+Eigen::SparseMatrix<double> shares(const NodeCloud& cloud, const CraniotomyLoad& cortex,
+                                   const OpeningOptions& options) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index first = 0; first < cortex.positions.rows(); first += 3) {
+    CraniotomyLoad unit{cortex.positions, Points::Zero(cortex.positions.rows(), 3), {}};
+    for (Eigen::Index k = 0; k < std::min<Eigen::Index>(3, cortex.positions.rows() - first); ++k) {
+      unit.displacement(first + k, k) = 1;
+    }
+    const Points share = prescribed_on_surface_nodes(cloud, unit, options);
+    for (Eigen::Index a = 0; a < share.rows(); ++a) {
+      for (Eigen::Index k = 0; k < std::min<Eigen::Index>(3, cortex.positions.rows() - first); ++k) {
+        if (!std::isnan(share(a, k)) && share(a, k) != 0) {
+          entries.emplace_back(static_cast<int>(a), static_cast<int>(first + k), share(a, k));
+        }
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> spread(cloud.positions.rows(), cortex.positions.rows());
+  spread.setFromTriplets(entries.begin(), entries.end());
+  return spread;
+}
+
+}  // namespace
+
+CraniotomyLoad joined(const CraniotomyLoad& load, int most) {
+  constexpr double finest = 1;  // mm
+  std::map<Cell, std::vector<Eigen::Index>> cells = cells_of(load.positions, 0);
+  for (double edge = finest; static_cast<int>(cells.size()) > most; edge *= std::cbrt(2.0)) {
+    cells = cells_of(load.positions, edge);
+  }
+  return static_cast<Eigen::Index>(cells.size()) == load.positions.rows() ? load : means_of(load, cells);
+}
+
+Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options) {
+  if (load.sigma.rows() != load.positions.rows() || !(load.sigma.array() >= smallest_noise).all()) {
+    throw std::invalid_argument("load: each measured point needs a standard deviation of 0.000001 mm or more");
+  }
+  const std::vector<Eigen::Index> inside = inner_points(cloud, load);
+  std::vector<Eigen::Index> outside;
+  for (Eigen::Index p = 0, next = 0; p < load.positions.rows(); ++p) {
+    if (next < static_cast<Eigen::Index>(inside.size()) && inside[static_cast<std::size_t>(next)] == p) {
+      ++next;
+    } else {
+      outside.push_back(p);
+    }
+  }
+  Conditions conditions;
+  conditions.displacement = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+  Measurement& measured = conditions.measured.emplace();
+  measured.spread.resize(cloud.positions.rows(), 0);
+  if (!outside.empty()) {
+    const CraniotomyLoad cortex = joined(rows_of(load, outside), most_measured_points);
+    conditions.displacement = prescribed_on_surface_nodes(cloud, cortex, options);
+    measured.spread = shares(cloud, cortex, options);
+    measured.sigma = cortex.sigma;
+  }
+  const CraniotomyLoad inner = joined(rows_of(load, inside), most_measured_points);
+  measured.inner = inner.positions;
+  measured.inner_displacement = inner.displacement;
+  measured.inner_sigma = inner.sigma;
+  return conditions;
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "discretise/interface/node_cloud.hpp"
+#include "solve/interface/conditions.hpp"
+#include "solve/load/craniotomy_load.hpp"
+
+namespace brainshift::solve {
+
+/// Deeper than this below the plane of the nearest surface nodes a measured point is one inside the brain, mm; else it
+/// is one of the cortex.
+inline constexpr double cortex_depth = 5.0;
+
+/// Points beyond so many, of the cortex and inside each, are joined with their neighbours.
+inline constexpr int most_measured_points = 150;
+
+/// At most so many points: those in one cell of the finest cubic grid that suffices are joined to their weighted mean,
+/// whose variance is 1/Σ(1/σ²). All as they are where they are few enough and no two lie in one place.
+CraniotomyLoad joined(const CraniotomyLoad& load, int most);
+
+/// The conditions of a load with standard deviations. Points of the cortex are extended to the surface nodes under the
+/// opening, prescribed_on_surface_nodes(), with the share of each in each node; points inside are kept apart. Throws as
+/// that does; std::invalid_argument on a point without a standard deviation.
+Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options = {});
+
+}  // namespace brainshift::solve

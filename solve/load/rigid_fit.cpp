@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/load/rigid_fit.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace brainshift::solve {
+
+double RigidMotion::angle() const {
+  return Eigen::AngleAxisd(rotation).angle() * 180 / std::numbers::pi;
+}
+
+RigidMotion fit_rigid(const Points& from, const Points& to, const Points& sigma) {
+  Eigen::VectorXd weight = Eigen::VectorXd::Ones(from.rows());
+  if (sigma.rows() > 0) {
+    weight = sigma.rowwise().squaredNorm().cwiseInverse();
+  }
+  weight /= weight.sum();
+  const Eigen::RowVector3d centre = weight.transpose() * from, target = weight.transpose() * to;
+  const Eigen::Matrix3d moment = (from.rowwise() - centre).transpose() * weight.asDiagonal() * (to.rowwise() - target);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixV() * svd.matrixU().transpose()).determinant() > 0 ? 1 : -1;
+  RigidMotion motion;
+  motion.rotation = svd.matrixV() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixU().transpose();
+  motion.translation = target.transpose() - motion.rotation * centre.transpose();
+  return motion;
+}
+
+CraniotomyLoad registered(const CraniotomyLoad& load, const RigidMotion& motion) {
+  return {load.positions, motion.back(load.positions + load.displacement) - load.positions, load.sigma};
+}
+
+void write_rigid(const std::filesystem::path& file, const RigidMotion& motion) {
+  std::ofstream stream(file);
+  stream.precision(std::numeric_limits<double>::max_digits10);
+  stream << "#Insight Transform File V1.0\n#Transform 0\nTransform: AffineTransform_double_3_3\nParameters:";
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      stream << ' ' << motion.rotation(row, column);
+    }
+  }
+  stream << ' ' << motion.translation.transpose() << "\nFixedParameters: 0 0 0\n";
+  if (!stream.flush()) {
+    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+  }
+}
+
+}  // namespace brainshift::solve

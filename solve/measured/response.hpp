@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solve/body/body_parts.hpp"
+
+namespace brainshift::solve {
+
+/// How points of a body answer small forces on each other: G, (3m × 3m), mm/µN, with x, y and z of the first point
+/// first.
+struct Response {
+  Eigen::MatrixXd compliance;
+  /// (3m × 6) rigid motions of the points where nothing holds the body: then G is that of forces in balance, and moves
+  /// the body as a whole by nothing. (3m × 0) where it is held.
+  Eigen::MatrixXd rigid;
+  bool free = false;  ///< nothing holds the body
+};
+
+/// The six rigid motions at places, (3m × 6): moves along x, y, z by 1 mm, then turns about them through the centre of
+/// `about` by 1 mm a mean distance from it.
+Eigen::MatrixXd rigid_motions(const Points& places, const Points& about);
+
+/// G = Φ K⁻¹ Φᵀ with K the stiffness of the undeformed body, its patches' pressures constant, assembled and factorised
+/// whole: for clouds of some hundred nodes. at_points: shape functions at the points. touches: the surface is held
+/// along its normal where nothing is prescribed, as a skull around it would. Prescribed nodes that no point has a share
+/// in are held.
+Response linear_response(const BodyParts& parts, const ShapeRows& at_points, bool touches);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solve/interface/result.hpp"
+#include "solve/measured/response.hpp"
+
+namespace brainshift::solve {
+
+/// Chooses the weight s of the deformation's energy against the misfit by restricted maximum likelihood (Patterson &
+/// Thompson 1971): with exp(−W/s) as prior the displacements d at the points are Gaussian with covariance
+/// V = s G + diag(σ²), about a rigid motion that is not known where nothing holds the body, and
+///   log L = −½ (dᵀ P d + log|V| + log|Xᵀ V⁻¹ X|),  P = V⁻¹ − V⁻¹ X (Xᵀ V⁻¹ X)⁻¹ Xᵀ V⁻¹.
+/// s is searched where the prior's standard deviation at the points is between a tenth of the mean σ and ten times the
+/// largest |d|, unless a weight is given (mJ). displacement, sigma: (m × 3) mm, of the first m points of the response;
+/// of those behind them the covariance of the displacement is given, with noise and prior as large as what was measured
+/// says (noise_factor). Throws std::invalid_argument where the points do not fix a rigid motion.
+MeasuredFit choose_weight(const Response& response, const Points& displacement, const Points& sigma, double weight = 0);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/load/noisy_load.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/solve/clouds.hpp"
+
+namespace brainshift::solve::noisy_load_test {
+
+using test::refusal;
+
+constexpr double side = 60;
+
+/// Points on the upper face of a box and one in its middle.
+CraniotomyLoad face_and_middle() {
+  CraniotomyLoad load{Points(10, 3), Points::Zero(10, 3), Points::Constant(10, 3, 0.5)};
+  for (Eigen::Index p = 0; p < 9; ++p) {
+    load.positions.row(p) << 15 + 15.0 * static_cast<double>(p % 3), 15 + 15.0 * static_cast<double>(p / 3), side;
+    load.displacement.row(p) << 0.1 * static_cast<double>(p), 0, -2;
+  }
+  load.positions.row(9) << 30, 31, 29;
+  load.displacement.row(9) << 0, 0, -1;
+  return load;
+}
+
+TEST(NoisyLoad, PrescribesAtTheCortexWhatTheExactLoadDoesAndKeepsPointsInsideApart) {
+  const NodeCloud cloud = test::irregular_box(9, side);
+  const CraniotomyLoad load = face_and_middle();
+  const Conditions conditions = noisy_conditions(cloud, load);
+  const CraniotomyLoad cortex{load.positions.topRows(9), load.displacement.topRows(9)};
+  const Points exact = prescribed_on_surface_nodes(cloud, cortex);
+  ASSERT_TRUE(conditions.measured);
+  EXPECT_TRUE((conditions.displacement.array().isNaN() == exact.array().isNaN()).all());
+  EXPECT_TRUE((conditions.displacement.array().isNaN() || conditions.displacement.array() == exact.array()).all());
+  EXPECT_EQ(conditions.measured->inner, load.positions.bottomRows(1));
+  EXPECT_EQ(conditions.measured->inner_displacement, load.displacement.bottomRows(1));
+}
+
+TEST(NoisyLoad, SharesOfTheCortexAddUpToOneAndGiveBackWhatIsPrescribed) {
+  const NodeCloud cloud = test::irregular_box(9, side);
+  const CraniotomyLoad load = face_and_middle();
+  const Conditions conditions = noisy_conditions(cloud, load);
+  const Eigen::MatrixXd spread = conditions.measured->spread;
+  const Points shared = spread * load.displacement.topRows(9);
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    EXPECT_NEAR(spread.row(a).sum(), conditions.is_prescribed(a) ? 1 : 0, 0.05);
+    if (conditions.is_prescribed(a)) {
+      EXPECT_LT((shared.row(a) - conditions.displacement.row(a)).norm(), 0.1);
+    }
+  }
+}
+
+TEST(NoisyLoad, JoinsPointsInOnePlaceAndTooManyByTheirVariances) {
+  CraniotomyLoad load{Points::Zero(3, 3), Points(3, 3), Points(3, 3)};
+  load.positions(2, 0) = 40;
+  load.displacement << 0, 0, 0, 5, 5, 5, 7, 7, 7;
+  load.sigma << 1, 1, 1, 2, 2, 2, 3, 3, 3;
+  const CraniotomyLoad joint = joined(load, 100);
+  ASSERT_EQ(joint.positions.rows(), 2);
+  EXPECT_NEAR(joint.displacement(0, 1), 1, 1e-12);  // (0/1 + 5/4) / (1 + 1/4)
+  EXPECT_NEAR(joint.sigma(0, 1), std::sqrt(0.8), 1e-12);
+  CraniotomyLoad many{test::random_points(100000, 100), Points::Ones(100000, 3), Points::Ones(100000, 3)};
+  const CraniotomyLoad few = joined(many, most_measured_points);
+  EXPECT_LE(few.positions.rows(), most_measured_points);
+  EXPECT_GT(few.positions.rows(), most_measured_points / 4);
+  EXPECT_NEAR(few.sigma.col(0).cwiseAbs2().cwiseInverse().sum(), 100000, 1e-6);
+}
+
+TEST(NoisyLoad, RefusesAPointOutsideTheHeadAndOneWithoutStandardDeviation) {
+  const NodeCloud cloud = test::irregular_box(9, side);
+  CraniotomyLoad load = face_and_middle();
+  load.positions.row(9) << 30, 30, side + 25;
+  EXPECT_NE(refusal([&] { noisy_conditions(cloud, load); }).find("measured point 10 of 10"), std::string::npos);
+  load = face_and_middle();
+  load.sigma(3, 1) = 0;
+  EXPECT_NE(refusal([&] { noisy_conditions(cloud, load); }).find("standard deviation"), std::string::npos);
+}
+
+}  // namespace brainshift::solve::noisy_load_test

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/measured/response.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "solve/quadrature/cell_points.hpp"
+#include "solve/shape/shape_functions.hpp"
+#include "tests/unit/solve/models.hpp"
+
+namespace brainshift::solve::response_test {
+
+/// Parts of a cube with linear shape functions, and its shape functions at some nodes.
+struct Parts {
+  Model model = box_model(test::box_cells(6, model_side));
+  BodyParts parts;
+  std::vector<std::int32_t> at = {24, 171, 310};
+
+  explicit Parts(bool held) {
+    model.materials[1].poisson_ratio = 0.3;
+    for (Eigen::Index a = 0; held && a < model.cloud.positions.rows(); ++a) {
+      if (model.cloud.positions(a, 2) < 1e-9) {
+        model.conditions.displacement.row(a).setZero();
+      }
+    }
+    parts.cloud = order_nodes(model.cloud, model.conditions);
+    const ShapeFunctions shape(parts.cloud.positions, parts.cloud.spacing, {.basis = Basis::linear});
+    parts.points = integration_points(model.cells, 8, nullptr, {1});
+    parts.point_rows = shape.evaluate(parts.points.positions, true);
+    parts.nodal_rows = shape.evaluate(parts.cloud.positions, false);
+    parts.materials = material_table(model.materials, parts.points.label);
+    parts.patches.order.resize(parts.points.size());
+    std::iota(parts.patches.order.begin(), parts.patches.order.end(), 0);
+    parts.patches.begin.resize(parts.points.size() + 1);
+    std::iota(parts.patches.begin.begin(), parts.patches.begin.end(), 0);
+  }
+  ShapeRows rows() const { return rows_at(parts.nodal_rows, at); }
+};
+
+TEST(LinearResponse, IsWhatTheSolverAnswersToASmallForce) {
+  Parts box(true);
+  const Response response = linear_response(box.parts, box.rows(), false);
+  EXPECT_FALSE(response.free);
+  EXPECT_LT((response.compliance - response.compliance.transpose()).norm(), 1e-9 * response.compliance.norm());
+  const auto pushed = static_cast<Eigen::Index>(box.parts.cloud.original[171]);
+  box.model.conditions.force = Points::Zero(box.model.cloud.positions.rows(), 3);
+  box.model.conditions.force(pushed, 0) = 1e-5;  // N
+  const SolveResult result = solve(box.model, {.shape = {.basis = Basis::linear},
+                                               .volumetric = Volumetric::pointwise,
+                                               .integration = Integration::plain,
+                                               .tolerance = 1e-5});
+  ASSERT_TRUE(result.failure.empty()) << result.failure;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto node = box.parts.cloud.original[static_cast<std::size_t>(box.at[static_cast<std::size_t>(i)])];
+    const Eigen::Vector3d moved = result.solution.displacement.row(node);
+    const Eigen::Vector3d expected = 10 * response.compliance.block<3, 1>(3 * i, 3);  // 10 µN
+    EXPECT_LT((moved - expected).norm(), 0.03 * response.compliance(3, 3) * 10) << i;
+  }
+}
+
+TEST(LinearResponse, OfAFreeBodyMovesItNotAsAWhole) {
+  const Parts box(false);
+  const Response response = linear_response(box.parts, box.rows(), false);
+  EXPECT_TRUE(response.free);
+  EXPECT_EQ(response.rigid.cols(), 6);
+  EXPECT_GT(response.compliance.diagonal().minCoeff(), 0);
+  const Parts held(true);
+  EXPECT_LT(response.compliance(8, 8), 2 * linear_response(held.parts, held.rows(), false).compliance(8, 8));
+}
+
+}  // namespace brainshift::solve::response_test

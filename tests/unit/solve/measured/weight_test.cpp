@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/measured/weight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/solve/clouds.hpp"
+
+namespace brainshift::solve::weight_test {
+
+constexpr double millijoule = 1e6;
+
+/// Points whose displacements are alike over 40 mm, each component for itself.
+Response smooth_response(const Points& places) {
+  const Eigen::Index m = places.rows();
+  Response response{Eigen::MatrixXd::Zero(3 * m, 3 * m), Eigen::MatrixXd(3 * m, 0), false};
+  for (Eigen::Index a = 0; a < m; ++a) {
+    for (Eigen::Index b = 0; b < m; ++b) {
+      const double near = std::exp(-(places.row(a) - places.row(b)).squaredNorm() / (2 * 40 * 40));
+      response.compliance.block<3, 3>(3 * a, 3 * b).diagonal().setConstant(1e-3 * near);
+    }
+  }
+  return response;
+}
+
+Eigen::VectorXd normals(Eigen::Index size, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd values(size);
+  for (double& value : values) {
+    value = normal(random);
+  }
+  return values;
+}
+
+/// Drawn from the prior of weight s.
+Points drawn(const Response& response, double s, std::mt19937& random) {
+  Eigen::MatrixXd covariance = s * response.compliance;
+  covariance.diagonal().array() += 1e-9 * covariance.diagonal().mean();
+  const Eigen::VectorXd u = covariance.llt().matrixL() * normals(covariance.rows(), random);
+  return Eigen::Map<const Points>(u.data(), u.size() / 3, 3);
+}
+
+TEST(Weight, IsFoundFromDisplacementsThatWereDrawnWithIt) {
+  std::mt19937 random(1);
+  const Points places = test::random_points(40, 100);
+  const Response response = smooth_response(places);
+  for (const double s : {1e2, 1e4}) {  // µN mm: standard deviations of 0.3 and 3 mm
+    double mean = 0;
+    for (int draw = 0; draw < 5; ++draw) {
+      const Points noise = Eigen::Map<const Points>(normals(120, random).data(), 40, 3);
+      const MeasuredFit fit =
+          choose_weight(response, drawn(response, s, random) + 0.2 * noise, Points::Constant(40, 3, 0.2));
+      mean += std::log(millijoule * fit.weight / s) / 5;
+      EXPECT_NEAR(fit.noise_factor, 1, 0.25);
+    }
+    EXPECT_LT(std::abs(mean), std::log(2)) << s;
+  }
+}
+
+TEST(Weight, TradesMisfitAgainstEnergy) {
+  std::mt19937 random(2);
+  const Points places = test::random_points(20, 100);
+  const Response response = smooth_response(places);
+  const MeasuredFit fit = choose_weight(response, drawn(response, 1e4, random), Points::Constant(20, 3, 0.5));
+  ASSERT_GT(fit.weights.size(), 10U);
+  for (std::size_t i = 1; i < fit.weights.size(); ++i) {
+    EXPECT_GT(fit.weights[i].weight, fit.weights[i - 1].weight);
+    EXPECT_LE(fit.weights[i].misfit, fit.weights[i - 1].misfit);
+    EXPECT_GE(fit.weights[i].energy, fit.weights[i - 1].energy);
+  }
+  const MeasuredFit given = choose_weight(response, drawn(response, 1e4, random), Points::Constant(20, 3, 0.5), 0.25);
+  EXPECT_EQ(given.weight, 0.25);
+  EXPECT_TRUE(given.weights.empty());
+}
+
+TEST(Weight, EllipsoidsHoldTheTruthAsOftenAsTheySay) {
+  std::mt19937 random(3);
+  constexpr int known = 15, asked = 10, draws = 40;
+  const Points places = test::random_points(known + asked, 100);
+  const Response response = smooth_response(places);
+  int inside = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    const Points truth = drawn(response, 1e4, random);
+    const Points noise = 0.5 * Eigen::Map<const Points>(normals(3 * known, random).data(), known, 3);
+    const MeasuredFit fit = choose_weight(response, truth.topRows(known) + noise, Points::Constant(known, 3, 0.5));
+    Eigen::MatrixXd v = millijoule * fit.weight * response.compliance.topLeftCorner(3 * known, 3 * known);
+    v.diagonal().array() += 0.25;
+    const Points measured = truth.topRows(known) + noise;
+    const Eigen::VectorXd push = v.llt().solve(Eigen::Map<const Eigen::VectorXd>(measured.data(), 3 * known));
+    for (int a = 0; a < asked; ++a) {
+      const Eigen::Vector3d mean =
+          millijoule * fit.weight * response.compliance.block(3 * (known + a), 0, 3, 3 * known) * push;
+      const Eigen::VectorXd c = fit.covariance.row(a);
+      const Eigen::Matrix3d covariance{{c[0], c[3], c[5]}, {c[3], c[1], c[4]}, {c[5], c[4], c[2]}};
+      const Eigen::Vector3d error = truth.row(known + a).transpose() - mean;
+      inside += error.dot(covariance.llt().solve(error)) <= 7.815 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(inside, 0.90 * draws * asked);
+  EXPECT_LE(inside, 0.99 * draws * asked);
+}
+
+TEST(Weight, FindsARigidMotionBesideTheDeformation) {
+  std::mt19937 random(4);
+  const Points places = test::random_points(12, 100);
+  Response response = smooth_response(places);
+  response.compliance *= 1e-3;
+  response.rigid = rigid_motions(places, places);
+  Eigen::VectorXd motion(6);
+  motion << 3, -2, 1, 0.5, 0, -1;
+  const Eigen::VectorXd moved = response.rigid * motion;
+  const Points d = Eigen::Map<const Points>(moved.data(), 12, 3);
+  const MeasuredFit fit = choose_weight(response, d, Points::Constant(12, 3, 0.5));
+  EXPECT_LT((fit.motion - motion).norm(), 1e-6);
+  EXPECT_GT(fit.motion_deviation.minCoeff(), 0);
+}
+
+TEST(Weight, IsRefusedWherePointsDoNotFixARigidMotion) {
+  const Points places = test::random_points(2, 100);
+  Response response = smooth_response(places);
+  response.rigid = rigid_motions(places, places);
+  EXPECT_NE(
+      test::refusal([&] { choose_weight(response, Points::Ones(2, 3), Points::Ones(2, 3)); }).find("three or more"),
+      std::string::npos);
+}
+
+}  // namespace brainshift::solve::weight_test
