@@ -2,12 +2,14 @@
 #include <cerrno>
 #include <iostream>
 #include <memory>
+#include <tuple>
 
 #include "pipelines/after/after_run.hpp"
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/explain_scene.hpp"
+#include "pipelines/scene/new_scene.hpp"
 #include "pipelines/scene/options_page.hpp"
 #include "pipelines/scene/parse_scene.hpp"
 
@@ -19,6 +21,8 @@ struct SceneArguments {
   std::filesystem::path explain;
   bool defaults = false;
   bool options = false;
+  bool make = false;
+  FilesAtHand files;
   std::filesystem::path after;
   std::optional<double> within;
   std::vector<std::string> overrides;
@@ -35,6 +39,14 @@ void look_at_scene(const SceneArguments& arguments, const Settings& settings) {
     std::cout << default_scene();
   } else if (arguments.options) {
     std::cout << options_page();
+  } else if (arguments.make) {
+    const NewScene scene = new_scene(arguments.files);
+    std::cout << scene.text;
+    for (const std::string& sentence : scene.taken) {
+      if (!settings.quiet) {
+        std::cerr << sentence << "\n";
+      }
+    }
   } else if (!arguments.check.empty()) {
     checked(arguments.check, arguments.overrides);
     if (!settings.quiet) {
@@ -59,6 +71,21 @@ void look_at_scene(const SceneArguments& arguments, const Settings& settings) {
   }
 }
 
+void add_files_at_hand(CLI::App& command, CLI::Option& make, FilesAtHand& files) {
+  const std::tuple<const char*, std::filesystem::path&, const char*> images[] = {
+      {"--t1", files.t1, "the preoperative image"},
+      {"--labels", files.labels, "its label map"},
+      {"--brain-mask", files.brain_mask, "or a mask of its brain; a T1 without its skull is its own"},
+      {"--tumour", files.tumour, "a label map of the tumour"}};
+  for (const auto& [name, file, help] : images) {
+    command.add_option(name, file, help)->type_name("FILE")->needs(&make);
+  }
+  command.add_option("--points", files.points, "markups or surfaces before and after, or craniotomy.csv")
+      ->type_name("FILE")
+      ->expected(1, 2)
+      ->needs(&make);
+}
+
 }  // namespace
 
 void add_scene_command(CLI::App& program, const Settings& settings) {
@@ -70,6 +97,8 @@ void add_scene_command(CLI::App& program, const Settings& settings) {
       what->add_option("--explain", arguments->explain, "which parts are active and what they cost")->type_name("FILE");
   what->add_flag("--defaults", arguments->defaults, "a commented scene with every option");
   what->add_flag("--options", arguments->options, "every option with its range, unit and default, as a page");
+  CLI::Option* make = what->add_flag("--new", arguments->make, "a short scene of the files at hand");
+  add_files_at_hand(*command, *make, arguments->files);
   CLI::Option* after =
       command
           ->add_option("--after", arguments->after,

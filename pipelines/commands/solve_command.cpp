@@ -187,6 +187,10 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
       ->allow_extra_args(false);
   command->add_option("--labels", arguments->job.labels, "label map; without it the cells' labels count")
       ->type_name("FILE");
+  command
+      ->add_option("--surface", arguments->job.surface,
+                   "the body's closed surface, that of discretise: free faces then carry no force, whatever the cells")
+      ->type_name("FILE");
   command->add_option("--skull", arguments->job.skull, "the skull's inner surface, for contact")->type_name("FILE");
   command
       ->add_option("--plane", arguments->plane,

@@ -120,6 +120,10 @@ json displacement(PageContent& content) {
           {"surfaces", figures_of(content.surfaces)}};
 }
 
+json labels_of(PageContent& content) {
+  return content.labels.empty() ? json(false) : json{{"figures", figures_of(content.labels)}};
+}
+
 json measures_of(const std::vector<MeasureRow>& rows) {
   constexpr std::array<const char*, 3> words = {"within", "OUTSIDE", ""};
   json list = json::array();
@@ -184,6 +188,7 @@ std::string make_page(PageContent content) {
                                  {"tiles", tiles(content, stages, measures)},
                                  {"comparison", comparison(content.comparisons, content.blink)},
                                  {"displacement", displacement(content)},
+                                 {"labels", labels_of(content)},
                                  {"measures", measures_of(measures)},
                                  {"convergence", convergence(content)},
                                  {"stages", stages_of(stages)},

@@ -58,9 +58,13 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
   content.blink = 3 * most_telling_plane(view);
   std::vector<std::future<std::vector<Figure>>> comparisons;
   std::vector<std::future<Figure>> displacements;
+  std::vector<std::future<Figure>> labels;
   for (const SlicePlane& plane : view.planes) {
     if (run.t1 && run.warped) {
       comparisons.push_back(std::async(std::launch::async, [&] { return comparison_figures(run, view, plane); }));
+    }
+    if (run.labels) {
+      labels.push_back(std::async(std::launch::async, [&] { return labels_figure(run, view, plane); }));
     }
     displacements.push_back(std::async(std::launch::async, [&] { return displacement_figure(run, view, plane); }));
   }
@@ -72,6 +76,9 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
   }
   for (auto& figure : displacements) {
     content.displacements.push_back(figure.get());
+  }
+  for (auto& figure : labels) {
+    content.labels.push_back(figure.get());
   }
 }
 
@@ -87,7 +94,8 @@ void write_report(const fs::path& run_folder, const fs::path& out, const Progres
   if (run.brain && run.solution) {
     draw_pictures(run, content, progress);
   }
-  for (const std::vector<Figure>* figures : {&content.comparisons, &content.displacements, &content.surfaces}) {
+  for (const std::vector<Figure>* figures :
+       {&content.comparisons, &content.displacements, &content.labels, &content.surfaces}) {
     for (const Figure& figure : *figures) {
       write_bytes(out / (figure.name + ".svg"), figure.svg);
     }

@@ -87,6 +87,9 @@ RunData read_run(const fs::path& run_folder) {
                          [](const fs::path& file) { return read_vector_image(file); });
   });
   run.warped = read_if_there(run_folder / "register/warped.nii.gz", image);
+  const auto label_map = [](const fs::path& file) { return read_label_map(file); };
+  run.labels = read_if_there(run_folder / "segment/labels.nii.gz", label_map);
+  run.closed = read_if_there(run_folder / "segment/closed.nii.gz", label_map);
   run.brain = read_if_there(run_folder / "segment/brain.vtp", [](const fs::path& file) { return read_surface(file); });
   run.solution =
       read_if_there(run_folder / "solve/solution.vtu", [](const fs::path& file) { return read_solution(file); });

@@ -23,6 +23,8 @@ struct RunData {
   std::optional<Surface> brain;
   std::optional<Solution> solution;
   std::vector<solve::HistoryRow> history;
+  std::optional<LabelMap> labels = {};  ///< as the stages understood them
+  std::optional<LabelMap> closed = {};  ///< 1 where closing took in what no label called brain
 };
 
 /// Throws std::invalid_argument, naming the file, when the folder holds no run.json or something that cannot be read.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "register/warp/warp.hpp"
 #include "solve/output/field_difference.hpp"
@@ -69,6 +70,16 @@ Figure lettered(Sheet sheet, const std::string& title) {
                  {.fill = colour::white, .anchor = Anchor::centre, .halo = true});
   sheet.svg.text({10, 16}, title, {.size = 17, .fill = colour::white, .bold = true, .halo = true});
   return {.name = sheet.name, .width = sheet.width, .height = plane.height, .svg = std::move(sheet.svg).str()};
+}
+
+// What closing took in, as a label of the picture.
+constexpr std::int16_t taken_in = -1;
+
+// Far apart for labels that are near each other.
+Colour colour_of_label(std::int16_t label) {
+  constexpr Colour colours[] = {{150, 150, 150}, {240, 200, 90},  {80, 140, 255},  {230, 70, 70},
+                                {90, 220, 220},  {245, 245, 245}, {200, 140, 110}, {130, 210, 90}};
+  return label == taken_in ? Colour{255, 60, 220} : colours[static_cast<std::size_t>(label) % std::size(colours)];
 }
 
 bool in_opening(const View& view, const Vector3d& place) {
@@ -159,6 +170,33 @@ std::vector<Figure> comparison_figures(const RunData& run, const View& view, con
   figures.push_back(after_figure(view, plane, after, outline));
   figures.push_back(difference_figure(view, plane, before, after));
   return figures;
+}
+
+Figure labels_figure(const RunData& run, const View& view, const SlicePlane& plane) {
+  Canvas canvas =
+      run.t1 ? grey(view, plane, sample_slice(plane, *run.t1), 1) : Canvas(plane.width, plane.height, colour::black);
+  const double share = run.t1 ? 0.35 : 0.75;
+  std::set<std::int16_t> shown;
+  for (int y = 0; y < plane.height; ++y) {
+    for (int x = 0; x < plane.width; ++x) {
+      const Vector3d place = plane.world({x + 0.5, y + 0.5});
+      const bool closed = run.closed && label_at(*run.closed, place) != 0;
+      if (const std::int16_t label = closed ? taken_in : label_at(*run.labels, place); label != 0) {
+        canvas.at(x, y) = blend(canvas.at(x, y), colour_of_label(label), share);
+        shown.insert(label);
+      }
+    }
+  }
+  Sheet sheet(plane, "labels", "Labels as they were understood", canvas, 0);
+  sheet.svg.lines(cut_surface(plane, *run.brain), {.colour = preop_colour, .width = 1.2});
+  double line = 40;
+  for (const std::int16_t label : shown) {
+    const std::string name = label == taken_in ? "taken in" : "label " + std::to_string(label);
+    sheet.svg.rectangle({10, line - 6}, {12, 12}, colour_of_label(label));
+    sheet.svg.text({28, line}, name, {.fill = colour::white, .halo = true});
+    line += 18;
+  }
+  return lettered(std::move(sheet), plane.name);
 }
 
 double arrow_factor(const View& view) {

@@ -40,6 +40,10 @@ View make_view(const RunData& run);
 /// Before, after and difference in a plane; the run must have a T1 and a warped image.
 std::vector<Figure> comparison_figures(const RunData& run, const View& view, const SlicePlane& plane);
 
+/// The labels as the stages understood them, as colours over the T1 where there is one, and what closing took in; the
+/// run must have labels.
+Figure labels_figure(const RunData& run, const View& view, const SlicePlane& plane);
+
 /// The displacement in a plane as colours and arrows, over the T1 where there is one.
 Figure displacement_figure(const RunData& run, const View& view, const SlicePlane& plane);
 

@@ -2,12 +2,17 @@
 #include "pipelines/runner/jobs.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <set>
 #include <stdexcept>
 
 #include "pipelines/runner/measures.hpp"
+#include "pipelines/runner/patient_registration.hpp"
 #include "pipelines/runner/warnings.hpp"
 #include "register/files/warp_any.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/image/frame_note.hpp"
+#include "solve/load/noisy_load.hpp"
 #include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
@@ -74,6 +79,14 @@ void take_to_grid(std::optional<LabelMap>& map, const fs::path& file, const Imag
                   "; taken to it, the nearest label at each voxel");
 }
 
+void note_frames(const ImageInputs& image, std::vector<std::string>& notes) {
+  for (const fs::path& file : std::set<fs::path>{image.t1, image.labels, image.brain_mask}) {
+    if (const std::string note = frame_note(file); !note.empty()) {
+      notes.push_back("warning: " + file.string() + ": " + note);
+    }
+  }
+}
+
 /// What a table told of the labels, as the stage's options.
 void set_classes(const LabelMap& labels, bool tumour, segmentation::SegmentOptions& options) {
   namespace label = segmentation::default_label;
@@ -126,6 +139,79 @@ std::string load_files(const Load& load) {
   }
   const std::optional<BeforeAfter>& files = load.markups ? load.markups : load.surfaces;
   return files ? files->before.string() + " and " + files->after.string() : "";
+}
+
+/// Places and what the displacement there may be off by, mm².
+void write_covariance(const fs::path& file, const Points& places, const Eigen::MatrixXd& covariance) {
+  std::ofstream stream(file);
+  stream << "# frame: LPS\nx,y,z,xx,yy,zz,xy,yz,zx\n";
+  for (Eigen::Index row = 0; row < places.rows(); ++row) {
+    stream << places(row, 0) << ',' << places(row, 1) << ',' << places(row, 2);
+    for (const double entry : covariance.row(row)) {
+      stream << ',' << entry;
+    }
+    stream << '\n';
+  }
+  if (!stream.flush()) {
+    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+  }
+}
+
+/// As measured where standard deviations are known, else exactly.
+void impose(const solve::CraniotomyLoad& load, const Load& how, solve::Model& model) {
+  if (load.sigma.rows() == 0) {
+    model.conditions.displacement = solve::prescribed_on_surface_nodes(model.cloud, load, how.opening);
+    return;
+  }
+  Points force = std::move(model.conditions.force);
+  model.conditions = solve::noisy_conditions(model.cloud, load, how.opening);
+  model.conditions.measured->weight = how.weight;
+  model.conditions.force = std::move(force);
+}
+
+/// Then what is said of points of the cortex alone does not hold.
+bool has_inner_points(const solve::Model& model) {
+  return model.conditions.measured && model.conditions.measured->inner.rows() > 0;
+}
+
+void need_noise(const solve::CraniotomyLoad& load) {
+  if (load.sigma.rows() == 0) {
+    throw std::invalid_argument(
+        "an unknown registration needs to know how well the points were measured; give <load> a noise, or the file a "
+        "column sigma");
+  }
+  if (load.positions.rows() < 3) {
+    throw std::invalid_argument("an unknown registration needs three measured points that are not in line, found " +
+                                std::to_string(load.positions.rows()));
+  }
+}
+
+/// What a load with noise leaves beside the solution.
+void write_measured(const SolveInput& input, const solve::SolveResult& result, const fs::path& out, StageReport& said) {
+  if (!result.measures.measured) {
+    return;
+  }
+  const solve::MeasuredFit& fit = *result.measures.measured;
+  const solve::Measurement& measured = *input.model.conditions.measured;
+  if (measured.asked.rows() > 0) {
+    write_covariance(out / "uncertainty.csv", measured.asked, fit.covariance);
+  }
+  if (input.registration) {
+    solve::write_rigid(out / "registration_error.tfm", *input.registration);
+    said.measures["registration_angle_deg"] = input.registration->angle();
+    const Points& x = input.load->positions;
+    said.measures["registration_shift_mm"] = ((*input.registration)(x)-x).colwise().mean().norm();
+    const double doubt = fit.motion_deviation.maxCoeff();
+    said.measures["registration_deviation_mm"] = doubt;
+    if (!input.model.skull) {
+      said.notes.push_back(
+          "no skull holds the brain: all rigid motion that was measured counts as the patient's registration");
+    } else if (doubt > 1) {
+      said.notes.push_back("warning: the error of the registration is known to " + std::to_string(doubt) +
+                           " mm only; the points do not tell it from the brain's own motion: measure some inside the "
+                           "brain, or away from the opening");
+    }
+  }
 }
 
 void read_cuts(const SolveJob& job, solve::Model& model) {
@@ -186,6 +272,12 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
   } else if (input.labels) {
     take_to_grid(input.tumour_mask, tumour, input.labels->geometry, job.image.labels, notes);
   }
+  note_frames(job.image, notes);
+  if (input.t1 && input.labels) {
+    for (const std::string& warning : warnings_of(*input.t1, *input.labels, options.brain_labels)) {
+      notes.push_back("warning: " + warning);
+    }
+  }
   const fs::path& file = input.labels ? job.image.labels : input.surface ? job.image.surface : job.image.brain_mask;
   const segmentation::Segmentation result =
       naming(file.string(), [&] { return segmentation::segment(input, options, progress); });
@@ -225,14 +317,30 @@ SolveInput read_input(const SolveJob& job) {
   model.rupture = job.rupture;
   model.resection = job.resection;
   read_cuts(job, model);
+  if (!job.surface.empty()) {
+    model.boundary = read_surface(job.surface);
+  }
   if (!job.skull.empty()) {
     model.skull = read_surface(job.skull);
   }
   if (job.load) {
     input.load = read_load(*job.load, job.surface);
-    model.conditions.displacement = naming(load_files(*job.load), [&] {
-      return solve::prescribed_on_surface_nodes(model.cloud, *input.load, job.load->opening);
+    solve::CraniotomyLoad& load = *input.load;
+    if (load.sigma.rows() == 0 && job.load->noise) {
+      load.sigma = Points::Constant(load.positions.rows(), 3, *job.load->noise);
+    }
+    naming(load_files(*job.load), [&] {
+      if (!job.load->registration_unknown) {
+        impose(load, *job.load, model);
+        return;
+      }
+      need_noise(load);
+      input.registration = patient_registration(
+          load, job.options, [&](const auto& l, solve::Model& m) { impose(l, *job.load, m); }, model);
     });
+    if (model.conditions.measured && !job.landmarks.empty()) {
+      model.conditions.measured->asked = solve::read_markup_positions(job.landmarks);
+    }
   }
   input.options = job.options;
   return input;
@@ -248,8 +356,10 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
                                            [&] { return solve::solve(input.model, input.options, progress); });
   solve::write_solve(out, result);
   StageReport said = report_of(result, input.options.dynamics);
-  if (input.load) {
+  write_measured(input, result, out, said);
+  if (input.load && !has_inner_points(input.model)) {
     warn(warnings_of(*input.load, input.model.cloud, input.model.conditions.displacement), said);
+    warn(warnings_of(input.model, result.solution.displacement), said);
   }
   return said;
 }
@@ -259,13 +369,18 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
   registration::RegisterInput input;
   input.solution = read_solution(job.solution);
   input.brain = read_surface(job.surface);
-  input.t1 = read_image(job.t1);
   input.labels = labels_if(job.labels);
-  need_same_grid(input.t1.geometry, job.t1, input.labels, job.labels);
+  if (!job.t1.empty()) {
+    input.t1 = read_image(job.t1);
+    need_same_grid(input.t1.geometry, job.t1, input.labels, job.labels);
+  } else if (input.labels) {
+    input.t1.geometry = input.labels->geometry;
+  }
   if (!job.landmarks.empty()) {
     input.landmarks = solve::read_markup_positions(job.landmarks);
   }
-  const registration::Registration result = naming(job.t1.string() + " and " + job.surface.string(), [&] {
+  const fs::path& reference = job.t1.empty() ? job.labels : job.t1;
+  const registration::Registration result = naming(reference.string() + " and " + job.surface.string(), [&] {
     return registration::register_images(input, job.options, progress);
   });
   registration::write_registration(out, result);

@@ -9,6 +9,7 @@
 
 #include "pipelines/runner/stage_report.hpp"
 #include "pipelines/scene/scene_labels.hpp"
+#include "solve/load/rigid_fit.hpp"
 
 namespace brainshift::pipelines {
 
@@ -31,9 +32,10 @@ struct SolveJob {
   std::filesystem::path nodes;
   std::filesystem::path cells;
   std::filesystem::path labels;
-  std::filesystem::path skull;    ///< contact when given
-  std::filesystem::path surface;  ///< the brain's, for a simulated load
-  std::optional<Load> load;       ///< absent: what the nodes prescribe; the forces of the nodes act in any case
+  std::filesystem::path skull;           ///< contact when given
+  std::filesystem::path surface;         ///< the brain's, for a simulated load
+  std::filesystem::path landmarks = {};  ///< of a load with noise: where the spread of the answer is wanted
+  std::optional<Load> load;              ///< absent: what the nodes prescribe; the forces of the nodes act in any case
   std::map<std::int32_t, solve::Material> materials;
   solve::SolveOptions options;
   Loading loading;
@@ -47,7 +49,7 @@ struct SolveJob {
 struct RegisterJob {
   std::filesystem::path solution;
   std::filesystem::path surface;  ///< the brain's
-  std::filesystem::path t1;
+  std::filesystem::path t1;       ///< empty: the fields take the grid of the labels, and only these are warped
   std::filesystem::path labels;
   std::filesystem::path landmarks;
   std::vector<std::filesystem::path> warp;         ///< images, surfaces and points to move with the same map
@@ -66,7 +68,8 @@ StageReport run_job(const RegisterJob& job, const std::filesystem::path& out, co
 struct SolveInput {
   solve::Model model;
   solve::SolveOptions options;
-  std::optional<solve::CraniotomyLoad> load;  ///< as it was read
+  std::optional<solve::CraniotomyLoad> load;       ///< as it was read
+  std::optional<solve::RigidMotion> registration;  ///< from image to tracker, where it is unknown
 };
 SolveInput read_input(const SolveJob& job);
 

@@ -72,6 +72,16 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                      {"compressed_share", m.compressed_share},
                      {"seconds_setup", m.seconds_setup},
                      {"seconds_stepping", m.seconds_stepping}};
+  if (m.measured) {
+    report.measures["weight_mJ"] = m.measured->weight;
+    report.measures["noise_factor"] = m.measured->noise_factor;
+    for (const solve::WeightRow& row : m.measured->weights) {
+      report.measures["weights"].push_back({{"weight_mJ", row.weight},
+                                            {"misfit", row.misfit},
+                                            {"energy_mJ", row.energy},
+                                            {"log_likelihood", row.log_likelihood}});
+    }
+  }
   if (!m.took.empty()) {
     report.measures["took"] = m.took;
   }
@@ -103,7 +113,7 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
 StageReport report_of(const registration::Registration& result) {
   const registration::RegisterMeasures& m = result.measures;
   StageReport report;
-  report.sizes = {{"voxels", result.warped.geometry.voxel_count()},
+  report.sizes = {{"voxels", result.forward.geometry.voxel_count()},
                   {"brain_voxels", m.brain_voxels},
                   {"moved_voxels", m.moved_voxels},
                   {"landmarks", result.landmarks.rows()}};

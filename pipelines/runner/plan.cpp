@@ -129,19 +129,25 @@ StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
   return plan;
 }
 
+/// A load that says its noise on itself tells how well it knows the landmarks.
+bool asks_for_landmarks(const Scene& scene) {
+  return scene.landmarks && scene.load && scene.load->noise;
+}
+
 StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
   const SolveJob job = solve_job(scene, folder);
   std::vector<std::string> elements = load_elements(scene);
   elements.insert(elements.end(), {"contact", "tissues", "cuts", "resection", "solve"});
+  if (asks_for_landmarks(scene)) {
+    elements.emplace_back("landmarks");
+  }
   StagePlan plan{.stage = StageId::solve,
                  .inputs = files_of(scene, elements),
                  .options = options_of(scene, elements),
                  .artefacts = {"solution.vtu"},
                  .work = {}};
-  add_artefacts(plan, folder, {"discretise/nodes.vtu", "discretise/cells.vtu", "segment/labels.nii.gz"});
-  if (scene.load && scene.load->simulated) {
-    add_artefacts(plan, folder, {"segment/brain.vtp"});
-  }
+  add_artefacts(plan, folder,
+                {"discretise/nodes.vtu", "discretise/cells.vtu", "segment/brain.vtp", "segment/labels.nii.gz"});
   if (scene.contact && scene.contact->skull.empty()) {
     add_artefacts(plan, folder, {"segment/skull.vtp"});
   }
@@ -161,7 +167,7 @@ StagePlan plan_register(const Scene& scene, const fs::path& folder) {
   StagePlan plan{.stage = StageId::registration,
                  .inputs = {},
                  .options = options_of(scene, {"register"}),
-                 .artefacts = {"warped.nii.gz"},
+                 .artefacts = {scene.image.t1.empty() ? "warped_labels.nii.gz" : "warped.nii.gz"},
                  .work = {}};
   for (const InputFile& file : scene_files(scene)) {
     if (file.role == "image.t1" || file.role == "landmarks.file") {
@@ -194,7 +200,7 @@ StagePlan plan_report(const Scene& scene, const fs::path& folder) {
 }
 
 /// What other programs write must be readable before the stage counts as done.
-void check_artefacts(StageId stage, const fs::path& out) {
+void check_artefacts(StageId stage, const std::vector<std::string>& artefacts, const fs::path& out) {
   switch (stage) {
     case StageId::segment:
       read_surface(out / "brain.vtp");
@@ -207,7 +213,7 @@ void check_artefacts(StageId stage, const fs::path& out) {
       read_solution(out / "solution.vtu");
       break;
     case StageId::registration:
-      read_image(out / "warped.nii.gz");
+      read_image(out / artefacts.front());
       break;
     case StageId::report:
       break;
@@ -224,7 +230,7 @@ void run_command_stage(const ExternalCommand& command, const StagePlan& plan, In
     }
   }
   try {
-    check_artefacts(plan.stage, command.out);
+    check_artefacts(plan.stage, plan.artefacts, command.out);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("the command '" + command.command + "' of stage " +
                                 std::string(stage_name(plan.stage)) +
@@ -268,6 +274,7 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
                .labels = if_there(folder / "segment" / "labels.nii.gz"),
                .skull = {},
                .surface = if_there(folder / "segment" / "brain.vtp"),
+               .landmarks = asks_for_landmarks(scene) ? *scene.landmarks : fs::path(),
                .load = scene.load,
                .materials = {},
                .options = scene.solve,
@@ -298,11 +305,6 @@ std::vector<InputFile> scene_files(const Scene& scene) {
     }
   }
   return files;
-}
-
-bool is_active(StageId stage, const Scene& scene) {
-  const bool needs_image = stage == StageId::registration || stage == StageId::report;
-  return !needs_image || !scene.image.t1.empty() || !scene.commands[index_of(stage)].empty();
 }
 
 StagePlan plan_stage(StageId stage, const Scene& scene, const fs::path& folder, Interruption& interruption) {

@@ -27,9 +27,6 @@ struct StagePlan {
   std::function<StageReport(const std::filesystem::path& out, const Progress&)> work;
 };
 
-/// Whether the scene has what the stage needs.
-bool is_active(StageId stage, const Scene& scene);
-
 /// Plans a stage in a run's folder whose earlier stages are there.
 StagePlan plan_stage(StageId stage, const Scene& scene, const std::filesystem::path& folder,
                      Interruption& interruption);

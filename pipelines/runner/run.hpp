@@ -38,10 +38,10 @@ struct RunOutcome {
 
 /// Runs a checked scene: segment, discretise, solve, register, report, each in its folder under `out`, kept where its
 /// inputs' contents, options and the program's version are those of the time it was made and its files are whole.
-/// run.json is written after each stage. A stage without the files that it needs (register and report without a T1) is
-/// left out. A stage that does not converge ends the run; what it has is kept. Throws std::invalid_argument where the
-/// input is at fault and std::runtime_error where writing is, naming the file; stages that were finished are kept, the
-/// unfinished one leaves nothing.
+/// run.json is written after each stage. A stage without the files that it needs (register and report without a T1 or
+/// labels) is left out. A stage that does not converge ends the run; what it has is kept. Throws std::invalid_argument
+/// where the input is at fault and std::runtime_error where writing is, naming the file; stages that were finished are
+/// kept, the unfinished one leaves nothing.
 RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& interruption,
                const RunObserver& observer = {});
 

@@ -73,6 +73,36 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
   return warnings;
 }
 
+Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<const std::int16_t> brain) {
+  std::size_t all = 0, black = 0;
+  for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
+    if (std::ranges::find(brain, labels.voxels[i]) != brain.end()) {
+      ++all;
+      black += t1.voxels[i] == 0 ? 1 : 0;
+    }
+  }
+  const double share = all == 0 ? 0 : static_cast<double>(black) / static_cast<double>(all);
+  constexpr double usual = 0.1;  // masks differ by a rim
+  if (share < usual) {
+    return {};
+  }
+  return {with_digits(100 * share) +
+          " % of the labelled brain lie where the T1 is 0; are labels and T1 of one patient " + "and one frame?"};
+}
+
+Warnings warnings_of(const solve::Model& model, const Points& displacement) {
+  if (model.skull) {
+    return {};
+  }
+  std::vector<double> moved;
+  for (const auto& u : displacement.rowwise()) {
+    moved.push_back(u.norm());
+  }
+  return {"nothing but the load holds the brain, so all of it follows the opening (half of it by more than " +
+          with_digits(median(std::move(moved))) +
+          " mm); in a patient the skull holds it: add <contact/>, unless that is meant"};
+}
+
 Warnings warnings_of(const registration::RegisterMeasures& measures) {
   if (measures.folded_voxels == 0) {
     return {};

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "discretise/interface/node_cloud.hpp"
 #include "register/interface/result.hpp"
+#include "solve/interface/model.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::pipelines {
@@ -15,6 +17,12 @@ using Warnings = std::vector<std::string>;
 
 /// Of points that lie off the brain's surface, or that are too few or lie on a line. prescribed: what became of them.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed);
+
+/// Of labels that lie where a T1 of the same grid is black: it is of another head or frame.
+Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<const std::int16_t> brain);
+
+/// Of a body that nothing but its measured load holds. displacement: what came out, (n × 3) mm.
+Warnings warnings_of(const solve::Model& model, const Points& displacement);
 
 /// Of a field that folds.
 Warnings warnings_of(const registration::RegisterMeasures& measures);

@@ -200,12 +200,11 @@ std::string explain_scene(const Scene& scene) {
   text << "stages (estimates for a brain of " << round_number(cost.volume / 1000) << " ml)\n";
   for (const StageId stage : all_stages) {
     const std::string& command = scene.commands[index_of(stage)];
-    const bool needs_image = stage == StageId::registration || stage == StageId::report;
     text << "  " << stage_name(stage) << ": ";
     if (!command.empty()) {
       text << "external command: " << command << "\n";
-    } else if (needs_image && scene.image.t1.empty()) {
-      text << "not built (no t1)\n";
+    } else if (!is_active(stage, scene)) {
+      text << "not built (no t1 and no labels)\n";
     } else {
       text << stage_cost(stage, cost) << "\n";
     }

@@ -57,4 +57,10 @@ std::string place(const SceneSource& source, const std::string& path) {
   return found->second == 0 ? "--set" : source.file.string() + ":" + std::to_string(found->second);
 }
 
+bool is_active(StageId stage, const Scene& scene) {
+  const bool needs_image = stage == StageId::registration || stage == StageId::report;
+  const bool labels = !scene.image.labels.empty() && scene.commands[index_of(StageId::segment)].empty();
+  return !needs_image || !scene.image.t1.empty() || labels || !scene.commands[index_of(stage)].empty();
+}
+
 }  // namespace brainshift::pipelines

@@ -64,6 +64,9 @@ struct BeforeAfter {
 /// What is measured and imposed: at most one of the four.
 struct Load {
   solve::OpeningOptions opening;
+  std::optional<double> noise;                      ///< standard deviation where the file says none, mm; absent: exact
+  double weight = 0;                                ///< s of solve::Measurement, mJ; 0: chosen
+  bool registration_unknown = false;                ///< what was measured holds the error of the patient's registration
   std::optional<std::filesystem::path> craniotomy;  ///< craniotomy.csv
   std::optional<BeforeAfter> markups;
   std::optional<BeforeAfter> surfaces;
@@ -142,6 +145,9 @@ struct Scene {
   std::array<std::string, all_stages.size()> commands;  ///< external commands that replace stages; empty: our own stage
   SceneSource source;
 };
+
+/// Whether the scene has what the stage needs: register and report a T1, or a label map in its place.
+bool is_active(StageId stage, const Scene& scene);
 
 /// "scene.xml:12" where the option or element was written, "--set" for the command line, the file alone when unknown.
 std::string place(const SceneSource& source, const std::string& path);

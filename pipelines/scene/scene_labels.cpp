@@ -37,6 +37,29 @@ sg::LabelTable table_of(const ImageInputs& image, const sg::LabelVolumes& volume
   return sg::freesurfer_table();
 }
 
+void check_not_negative(const ImageInputs& image, const sg::LabelVolumes& volumes) {
+  if (!volumes.empty() && volumes.begin()->first < 0) {
+    refuse(image.labels, "holds the label " + std::to_string(volumes.begin()->first) +
+                             "; no table has negative numbers: was it saved in another type? Save it as unsigned");
+  }
+}
+
+// Of FreeSurfer's numbers: a hemisphere that is missing.
+void note_one_sided(const ImageInputs& image, const sg::LabelVolumes& volumes, std::vector<std::string>& notes) {
+  double left = 0, right = 0;
+  for (const auto& [number, volume] : volumes) {
+    const int of_cortex = number >= 11000 ? number / 100 % 10 : number / 1000 % 2 == 1 ? 1 : 2;
+    const bool cortex = number >= 1000;
+    left += number == 2 || number == 3 || (cortex && of_cortex == 1) ? volume : 0;
+    right += number == 41 || number == 42 || (cortex && of_cortex == 2) ? volume : 0;
+  }
+  if (std::min(left, right) < 0.2 * std::max(left, right)) {
+    notes.push_back("warning: " + image.labels.string() + ": of the " + (left < right ? "left" : "right") +
+                    " hemisphere hardly anything is labelled, and it is taken for no brain; give a map of both, unless "
+                    "that is meant");
+  }
+}
+
 void check_classes(const ImageInputs& image, const sg::LabelTable& table, const LabelMap& map,
                    std::vector<std::string>& notes) {
   const auto volumes = sg::label_volumes(map);
@@ -73,10 +96,14 @@ ReadLabels read_labels(const ImageInputs& image, const LabelReading& reading) {
     return result;
   }
   const auto volumes = sg::label_volumes(result.map);
+  check_not_negative(image, volumes);
   const sg::LabelTable table = table_of(image, volumes, result.notes);
   if (const std::string unknown = unknown_labels(volumes, table); !unknown.empty()) {
     result.notes.push_back(image.labels.string() + ": taken for not brain, as they are not " + table.name +
                            " numbers of the brain: " + unknown);
+  }
+  if (table.name == sg::freesurfer_table().name) {
+    note_one_sided(image, volumes, result.notes);
   }
   sg::renumber(result.map, table.classes, sg::Unnamed::become_background);
   check_classes(image, table, result.map, result.notes);

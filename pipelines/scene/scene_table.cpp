@@ -102,6 +102,23 @@ Element image_element() {
               "the skull's label; its inner surface is the skull; without it the brain's surface is")}};
 }
 
+OptionTable<Scene> load_options() {
+  OptionTable<Scene> options = of_whole<Scene>(solve::opening_options(), MEMBER(load->opening));
+  options.push_back(number_option<Scene>(
+      "noise", MEMBER(load->noise), {solve::smallest_noise, 100}, "mm",
+      "standard deviation of each measured displacement along each axis, where the file has no column sigma; without "
+      "either the load is imposed exactly"));
+  options.push_back(number_option<Scene>("weight", MEMBER(load->weight), not_negative, "mJ",
+                                         "of a load with noise: how much energy of deformation a misfit of one "
+                                         "standard deviation is worth; 0: chosen from "
+                                         "the measured points"));
+  options.push_back(choice_option<Scene>(
+      "registration", MEMBER(load->registration_unknown), {{"known", false}, {"unknown", true}},
+      "unknown: what was measured holds a rigid motion of the patient against the image, too, which is estimated with "
+      "the deformation; needs a noise"));
+  return options;
+}
+
 std::vector<Element> load_elements() {
   return {
       {.path = "load",
@@ -109,7 +126,7 @@ std::vector<Element> load_elements() {
        .optional = true,
        .present = [](const Scene& s) { return s.load.has_value(); },
        .add = add_load,
-       .options = of_whole<Scene>(solve::opening_options(), MEMBER(load->opening))},
+       .options = load_options()},
       load_part("craniotomy", "Displacements measured on the exposed cortex.", &Load::craniotomy,
                 {required(file_option<Scene>("file", MEMBER(load->craniotomy.value()),
                                              "x,y,z,ux,uy,uz in mm, with a header and a line '# frame: LPS' or RAS"))}),

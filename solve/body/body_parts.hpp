@@ -13,6 +13,7 @@ namespace brainshift::solve {
 struct BodyParts {
   OrderedCloud cloud;
   ShapeRows nodal_rows;  ///< at the nodes, without derivatives
+  ShapeRows inner_rows;  ///< at the measured points inside the body; none: empty
   IntegrationPoints points;
   ShapeRows point_rows;  ///< with derivatives
   PressurePatches patches;

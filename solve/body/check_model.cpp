@@ -34,6 +34,13 @@ void check_held(const OrderedCloud& cloud, Plane plane, bool contact) {
       }
     }
   }
+  const Points inner = cloud.conditions.measured ? cloud.conditions.measured->inner : Points(0, 3);
+  for (Eigen::Index i = 0; i < inner.rows(); ++i) {
+    const Eigen::Vector3d x = (inner.row(i) - centre) / size;
+    Eigen::Matrix<double, 3, 6> row;
+    row << Eigen::Matrix3d::Identity(), Eigen::Matrix3d{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
+    rows.insert(rows.end(), {row.row(0), row.row(1), row.row(2)});
+  }
   if (rows.empty()) {
     throw std::invalid_argument("nothing is prescribed: no node is loaded or held; give a load");
   }

@@ -59,6 +59,14 @@ PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics)
   return laws;
 }
 
+EssentialConditions essential_conditions(const SolveOptions& options, const BodyParts& parts) {
+  const Conditions& conditions = parts.cloud.conditions;
+  if (conditions.measured) {
+    return {conditions.displacement, parts.nodal_rows, parts.cloud.original, *conditions.measured, parts.inner_rows};
+  }
+  return {conditions.displacement, parts.nodal_rows, parts.cloud.original, options.imposition};
+}
+
 PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::int32_t>& order) {
   PlacedPoints placed{points.positions(order, Eigen::all), {}};
   for (const std::int32_t p : order) {
@@ -114,7 +122,7 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
       .laws = point_laws(parts.materials, model.plane, options.dynamics),
       .prony = in_time ? parts.materials.prony : std::vector<std::vector<PronyTerm>>(),
       .mass = {},
-      .essential = {cloud.conditions.displacement, parts.nodal_rows, cloud.original, options.imposition},
+      .essential = essential_conditions(options, parts),
       .contact = {},
       .face_contact = {},
       .external = external_force(model, parts),

@@ -68,8 +68,8 @@ Motion::Motion(Body whole, int snapshot_every)
       snapshot_every_(snapshot_every),
       next_snapshot_(snapshot_every) {}
 
-void Motion::weigh(std::span<const double> mass) {
-  body.essential.factorise(mass);
+void Motion::weigh(std::span<const double> mass, double alpha) {
+  body.essential.factorise(mass, alpha);
   if (body.contact) {
     body.contact->weigh(mass);
   }

@@ -22,8 +22,8 @@ class Motion {
   void step(const PointLaws& laws, std::span<const double> mass, double alpha, double beta, double time,
             double fraction);
 
-  /// Essential conditions and contact push in proportion to 1/mass.
-  void weigh(std::span<const double> mass);
+  /// Essential conditions and contact push in proportion to 1/mass. alpha: of the steps to come.
+  void weigh(std::span<const double> mass, double alpha = 1);
 
   /// True if the smallest J has dropped by a fifth since the last call that returned true: the body may have stiffened.
   /// Notes the first point that turned inside out.

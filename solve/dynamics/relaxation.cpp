@@ -46,7 +46,7 @@ class Relaxation {
     for (double& m : mass_) {
       m *= mass_margin * mass_scale_;
     }
-    motion_.weigh(mass_);
+    motion_.weigh(mass_, alpha);
     if (!course_.start.empty()) {
       motion_.start_from(course_.start, laws());
       pace_.skip();
@@ -105,7 +105,7 @@ class Relaxation {
         mass_[a] = mass_margin * bound[a];  // in full: how tight it is was measured for other supports
       }
     }
-    motion_.weigh(mass_);
+    motion_.weigh(mass_, alpha);
     bound_.reset();
     calm_ = 0;
     pace_.wait();
@@ -150,8 +150,20 @@ class Relaxation {
     const double inertia = sum_over_nodes(
         nodes(), [&](std::size_t a) { return mass_[a] * (at(m.before, a) - at(m.next, a)).squaredNorm(); });
     if (inertia > 0 && stiffness > 0) {
-      lowest_ = std::clamp(stiffness / inertia, smallest_eigenvalue, largest_eigenvalue_of_beta);
+      lowest_ = std::clamp(stiffness / inertia + spring_stiffness(), smallest_eigenvalue, largest_eigenvalue_of_beta);
     }
+  }
+
+  /// The share of conditions that give way in A_0; 0 where there are none.
+  double spring_stiffness() const {
+    const Motion& m = motion_;
+    const double work = m.body.essential.spring_work(m.before, m.now) / alpha;
+    if (!(work > 0)) {
+      return 0;
+    }
+    return work / sum_over_nodes(nodes(), [&](std::size_t a) {
+             return mass_[a] * (at(m.now, a) - at(m.before, a)).squaredNorm();
+           });
   }
 
   /// The bound that is wanted, mm: of a small load's answer not more than a small part is left open.
@@ -201,7 +213,7 @@ class Relaxation {
       for (std::size_t a = 0; a < nodes(); ++a) {
         mass_[a] = std::max(mass_[a], mass_margin * mass_scale_ * bound[a]);
       }
-      motion_.weigh(mass_);
+      motion_.weigh(mass_, alpha);
     }
   }
 

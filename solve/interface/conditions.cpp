@@ -20,6 +20,15 @@ Points vectors(const std::filesystem::path& file, vtkUnstructuredGrid& grid, con
   return Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
 }
 
+Eigen::SparseMatrix<double> rows_of(const Eigen::SparseMatrix<double>& matrix, const std::vector<std::int32_t>& rows) {
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = matrix;
+  Eigen::SparseMatrix<double, Eigen::RowMajor> some(static_cast<Eigen::Index>(rows.size()), matrix.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    some.row(static_cast<Eigen::Index>(i)) = by_row.row(rows[i]);
+  }
+  return some;
+}
+
 }  // namespace
 
 bool Conditions::is_prescribed(Eigen::Index node, int axis) const {
@@ -60,12 +69,17 @@ Conditions subset(const Conditions& conditions, const std::vector<std::int32_t>&
   if (conditions.force.rows() > 0) {
     part.force = conditions.force(nodes, Eigen::all);
   }
+  if (conditions.measured) {
+    part.measured = conditions.measured;
+    part.measured->spread = rows_of(conditions.measured->spread, nodes);
+  }
   return part;
 }
 
 Conditions read_conditions(const std::filesystem::path& file) {
   const auto grid = vtu::read(file);
-  const Conditions conditions{vectors(file, *grid, "prescribed_displacement"), vectors(file, *grid, "force")};
+  const Conditions conditions{.displacement = vectors(file, *grid, "prescribed_displacement"),
+                              .force = vectors(file, *grid, "force")};
   for (Eigen::Index a = 0; a < conditions.displacement.rows(); ++a) {
     if (conditions.displacement.row(a).array().isInf().any()) {
       refuse(file, "the prescribed_displacement of node " + std::to_string(a) +

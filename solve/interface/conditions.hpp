@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "discretise/interface/node_cloud.hpp"
@@ -10,12 +12,29 @@
 
 namespace brainshift::solve {
 
+/// What makes prescribed displacements give way: they were measured with noise. The state is the minimum of
+///   W(u) − work of the forces + (s/2) rᵀ C⁻¹ r,  r = u − what is prescribed,  C = E diag(σ²) Eᵀ,
+/// with E the share of each measured point in what is prescribed at a node: noise there is noise here, as far as the
+/// displacement was extended. Nodes without a share are held exactly. exp(−W/s) is the prior of the deformation.
+struct Measurement {
+  Eigen::SparseMatrix<double> spread;        ///< E, (nodes × measured points of the cortex)
+  Points sigma = Points(0, 3);               ///< of these points, mm, > 0
+  Points inner = Points(0, 3);               ///< measured points inside the body, undeformed, mm
+  Points inner_displacement = Points(0, 3);  ///< mm
+  Points inner_sigma = Points(0, 3);         ///< mm, > 0
+  double weight = 0;                         ///< s, mJ; 0: chosen by choose_weight()
+  bool registration_unknown = false;  ///< what was measured may hold a rigid motion of the patient against the image
+  Points asked = Points(0, 3);        ///< undeformed places whose spread is wanted, mm
+};
+
 /// What is prescribed at the nodes of a cloud, one row a node in its order.
 struct Conditions {
   /// (n × 3) mm, NaN: that component is free. No rows when nothing is prescribed.
   Points displacement = Points(0, 3);
   /// (n × 3) N, acts at the node. No rows when there is none.
   Points force = Points(0, 3);
+  /// Of what is prescribed; absent: it is held exactly.
+  std::optional<Measurement> measured = {};
 
   /// Whether a component of a node's displacement is prescribed; axis 0, 1 or 2.
   bool is_prescribed(Eigen::Index node, int axis) const;

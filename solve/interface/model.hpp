@@ -30,6 +30,7 @@ struct Model {
   NodeCloud cloud;
   Conditions conditions = {};  ///< at its nodes
   BackgroundCells cells;
+  std::optional<Surface> boundary = {};        ///< the body's, closed; absent: that of the cells where they conform
   std::optional<LabelMap> labels;              ///< tissue at an integration point; absent, or 0 there: the cell's label
   std::map<std::int32_t, Material> materials;  ///< by label
   std::optional<Surface> skull;                ///< rigid, frictionless contact from inside; absent: none

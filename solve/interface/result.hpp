@@ -72,6 +72,28 @@ struct ResectionMeasures {
   double removed_volume = 0;  ///< of the integration points of its tissue, mm³
 };
 
+/// A weight that was tried for a load with noise, as a linear body would answer it.
+struct WeightRow {
+  double weight = 0;          ///< s, mJ
+  double misfit = 0;          ///< Σ r²/σ² over the components of the measured points that were used
+  double energy = 0;          ///< of the deformation, mJ
+  double log_likelihood = 0;  ///< restricted, choose_weight()
+};
+
+/// How the noise of a load was weighed.
+struct MeasuredFit {
+  double weight = 0;        ///< s that was used, mJ
+  double noise_factor = 1;  ///< of the standard deviations, by which what was measured differs from what was given
+  std::vector<WeightRow> weights;  ///< that were tried, ascending; none: the weight was given
+  /// (6) the rigid motion in what was measured, rigid_motions() about its points, and its standard deviation, mm; not
+  /// of a body that is held in a registered image.
+  Eigen::VectorXd motion, motion_deviation;
+  Eigen::Vector3d motion_centre = Eigen::Vector3d::Zero();  ///< of its turns, mm
+  double motion_size = 1;                                   ///< mm a turn of 1 moves by
+  /// (asked × 6) mm²: xx, yy, zz, xy, yz, zx of the displacement at the places that were asked for.
+  Eigen::MatrixXd covariance;
+};
+
 struct SolveMeasures {
   std::size_t nodes = 0;
   std::size_t integration_points = 0;
@@ -97,6 +119,7 @@ struct SolveMeasures {
   double compressed_share = 0;      ///< of the volume, pressed so far that its free faces may crease
   std::optional<CutMeasures> cut;   ///< absent: nothing was cut
   std::optional<ResectionMeasures> resection;
+  std::optional<MeasuredFit> measured;  ///< absent: the load is held exactly
   double seconds_setup = 0;
   double seconds_stepping = 0;
   std::size_t region_nodes = 0;  ///< solved, those at the region's rim too; 0: no region was asked for

@@ -97,6 +97,9 @@ std::optional<Points> solved_on(const std::vector<std::int32_t>& nodes, const Mo
   const ShapeFunctions shape(coarse.cloud.positions, coarse.cloud.spacing, result.solution.shape);
   const Points parameters = parameters_from_displacement(shape, coarse.cloud.positions, result.solution.displacement);
   Points displacement = shape.interpolate(model.cloud.positions, parameters);
+  if (model.conditions.measured) {
+    return displacement;  // what was measured gives way
+  }
   const Points& prescribed = model.conditions.displacement;
   for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
     if (!std::isnan(prescribed.data()[i])) {

@@ -11,7 +11,9 @@
 #include "solve/cut/cut_patches.hpp"
 #include "solve/cut/resection.hpp"
 #include "solve/dynamics/relaxation.hpp"
+#include "solve/measured/inner_rows.hpp"
 #include "solve/quadrature/adaptive_points.hpp"
+#include "solve/quadrature/cell_boundary.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
 #include "solve/shape/consistent_derivatives.hpp"
@@ -151,6 +153,20 @@ bool single_serves(const Model& model, double tolerance) {
          error_wanted(model, tolerance) >= finest_in_single * size;
 }
 
+/// At the nodes on the surface, by the body's boundary or that of its cells; none where neither is known.
+std::optional<SurfaceNormals> normals_of(const Model& model, const NodeCloud& cloud) {
+  const Surface boundary = model.boundary ? *model.boundary : cell_boundary(model.cells);
+  if (boundary.triangles.rows() == 0) {
+    return std::nullopt;
+  }
+  const std::vector<std::int32_t> nodes = surface_nodes(cloud);
+  std::vector<double> spacing;
+  for (const std::int32_t a : nodes) {
+    spacing.push_back(cloud.spacing[static_cast<std::size_t>(a)]);
+  }
+  return surface_normals(boundary, cloud.positions(nodes, Eigen::all), spacing);
+}
+
 bool cuts_go_on(const Model& model) {
   return last_time(model.cuts) > 0 || model.rupture;
 }
@@ -186,6 +202,9 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   if (!held.empty()) {
     parts.nodal_rows = with_pinned(parts.nodal_rows, held);
   }
+  if (parts.cloud.conditions.measured) {
+    parts.inner_rows = inner_rows(shape, parts.cloud.conditions.measured->inner);
+  }
   AdaptivePoints placed = place_points(model, shape, options);
   if (model.resection) {
     leave_out(*model.resection, placed);
@@ -201,9 +220,11 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   measure_sizes(parts, placed.capped, measures);
   measures.single_precision = options.precision == Precision::single_precision;
   if (options.integration == Integration::consistent) {
-    const ConsistencyMeasures done =
-        make_derivatives_consistent(parts.cloud.positions, surface_nodes(parts.cloud), parts.nodal_rows,
-                                    parts.points.volume, options.consistency_defect, parts.point_rows);
+    const bool whole = !cut && !model.resection && pinned.empty();  // no face of it has come about inside
+    const std::optional<SurfaceNormals> normals = whole ? normals_of(model, parts.cloud) : std::nullopt;
+    const ConsistencyMeasures done = make_derivatives_consistent(
+        parts.cloud.positions, surface_nodes(parts.cloud), parts.nodal_rows, parts.points.volume,
+        options.consistency_defect, parts.point_rows, {}, normals ? &*normals : nullptr);
     measures.consistency_iterations = done.iterations;
   }
   parts.patches = patches_of(model, options, parts, visibility.get());

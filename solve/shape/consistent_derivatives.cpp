@@ -63,6 +63,14 @@ class FitResidual {
     return node_begin_[node] < node_begin_[node + 1];
   }
 
+  /// Vectors at the nodes over the volume that sees each: about S⁻¹. Where no point sees a node it is left as it is.
+  void divide_by_weight(Points& vectors) const {
+    for (Eigen::Index a = 0; a < vectors.rows(); ++a) {
+      const double weight = weight_[static_cast<std::size_t>(a)];
+      vectors.row(a) /= weight > 0 ? weight : 1.0;
+    }
+  }
+
   /// S λ; afterwards the fits of λ are those that correction() takes.
   void apply(const Points& lambda, Points& result) {
     const auto count = static_cast<std::int64_t>(points_.size());
@@ -166,21 +174,81 @@ class FitResidual {
   std::vector<std::int32_t> node_point_;
 };
 
-/// Takes out of nodal vectors what forces at the surface nodes can balance: the part in the range of Vᵀ.
+/// Takes out of nodal vectors what forces at the surface nodes can balance: the part in the range of Vᵀ, or of Vᵀ N
+/// where the forces have the directions N alone.
 class Unbalanced {
  public:
-  Unbalanced(std::span<const std::int32_t> surface, const ShapeRows& nodal_rows, Eigen::Index nodes)
+  Unbalanced(std::span<const std::int32_t> surface, const ShapeRows& nodal_rows, Eigen::Index nodes,
+             const SurfaceNormals* normals = nullptr)
       : shape_(shape_matrix(nodal_rows, surface, nodes)) {
-    factor_.compute(Eigen::SparseMatrix<double>(shape_ * shape_.transpose()));
+    const Eigen::SparseMatrix<double> products = shape_ * shape_.transpose();
+    if (normals == nullptr) {
+      factor_.compute(products);
+      return;
+    }
+    for (std::size_t node = 0; node < surface.size(); ++node) {
+      first_.push_back(static_cast<int>(direction_.size()));
+      for (int k = 0; k < normals->rank[node]; ++k) {
+        direction_.push_back(normals->direction[node].col(k));
+      }
+    }
+    first_.push_back(static_cast<int>(direction_.size()));
+    factor_.compute(between_directions(products));
   }
 
   void apply(Points& vectors) const {
-    const Eigen::MatrixXd multipliers = factor_.solve(shape_ * vectors);
-    vectors -= shape_.transpose() * multipliers;
+    const Points at_surface = shape_ * vectors;
+    if (direction_.empty()) {
+      vectors -= shape_.transpose() * Eigen::MatrixXd(factor_.solve(at_surface));
+      return;
+    }
+    Eigen::VectorXd along(static_cast<Eigen::Index>(direction_.size()));
+    for_each_direction(at_surface.rows(), [&](Eigen::Index node, std::size_t d) {
+      along[static_cast<Eigen::Index>(d)] = at_surface.row(node).dot(direction_[d]);
+    });
+    const Eigen::VectorXd multiplier = factor_.solve(along);
+    Points force = Points::Zero(at_surface.rows(), 3);
+    for_each_direction(force.rows(), [&](Eigen::Index node, std::size_t d) {
+      force.row(node) += multiplier[static_cast<Eigen::Index>(d)] * direction_[d].transpose();
+    });
+    vectors -= shape_.transpose() * force;
   }
 
  private:
+  template <class Do>
+  void for_each_direction(Eigen::Index nodes, const Do& each) const {
+    for (Eigen::Index node = 0; node < nodes; ++node) {
+      const auto begin = static_cast<std::size_t>(first_[static_cast<std::size_t>(node)]);
+      const auto end = static_cast<std::size_t>(first_[static_cast<std::size_t>(node) + 1]);
+      for (std::size_t d = begin; d < end; ++d) {
+        each(node, d);
+      }
+    }
+  }
+
+  /// Nᵀ (V Vᵀ) N, one row a direction.
+  Eigen::SparseMatrix<double> between_directions(const Eigen::SparseMatrix<double>& products) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int column = 0; column < products.outerSize(); ++column) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(products, column); it; ++it) {
+        const auto row = static_cast<std::size_t>(it.row()), other = static_cast<std::size_t>(column);
+        for (int i = first_[row]; i < first_[row + 1]; ++i) {
+          for (int j = first_[other]; j < first_[other + 1]; ++j) {
+            const double cosine = direction_[static_cast<std::size_t>(i)].dot(direction_[static_cast<std::size_t>(j)]);
+            entries.emplace_back(i, j, it.value() * cosine);
+          }
+        }
+      }
+    }
+    const auto size = static_cast<Eigen::Index>(direction_.size());
+    Eigen::SparseMatrix<double> matrix(size, size);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
+
   Eigen::SparseMatrix<double> shape_;
+  std::vector<Eigen::Vector3d> direction_;  ///< N; empty: all
+  std::vector<int> first_;                  ///< of each node, and the end
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
 
@@ -208,29 +276,36 @@ double mean_magnitude(std::span<const double> volume, const ShapeRows& rows, Eig
   return std::accumulate(sum.begin(), sum.end(), 0.0) / static_cast<double>(nodes);
 }
 
-/// Conjugate gradients on the three columns at once, within the unbalanced vectors. Leaves the λ of the least residual:
-/// of a part of the points the system may have no solution.
+/// Conjugate gradients within the unbalanced vectors, preconditioned by the nodes' volumes. Leaves the λ of the least
+/// residual: of a part of the points the system may have no solution.
 int conjugate_gradients(FitResidual& system, const Unbalanced& unbalanced, Points residual, double goal, int most,
                         Points& best) {
+  const auto preconditioned = [&] {
+    Points vectors = residual;
+    system.divide_by_weight(vectors);
+    unbalanced.apply(vectors);
+    return vectors;
+  };
   Points lambda = Points::Zero(residual.rows(), 3);
   unbalanced.apply(residual);
-  Points direction = residual, image(residual.rows(), 3);
-  Eigen::RowVector3d squared = residual.colwise().squaredNorm();
+  Points scaled = preconditioned();
+  Points direction = scaled, image(residual.rows(), 3);
+  double squared = residual.cwiseProduct(scaled).sum();
   double least = residual.cwiseAbs().maxCoeff(), left = least;
   int iteration = 0;
   while (iteration < most && left > goal && left < hopeless * least) {
     system.apply(direction, image);
     unbalanced.apply(image);
-    const Eigen::RowVector3d curvature = direction.cwiseProduct(image).colwise().sum();
-    Eigen::RowVector3d next;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double step = curvature[axis] > 0 ? squared[axis] / curvature[axis] : 0;
-      lambda.col(axis) += step * direction.col(axis);
-      residual.col(axis) -= step * image.col(axis);
-      next[axis] = residual.col(axis).squaredNorm();
-      const double turn = squared[axis] > 0 ? next[axis] / squared[axis] : 0;
-      direction.col(axis) = residual.col(axis) + turn * direction.col(axis);
+    const double curvature = direction.cwiseProduct(image).sum();
+    if (curvature <= 0) {
+      break;
     }
+    const double step = squared / curvature;
+    lambda += step * direction;
+    residual -= step * image;
+    scaled = preconditioned();
+    const double next = residual.cwiseProduct(scaled).sum();
+    direction = scaled + next / squared * direction;
     squared = next;
     left = residual.cwiseAbs().maxCoeff();
     if (left < least) {
@@ -273,7 +348,8 @@ std::vector<std::int32_t> reached_surface(const FitResidual& system, std::span<c
 
 ConsistencyMeasures make_derivatives_consistent(const Points& positions, std::span<const std::int32_t> surface,
                                                 const ShapeRows& nodal_rows, std::span<const double> volume,
-                                                double tolerance, ShapeRows& rows, std::span<const std::int32_t> part) {
+                                                double tolerance, ShapeRows& rows, std::span<const std::int32_t> part,
+                                                const SurfaceNormals* normals) {
   if (surface.empty()) {
     throw std::invalid_argument(
         "no node is on the surface: consistent derivatives need to know where forces may act; give the nodes the "
@@ -285,7 +361,7 @@ ConsistencyMeasures make_derivatives_consistent(const Points& positions, std::sp
     std::iota(points.begin(), points.end(), 0);
   }
   FitResidual system(positions, volume, rows, points);
-  const Unbalanced unbalanced(surface, nodal_rows, positions.rows());
+  const Unbalanced unbalanced(surface, nodal_rows, positions.rows(), normals);
   const double unit = mean_magnitude(volume, rows, positions.rows());
   const Points defect = unbalanced_defect(system, unbalanced, volume, rows, positions.rows());
   ConsistencyMeasures measures;

@@ -259,7 +259,8 @@ TEST_F(Run, StagesAloneGiveWhatTheRunGave) {
       "brainshift discretise --surface " + out + "/segment/brain.vtp --labels " + out +
       "/segment/labels.nii.gz --nodes 700 --out " + out + "/discretise\n" + "brainshift solve --nodes " + out +
       "/discretise/nodes.vtu --cells " + out + "/discretise/cells.vtu --labels " + out +
-      "/segment/labels.nii.gz --skull " + r + "/segment/skull.vtp --load " + head_folder() +
+      "/segment/labels.nii.gz --surface " + out + "/segment/brain.vtp --skull " + r + "/segment/skull.vtp --load " +
+      head_folder() +
       "/craniotomy.csv --material 1:3000,0.49 --material 2:10,0.1 --material 3:9000,0.49,1000 --tolerance 0.1 --out " +
       out + "/solve\n" + "brainshift register --solution " + out + "/solve/solution.vtu --brain " + out +
       "/segment/brain.vtp --t1 " + head_folder() + "/t1.nii.gz --warp " + r + "/segment/brain.vtp --out " + out +

@@ -19,8 +19,8 @@ GROUND = ["segmentation/progress", "segmentation/options", "segmentation/geometr
 SOLVE_ROOMS = [
     "solve/" + room
     for room in (
-        "arrays", "material", "interface", "load", "shape", "quadrature", "boundary", "force", "body", "dynamics", "cut",
-        "output", "run", "region",
+        "arrays", "material", "interface", "load", "shape", "quadrature", "boundary", "force", "body", "measured", "dynamics",
+        "cut", "output", "run", "region",
     )
 ] + ["solve"]
 MOST_HEADERS_OF_SOLVE = 15

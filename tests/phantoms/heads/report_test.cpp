@@ -80,7 +80,7 @@ std::vector<std::string> images_of_page(const fs::path& page) {
 TEST(Report, IsWellFormedAndHoldsItsPictures) {
   const ScratchFolder scratch("page");
   const auto sources = images_of_page(oblique_run().folder / "report/index.html");
-  EXPECT_EQ(sources.size(), 14U);  // three planes of four, and the surface from two sides
+  EXPECT_EQ(sources.size(), 17U);  // three planes of five, and the surface from two sides
   const std::string prefix = "data:image/png;base64,";
   for (const std::string& source : sources) {
     ASSERT_TRUE(source.starts_with(prefix));
@@ -100,7 +100,7 @@ TEST(Report, WorksWithoutAnImage) {
   record["inputs"] = nlohmann::json::array();
   write_text(scratch / "run/run.json", record.dump());
   write_report(scratch / "run", scratch / "page");
-  EXPECT_EQ(images_of_page(scratch / "page/index.html").size(), 5U);
+  EXPECT_EQ(images_of_page(scratch / "page/index.html").size(), 8U);
   EXPECT_NE(contents_of(scratch / "page/index.html").find("no image to warp"), std::string::npos);
 }
 

@@ -34,6 +34,7 @@ PageContent full_content() {
   content.comparisons = {figure("b"), figure("a"), figure("d")};
   content.displacements = {figure("u")};
   content.surfaces = {figure("surface")};
+  content.labels = {figure("l")};
   content.plots = {figure("convergence").svg};
   return content;
 }

@@ -79,7 +79,9 @@ TEST_F(JobsTest, ASegmentationTakesLabelsOfAnyGridToTheImages) {
       }
     }
   }
-  write_image(folder_ / "t1.nii.gz", image());
+  ScalarImage t1 = image();
+  std::fill(t1.voxels.begin(), t1.voxels.end(), 1.0F);
+  write_image(folder_ / "t1.nii.gz", t1);
   write_image(folder_ / "labels.nii.gz", labels);
   SegmentJob job;
   job.image.labels = folder_ / "labels.nii.gz";

@@ -96,7 +96,7 @@ TEST(StageMeasures, OfASolutionLeaveOutWhatWasNotAskedFor) {
 
 TEST(StageMeasures, OfARegistrationCountItsVoxelsAndLandmarks) {
   registration::Registration result;
-  result.warped.geometry.size = {2, 3, 4};
+  result.forward.geometry.size = {2, 3, 4};
   result.landmarks = Points::Zero(5, 3);
   result.measures.brain_voxels = 6;
   result.measures.moved_voxels = 7;

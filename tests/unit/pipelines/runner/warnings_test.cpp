@@ -59,6 +59,29 @@ TEST(Warnings, TellOfPointsThatAreFewOrOnALine) {
   expect_parts(of_points(line).front(), {"10 places on one line"});
 }
 
+TEST(Warnings, TellOfLabelsWhereTheT1IsBlack) {
+  LabelMap labels;
+  labels.geometry.size = {10, 1, 1};
+  labels.voxels = {0, 1, 1, 1, 1, 2, 2, 2, 2, 2};
+  ScalarImage t1{labels.geometry, std::vector<float>(10, 5.0F)};
+  t1.voxels[0] = 0;
+  const std::vector<std::int16_t> brain = {1, 2};
+  EXPECT_TRUE(warnings_of(t1, labels, brain).empty());
+  std::fill_n(t1.voxels.begin() + 1, 3, 0.0F);
+  ASSERT_EQ(warnings_of(t1, labels, brain).size(), 1U);
+  expect_parts(warnings_of(t1, labels, brain).front(), {"33 %", "one patient"});
+}
+
+TEST(Warnings, TellOfABodyThatNothingButItsLoadHolds) {
+  solve::Model model;
+  model.cloud = ball();
+  const Points shift = Eigen::RowVector3d(0, 3, 4).replicate(model.cloud.positions.rows(), 1);
+  ASSERT_EQ(warnings_of(model, shift).size(), 1U);
+  expect_parts(warnings_of(model, shift).front(), {"nothing but the load", "more than 5 mm", "<contact/>"});
+  model.skull = brainshift::test::sphere({0, 0, 0}, 60, 2);
+  EXPECT_TRUE(warnings_of(model, shift).empty());
+}
+
 TEST(Warnings, TellOfAFieldThatFolds) {
   registration::RegisterMeasures measures;
   EXPECT_TRUE(warnings_of(measures).empty());

@@ -16,7 +16,7 @@ TEST_F(SceneFile, ExplainTellsActivePartsFromThoseNotBuilt) {
   <stage name="discretise" nodes="1000" command="mesher {in} {out}"/></scene>)");
   const std::string text = explain_scene(scene);
   expect_parts(text, {"load.craniotomy: active", "load.simulated: not built", "contact: not built", "mesher {in} {out}",
-                      "register: not built", "integration points", "MB", "tissue 1: neo_hookean, E 3000 Pa",
+                      "register: 64 voxels", "integration points", "MB", "tissue 1: neo_hookean, E 3000 Pa",
                       "dilatation 2.2", "dynamics: relaxation to 0.01 mm", "gravity: not active"});
 }
 

@@ -60,9 +60,47 @@ TEST_F(SceneLabels, OtherNumbersNeedATable) {
   EXPECT_TRUE(own.notes.empty());
 }
 
+TEST_F(SceneLabels, WhatIsNoLabelMapIsRefusedWithASentence) {
+  struct Case {
+    float value;
+    std::vector<std::string> said;
+  };
+  for (const Case& bad : {Case{0.25F, {"holds 0.25", "probabilities"}},
+                          {3.5F, {"holds 3.5", "round"}},
+                          {70000.0F, {"holds 70000", "renumber"}},
+                          {-7.0F, {"the label -7", "negative"}}}) {
+    const LabelMap good = freesurfer_labels();
+    ScalarImage image{good.geometry, {good.voxels.begin(), good.voxels.end()}};
+    image.voxels[3] = bad.value;
+    ImageInputs inputs;
+    inputs.labels = folder_ / "bad.nii.gz";
+    write_image(inputs.labels, image);
+    auto said = bad.said;
+    said.push_back("bad.nii.gz");
+    const std::string fault = fault_of(inputs);
+    for (const std::string& part : said) {
+      EXPECT_NE(fault.find(part), std::string::npos) << fault;
+    }
+    image.voxels[3] = 7.0F;
+    write_image(inputs.labels, image);
+    EXPECT_EQ(fault_of(inputs), "") << "whole numbers of a floating type are labels";
+  }
+}
+
+TEST_F(SceneLabels, AHemisphereThatIsMissingIsTold) {
+  LabelMap map = freesurfer_labels();
+  for (std::int16_t& label : map.voxels) {
+    label = label == 41 || label == 42 ? std::int16_t{0} : label;
+  }
+  const auto notes = read_labels(image_of(map, "freesurfer"), {.by_class = true, .joined = {}}).notes;
+  ASSERT_EQ(notes.size(), 2U);
+  expect_parts(notes[1], {"warning", "right hemisphere"});
+}
+
 TEST_F(SceneLabels, AMapWithoutVentriclesIsReadAndSaidSo) {
   LabelMap map = block_labels();
   map.voxels.assign(64, 2);
+  std::fill_n(map.voxels.begin(), 32, std::int16_t{41});
   const auto read = read_labels(image_of(map, "freesurfer"), {.by_class = true, .joined = {}});
   ASSERT_EQ(read.notes.size(), 1U);
   expect_parts(read.notes[0], {"no ventricles"});

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/quadrature/cell_boundary.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace brainshift::solve {
+
+namespace {
+
+using Face = std::array<int, 4>;  // corners of a cell; the fourth is -1 in a triangle, the last two in an edge
+
+constexpr Face hexahedron[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+constexpr Face tetrahedron[] = {{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}};
+constexpr Face quadrilateral[] = {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 3, -1, -1}, {3, 0, -1, -1}};
+constexpr Face triangle_edges[] = {{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 0, -1, -1}};
+
+std::span<const Face> faces_of(CellKind kind) {
+  switch (kind) {
+    case CellKind::hexahedron:
+      return hexahedron;
+    case CellKind::tetrahedron:
+      return tetrahedron;
+    case CellKind::quadrilateral:
+      return quadrilateral;
+    case CellKind::triangle:
+      return triangle_edges;
+  }
+  return {};
+}
+
+/// Vertices of the faces that one cell alone has, in the cell's order.
+std::vector<Face> single_faces(const BackgroundCells& cells) {
+  std::map<Face, std::pair<int, Face>> count;  // by its sorted vertices
+  const auto corners = static_cast<std::size_t>(cells.corners());
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    for (const Face& corner : faces_of(cells.kind)) {
+      Face face;
+      std::transform(corner.begin(), corner.end(), face.begin(), [&](int k) {
+        return k < 0 ? -1 : cells.connectivity[corners * cell + static_cast<std::size_t>(k)];
+      });
+      Face key = face;
+      std::sort(key.begin(), key.end());
+      auto& [times, vertices] = count[key];
+      ++times;
+      vertices = face;
+    }
+  }
+  std::vector<Face> single;
+  for (const auto& [key, found] : count) {
+    if (found.first == 1) {
+      single.push_back(found.second);
+    }
+  }
+  return single;
+}
+
+/// A strip between the edge at z = -l/2 and the same at l/2.
+void add_strip(const Face& edge, const Points& vertices, Eigen::Index at, Surface& surface) {
+  const Eigen::RowVector3d a = vertices.row(edge[0]), b = vertices.row(edge[1]);
+  const Eigen::RowVector3d up(0, 0, (b - a).norm() / 2);
+  surface.vertices.row(4 * at) = a - up;
+  surface.vertices.row(4 * at + 1) = b - up;
+  surface.vertices.row(4 * at + 2) = b + up;
+  surface.vertices.row(4 * at + 3) = a + up;
+  const auto first = static_cast<std::int32_t>(4 * at);
+  surface.triangles.row(2 * at) << first, first + 1, first + 2;
+  surface.triangles.row(2 * at + 1) << first, first + 2, first + 3;
+}
+
+}  // namespace
+
+Surface cell_boundary(const BackgroundCells& cells) {
+  Surface surface;
+  if (std::any_of(cells.inside_fraction.begin(), cells.inside_fraction.end(), [](double share) { return share < 1; })) {
+    return surface;
+  }
+  const std::vector<Face> faces = single_faces(cells);
+  const auto count = static_cast<Eigen::Index>(faces.size());
+  if (is_planar(cells.kind)) {
+    surface.vertices.resize(4 * count, 3);
+    surface.triangles.resize(2 * count, 3);
+    for (Eigen::Index f = 0; f < count; ++f) {
+      add_strip(faces[static_cast<std::size_t>(f)], cells.vertices, f, surface);
+    }
+    return surface;
+  }
+  surface.vertices = cells.vertices;
+  const Eigen::Index halves = cells.kind == CellKind::hexahedron ? 2 : 1;
+  surface.triangles.resize(halves * count, 3);
+  for (Eigen::Index f = 0; f < count; ++f) {
+    const Face& v = faces[static_cast<std::size_t>(f)];
+    surface.triangles.row(halves * f) << v[0], v[1], v[2];
+    if (halves == 2) {
+      surface.triangles.row(halves * f + 1) << v[0], v[2], v[3];
+    }
+  }
+  return surface;
+}
+
+}  // namespace brainshift::solve
