@@ -357,6 +357,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
   solve::write_solve(out, result);
   StageReport said = report_of(result, input.options.dynamics);
   write_measured(input, result, out, said);
+  warn(warnings_of(result.measures), said);
   if (input.load && !has_inner_points(input.model)) {
     warn(warnings_of(*input.load, input.model.cloud, input.model.conditions.displacement), said);
     warn(warnings_of(input.model, result.solution.displacement), said);

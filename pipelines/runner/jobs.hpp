@@ -33,7 +33,7 @@ struct SolveJob {
   std::filesystem::path cells;
   std::filesystem::path labels;
   std::filesystem::path skull;           ///< contact when given
-  std::filesystem::path surface;         ///< the brain's, for a simulated load
+  std::filesystem::path surface;         ///< the brain's: where faces are free, and for a simulated load
   std::filesystem::path landmarks = {};  ///< of a load with noise: where the spread of the answer is wanted
   std::optional<Load> load;              ///< absent: what the nodes prescribe; the forces of the nodes act in any case
   std::map<std::int32_t, solve::Material> materials;

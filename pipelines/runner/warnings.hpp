@@ -8,6 +8,7 @@
 #include "discretise/interface/node_cloud.hpp"
 #include "register/interface/result.hpp"
 #include "solve/interface/model.hpp"
+#include "solve/interface/result.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::pipelines {
@@ -23,6 +24,9 @@ Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<co
 
 /// Of a body that nothing but its measured load holds. displacement: what came out, (n × 3) mm.
 Warnings warnings_of(const solve::Model& model, const Points& displacement);
+
+/// Of strong compression with few integration points.
+Warnings warnings_of(const solve::SolveMeasures& measures);
 
 /// Of a field that folds.
 Warnings warnings_of(const registration::RegisterMeasures& measures);

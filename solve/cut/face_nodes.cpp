@@ -23,7 +23,7 @@ constexpr double mouth_within = 0.5;  // so near to a mouth a node is moved ther
 constexpr double mouth_apart = 0.6;
 constexpr double next_on_surface = 1.6;  // so near are neighbours on the body's surface
 
-constexpr std::int32_t none = -1;
+constexpr std::int32_t no_node = -1;
 
 struct Place {
   std::int32_t node;  ///< that is split; none: two are added
@@ -113,13 +113,13 @@ class Faces {
       return;
     }
     const bool clear = clear_of_front(x, h);
-    if (clear || node != none) {
+    if (clear || node != no_node) {
       taken_.push_back(x);  // a node too near to the front is split later, and the place kept for it
     }
     if (clear) {
       places_.push_back({.node = node, .like = like, .x = x, .normal = normal(facet)});
     }
-    if (node != none) {
+    if (node != no_node) {
       is_face_[static_cast<std::size_t>(node)] = 1;
     }
   }
@@ -131,7 +131,7 @@ class Faces {
       if ((cloud_.on_surface[k] != 0) != on_surface || is_face_[k] != 0) {
         continue;
       }
-      Eigen::Index nearest = none;
+      Eigen::Index nearest = no_node;
       double distance = split_within * cloud_.spacing[k];
       Eigen::Vector3d place, foot;
       for (Eigen::Index f = 0; f < cut_.facets.rows(); ++f) {
@@ -142,7 +142,7 @@ class Faces {
           place = foot;
         }
       }
-      if (nearest != none) {
+      if (nearest != no_node) {
         take(node, node, place, nearest, split_apart);
       }
     }
@@ -171,7 +171,7 @@ class Faces {
     for (const Mouth& m : mouths) {
       const bool there = distance(m.nearest, m.x) <= mouth_within * spacing(m.nearest);
       if (!there || is_face_[static_cast<std::size_t>(m.nearest)] == 0) {
-        take(there ? m.nearest : none, m.nearest, m.x, m.facet, mouth_apart);
+        take(there ? m.nearest : no_node, m.nearest, m.x, m.facet, mouth_apart);
       }
     }
   }
@@ -218,7 +218,7 @@ class Faces {
         const Eigen::Vector3d x =
             a + first * (i / static_cast<double>(steps)) + second * (j / static_cast<double>(steps));
         if (inside_(x)) {
-          take(none, nearest_node(x), x, f, added_apart);
+          take(no_node, nearest_node(x), x, f, added_apart);
         }
       }
     }
@@ -267,8 +267,8 @@ std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeC
   std::size_t split = 0;
   for (const Place& p : Faces(cut, inside, cloud, pairs).places()) {
     const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;
-    FacePair pair{p.node, none, p.x, p.normal};
-    const bool was_there = p.node != none;
+    FacePair pair{p.node, no_node, p.x, p.normal};
+    const bool was_there = p.node != no_node;
     if (was_there) {
       ++split;
       cloud.positions.row(p.node) = p.x + off;

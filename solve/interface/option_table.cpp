@@ -34,7 +34,7 @@ OptionTable<SolveOptions> integration_options() {
       choice_option<Options>("integration", &Options::integration,
                              {{"plain", Integration::plain}, {"consistent", Integration::consistent}},
                              "derivatives as they are, or corrected for cells that do not conform to the body, so that "
-                             "the linear patch test holds"),
+                             "homogeneous states are exact"),
       choice_option<Options>("imposition", &Options::imposition,
                              {{"exact", Imposition::exact}, {"simplified", Imposition::simplified}},
                              "of prescribed displacements: factorised, or lumped, which is cheaper and off by what the "

@@ -58,20 +58,21 @@ std::vector<Face> single_faces(const BackgroundCells& cells) {
   return single;
 }
 
-/// A strip between the edge at z = -l/2 and the same at l/2.
-void add_strip(const Face& edge, const Points& vertices, Eigen::Index at, Surface& surface) {
-  const Eigen::RowVector3d a = vertices.row(edge[0]), b = vertices.row(edge[1]);
-  const Eigen::RowVector3d up(0, 0, (b - a).norm() / 2);
-  surface.vertices.row(4 * at) = a - up;
-  surface.vertices.row(4 * at + 1) = b - up;
-  surface.vertices.row(4 * at + 2) = b + up;
-  surface.vertices.row(4 * at + 3) = a + up;
-  const auto first = static_cast<std::int32_t>(4 * at);
-  surface.triangles.row(2 * at) << first, first + 1, first + 2;
-  surface.triangles.row(2 * at + 1) << first, first + 2, first + 3;
-}
-
 }  // namespace
+
+Surface strips(const Points& vertices, std::span<const std::array<std::int32_t, 2>> edges) {
+  const auto count = static_cast<Eigen::Index>(edges.size());
+  Surface surface{Points(4 * count, 3), Triangles(2 * count, 3)};
+  for (Eigen::Index e = 0; e < count; ++e) {
+    const auto& edge = edges[static_cast<std::size_t>(e)];
+    const Eigen::RowVector3d a = vertices.row(edge[0]), b = vertices.row(edge[1]);
+    const Eigen::RowVector3d up(0, 0, (b - a).norm() / 2);
+    surface.vertices.middleRows<4>(4 * e) << a - up, b - up, b + up, a + up;
+    const auto first = static_cast<std::int32_t>(4 * e);
+    surface.triangles.middleRows<2>(2 * e) << first, first + 1, first + 2, first, first + 2, first + 3;
+  }
+  return surface;
+}
 
 Surface cell_boundary(const BackgroundCells& cells) {
   Surface surface;
@@ -79,15 +80,14 @@ Surface cell_boundary(const BackgroundCells& cells) {
     return surface;
   }
   const std::vector<Face> faces = single_faces(cells);
-  const auto count = static_cast<Eigen::Index>(faces.size());
   if (is_planar(cells.kind)) {
-    surface.vertices.resize(4 * count, 3);
-    surface.triangles.resize(2 * count, 3);
-    for (Eigen::Index f = 0; f < count; ++f) {
-      add_strip(faces[static_cast<std::size_t>(f)], cells.vertices, f, surface);
+    std::vector<std::array<std::int32_t, 2>> edges;
+    for (const Face& face : faces) {
+      edges.push_back({face[0], face[1]});
     }
-    return surface;
+    return strips(cells.vertices, edges);
   }
+  const auto count = static_cast<Eigen::Index>(faces.size());
   surface.vertices = cells.vertices;
   const Eigen::Index halves = cells.kind == CellKind::hexahedron ? 2 : 1;
   surface.triangles.resize(halves * count, 3);

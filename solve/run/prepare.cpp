@@ -8,12 +8,12 @@
 #include "solve/body/check_discretisation.hpp"
 #include "solve/body/check_model.hpp"
 #include "solve/body/lay_out.hpp"
+#include "solve/cut/boundary_normals.hpp"
 #include "solve/cut/cut_patches.hpp"
 #include "solve/cut/resection.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/measured/inner_rows.hpp"
 #include "solve/quadrature/adaptive_points.hpp"
-#include "solve/quadrature/cell_boundary.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
 #include "solve/shape/consistent_derivatives.hpp"
@@ -153,20 +153,6 @@ bool single_serves(const Model& model, double tolerance) {
          error_wanted(model, tolerance) >= finest_in_single * size;
 }
 
-/// At the nodes on the surface, by the body's boundary or that of its cells; none where neither is known.
-std::optional<SurfaceNormals> normals_of(const Model& model, const NodeCloud& cloud) {
-  const Surface boundary = model.boundary ? *model.boundary : cell_boundary(model.cells);
-  if (boundary.triangles.rows() == 0) {
-    return std::nullopt;
-  }
-  const std::vector<std::int32_t> nodes = surface_nodes(cloud);
-  std::vector<double> spacing;
-  for (const std::int32_t a : nodes) {
-    spacing.push_back(cloud.spacing[static_cast<std::size_t>(a)]);
-  }
-  return surface_normals(boundary, cloud.positions(nodes, Eigen::all), spacing);
-}
-
 bool cuts_go_on(const Model& model) {
   return last_time(model.cuts) > 0 || model.rupture;
 }
@@ -220,8 +206,11 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   measure_sizes(parts, placed.capped, measures);
   measures.single_precision = options.precision == Precision::single_precision;
   if (options.integration == Integration::consistent) {
-    const bool whole = !cut && !model.resection && pinned.empty();  // no face of it has come about inside
-    const std::optional<SurfaceNormals> normals = whole ? normals_of(model, parts.cloud) : std::nullopt;
+    std::optional<SurfaceNormals> normals;
+    if (pinned.empty()) {  // else the wall of the region is unknown
+      normals =
+          boundary_normals(known_boundary(model), cut ? cut->facets() : CutFacets(), parts.cloud, parts.nodal_rows);
+    }
     const ConsistencyMeasures done = make_derivatives_consistent(
         parts.cloud.positions, surface_nodes(parts.cloud), parts.nodal_rows, parts.points.volume,
         options.consistency_defect, parts.point_rows, {}, normals ? &*normals : nullptr);

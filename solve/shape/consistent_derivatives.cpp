@@ -63,12 +63,12 @@ class FitResidual {
     return node_begin_[node] < node_begin_[node + 1];
   }
 
-  /// Vectors at the nodes over the volume that sees each: about S⁻¹. Where no point sees a node it is left as it is.
-  void divide_by_weight(Points& vectors) const {
-    for (Eigen::Index a = 0; a < vectors.rows(); ++a) {
-      const double weight = weight_[static_cast<std::size_t>(a)];
-      vectors.row(a) /= weight > 0 ? weight : 1.0;
-    }
+  /// The volume that sees each node: about S. Where no point sees a node, the mean.
+  Eigen::VectorXd seeing_volume() const {
+    Eigen::VectorXd weight =
+        Eigen::Map<const Eigen::VectorXd>(weight_.data(), static_cast<Eigen::Index>(weight_.size()));
+    const double mean = weight.mean();
+    return weight.unaryExpr([mean](double w) { return w > 0 ? w : mean; });
   }
 
   /// S λ; afterwards the fits of λ are those that correction() takes.
@@ -174,14 +174,15 @@ class FitResidual {
   std::vector<std::int32_t> node_point_;
 };
 
-/// Takes out of nodal vectors what forces at the surface nodes can balance: the part in the range of Vᵀ, or of Vᵀ N
-/// where the forces have the directions N alone.
+/// Takes out of nodal vectors what forces at the surface nodes can balance: the part in the range of Q = Vᵀ, or of
+/// Vᵀ N where the forces have the directions N alone. What is left is the least in Σ_a |r_a|² / D_a, D the volume that
+/// sees the node, so that Qᵀ D⁻¹ r = 0: it is at once the preconditioner's projection.
 class Unbalanced {
  public:
-  Unbalanced(std::span<const std::int32_t> surface, const ShapeRows& nodal_rows, Eigen::Index nodes,
+  Unbalanced(std::span<const std::int32_t> surface, const ShapeRows& nodal_rows, const Eigen::VectorXd& seeing_volume,
              const SurfaceNormals* normals = nullptr)
-      : shape_(shape_matrix(nodal_rows, surface, nodes)) {
-    const Eigen::SparseMatrix<double> products = shape_ * shape_.transpose();
+      : inverse_(seeing_volume.cwiseInverse()), shape_(shape_matrix(nodal_rows, surface, seeing_volume.size())) {
+    const Eigen::SparseMatrix<double> products = shape_ * inverse_.asDiagonal() * shape_.transpose();
     if (normals == nullptr) {
       factor_.compute(products);
       return;
@@ -196,11 +197,19 @@ class Unbalanced {
     factor_.compute(between_directions(products));
   }
 
-  void apply(Points& vectors) const {
-    const Points at_surface = shape_ * vectors;
+  /// r, and D⁻¹ r.
+  void apply(Points& vectors, Points& scaled) const {
+    scaled = inverse_.asDiagonal() * vectors;
+    const Points at_surface = shape_ * scaled;
+    vectors -= shape_.transpose() * balancing(at_surface);
+    scaled = inverse_.asDiagonal() * vectors;
+  }
+
+ private:
+  /// The forces at the surface nodes.
+  Points balancing(const Points& at_surface) const {
     if (direction_.empty()) {
-      vectors -= shape_.transpose() * Eigen::MatrixXd(factor_.solve(at_surface));
-      return;
+      return factor_.solve(Eigen::MatrixXd(at_surface));
     }
     Eigen::VectorXd along(static_cast<Eigen::Index>(direction_.size()));
     for_each_direction(at_surface.rows(), [&](Eigen::Index node, std::size_t d) {
@@ -211,10 +220,9 @@ class Unbalanced {
     for_each_direction(force.rows(), [&](Eigen::Index node, std::size_t d) {
       force.row(node) += multiplier[static_cast<Eigen::Index>(d)] * direction_[d].transpose();
     });
-    vectors -= shape_.transpose() * force;
+    return force;
   }
 
- private:
   template <class Do>
   void for_each_direction(Eigen::Index nodes, const Do& each) const {
     for (Eigen::Index node = 0; node < nodes; ++node) {
@@ -226,7 +234,7 @@ class Unbalanced {
     }
   }
 
-  /// Nᵀ (V Vᵀ) N, one row a direction.
+  /// Nᵀ (V D⁻¹ Vᵀ) N, one row a direction.
   Eigen::SparseMatrix<double> between_directions(const Eigen::SparseMatrix<double>& products) const {
     std::vector<Eigen::Triplet<double>> entries;
     for (int column = 0; column < products.outerSize(); ++column) {
@@ -246,7 +254,8 @@ class Unbalanced {
     return matrix;
   }
 
-  Eigen::SparseMatrix<double> shape_;
+  Eigen::VectorXd inverse_;  ///< D⁻¹
+  Eigen::SparseMatrix<double, Eigen::RowMajor> shape_;
   std::vector<Eigen::Vector3d> direction_;  ///< N; empty: all
   std::vector<int> first_;                  ///< of each node, and the end
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
@@ -276,26 +285,19 @@ double mean_magnitude(std::span<const double> volume, const ShapeRows& rows, Eig
   return std::accumulate(sum.begin(), sum.end(), 0.0) / static_cast<double>(nodes);
 }
 
-/// Conjugate gradients within the unbalanced vectors, preconditioned by the nodes' volumes. Leaves the λ of the least
-/// residual: of a part of the points the system may have no solution.
+/// Conjugate gradients within the unbalanced vectors, preconditioned by the volumes that see the nodes (Gould, Hribar &
+/// Nocedal 2001). Leaves the λ of the least residual: of a part of the points the system may have no solution.
 int conjugate_gradients(FitResidual& system, const Unbalanced& unbalanced, Points residual, double goal, int most,
                         Points& best) {
-  const auto preconditioned = [&] {
-    Points vectors = residual;
-    system.divide_by_weight(vectors);
-    unbalanced.apply(vectors);
-    return vectors;
-  };
   Points lambda = Points::Zero(residual.rows(), 3);
-  unbalanced.apply(residual);
-  Points scaled = preconditioned();
-  Points direction = scaled, image(residual.rows(), 3);
+  Points scaled(residual.rows(), 3), image(residual.rows(), 3);
+  unbalanced.apply(residual, scaled);
+  Points direction = scaled;
   double squared = residual.cwiseProduct(scaled).sum();
   double least = residual.cwiseAbs().maxCoeff(), left = least;
   int iteration = 0;
   while (iteration < most && left > goal && left < hopeless * least) {
     system.apply(direction, image);
-    unbalanced.apply(image);
     const double curvature = direction.cwiseProduct(image).sum();
     if (curvature <= 0) {
       break;
@@ -303,7 +305,7 @@ int conjugate_gradients(FitResidual& system, const Unbalanced& unbalanced, Point
     const double step = squared / curvature;
     lambda += step * direction;
     residual -= step * image;
-    scaled = preconditioned();
+    unbalanced.apply(residual, scaled);
     const double next = residual.cwiseProduct(scaled).sum();
     direction = scaled + next / squared * direction;
     squared = next;
@@ -320,8 +322,8 @@ int conjugate_gradients(FitResidual& system, const Unbalanced& unbalanced, Point
 /// What surface forces do not balance of the integrated derivatives, at the nodes that a correction reaches.
 Points unbalanced_defect(const FitResidual& system, const Unbalanced& unbalanced, std::span<const double> volume,
                          const ShapeRows& rows, Eigen::Index nodes) {
-  Points defect = integrated_derivatives(volume, rows, nodes);
-  unbalanced.apply(defect);
+  Points defect = integrated_derivatives(volume, rows, nodes), scaled(nodes, 3);
+  unbalanced.apply(defect, scaled);
   for (Eigen::Index a = 0; a < nodes; ++a) {
     if (!system.reaches(static_cast<std::size_t>(a))) {
       defect.row(a).setZero();
@@ -331,18 +333,25 @@ Points unbalanced_defect(const FitResidual& system, const Unbalanced& unbalanced
 }
 
 /// Surface nodes whose forces act on nodes that the correction reaches alone.
-std::vector<std::int32_t> reached_surface(const FitResidual& system, std::span<const std::int32_t> surface,
-                                          const ShapeRows& nodal_rows) {
-  std::vector<std::int32_t> reached;
-  for (const std::int32_t a : surface) {
-    const std::span<const std::int32_t> support = nodal_rows[static_cast<std::size_t>(a)].node;
-    if (std::all_of(support.begin(), support.end(),
-                    [&](std::int32_t node) { return system.reaches(static_cast<std::size_t>(node)); })) {
-      reached.push_back(a);
+struct ReachedSurface {
+  std::vector<std::int32_t> nodes;
+  SurfaceNormals normals;  ///< of them, where those of the surface are known
+
+  ReachedSurface(const FitResidual& system, std::span<const std::int32_t> surface, const ShapeRows& nodal_rows,
+                 const SurfaceNormals* all) {
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+      const std::span<const std::int32_t> support = nodal_rows[static_cast<std::size_t>(surface[i])].node;
+      if (std::all_of(support.begin(), support.end(),
+                      [&](std::int32_t node) { return system.reaches(static_cast<std::size_t>(node)); })) {
+        nodes.push_back(surface[i]);
+        if (all != nullptr) {
+          normals.rank.push_back(all->rank[i]);
+          normals.direction.push_back(all->direction[i]);
+        }
+      }
     }
   }
-  return reached;
-}
+};
 
 }  // namespace
 
@@ -361,17 +370,18 @@ ConsistencyMeasures make_derivatives_consistent(const Points& positions, std::sp
     std::iota(points.begin(), points.end(), 0);
   }
   FitResidual system(positions, volume, rows, points);
-  const Unbalanced unbalanced(surface, nodal_rows, positions.rows(), normals);
+  const Eigen::VectorXd seeing_volume = system.seeing_volume();
+  const Unbalanced unbalanced(surface, nodal_rows, seeing_volume, normals);
   const double unit = mean_magnitude(volume, rows, positions.rows());
   const Points defect = unbalanced_defect(system, unbalanced, volume, rows, positions.rows());
   ConsistencyMeasures measures;
   measures.defect_before = defect.cwiseAbs().maxCoeff() / unit;
 
   Points lambda = Points::Zero(positions.rows(), 3);
-  const std::vector<std::int32_t> reached = reached_surface(system, surface, nodal_rows);
+  const ReachedSurface reached(system, surface, nodal_rows, normals);
   std::optional<Unbalanced> within;
-  if (reached.size() < surface.size()) {
-    within.emplace(reached, nodal_rows, positions.rows());
+  if (reached.nodes.size() < surface.size()) {
+    within.emplace(reached.nodes, nodal_rows, seeing_volume, normals == nullptr ? nullptr : &reached.normals);
   }
   measures.iterations = conjugate_gradients(system, within ? *within : unbalanced, -defect, tolerance * unit,
                                             part.empty() ? most_iterations : most_iterations_of_part, lambda);

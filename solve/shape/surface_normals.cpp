@@ -15,6 +15,7 @@ constexpr double off_plane = 10;        // distance across a triangle's plane co
 constexpr std::size_t candidates = 12;  // nodes that are nearest in space
 constexpr double piece_size = 0.5;      // longest edge of a piece of a triangle, over the spacing of the nodes
 constexpr double farthest = 1.5;        // of a node from a piece that it takes, over its spacing
+constexpr double same_place = 0.01;     // distance over the spacing
 constexpr double least_second = 0.05;   // share of the largest eigenvalue from which a direction counts: tan²(13°)
 
 /// Halves a triangle across its longest edge until it is small.
@@ -59,11 +60,11 @@ std::size_t node_of(const PointTree& tree, const Points& positions, const Eigen:
   return best;
 }
 
-}  // namespace
+/// Σ A n ⊗ n of the boundary's pieces over the nodes to which they belong.
+using Spread = std::vector<Eigen::Matrix3d>;
 
-SurfaceNormals surface_normals(const Surface& boundary, const Points& positions, std::span<const double> spacing) {
-  const PointTree tree(positions);
-  std::vector<Eigen::Matrix3d> spread(spacing.size(), Eigen::Matrix3d::Zero());  // Σ A n ⊗ n
+void spread_over(const PointTree& tree, const Surface& boundary, const Points& positions,
+                 std::span<const double> spacing, Spread& spread) {
   for (Eigen::Index t = 0; t < boundary.triangles.rows(); ++t) {
     const Triangle whole = triangle(boundary, t);
     const Eigen::Vector3d normal = whole.area_vector().normalized();
@@ -77,8 +78,37 @@ SurfaceNormals surface_normals(const Surface& boundary, const Points& positions,
       }
     });
   }
+}
+
+/// A piece went to one of the nodes at a place.
+Spread shared_at_one_place(const PointTree& tree, const Points& positions, std::span<const double> spacing,
+                           const Spread& spread) {
+  Spread shared = spread;
+  std::array<std::size_t, candidates> index{};
+  std::array<double, candidates> squared{};
+  for (std::size_t node = 0; node < spread.size(); ++node) {
+    const Eigen::RowVector3d place = positions.row(static_cast<Eigen::Index>(node));
+    const std::size_t found = tree.nearest(place.data(), candidates, index.data(), squared.data());
+    for (std::size_t k = 0; k < found; ++k) {
+      if (index[k] != node && squared[k] <= same_place * same_place * spacing[node] * spacing[node]) {
+        shared[node] += spread[index[k]];
+      }
+    }
+  }
+  return shared;
+}
+
+}  // namespace
+
+SurfaceNormals surface_normals(std::span<const Surface> boundary, const Points& positions,
+                               std::span<const double> spacing) {
+  const PointTree tree(positions);
+  Spread spread(spacing.size(), Eigen::Matrix3d::Zero());
+  for (const Surface& part : boundary) {
+    spread_over(tree, part, positions, spacing, spread);
+  }
   SurfaceNormals normals;
-  for (const Eigen::Matrix3d& moments : spread) {
+  for (const Eigen::Matrix3d& moments : shared_at_one_place(tree, positions, spacing, spread)) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moments);
     const Eigen::Vector3d& value = eigen.eigenvalues();  // ascending
     const auto counts = [&](int i) { return value[i] >= least_second * value[2]; };

@@ -17,7 +17,9 @@ struct SurfaceNormals {
 };
 
 /// The normals of that part of the boundary to which the node is nearest, along the boundary. positions: of the nodes
-/// on the surface (n × 3), mm; spacing: of each, mm. An edge is one from about 25° on.
-SurfaceNormals surface_normals(const Surface& boundary, const Points& positions, std::span<const double> spacing);
+/// on the surface (n × 3), mm; spacing: of each, mm. Nodes at one place, as on the faces of a cut, have the same. An
+/// edge is one from about 25° on.
+SurfaceNormals surface_normals(std::span<const Surface> boundary, const Points& positions,
+                               std::span<const double> spacing);
 
 }  // namespace brainshift::solve

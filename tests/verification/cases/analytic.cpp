@@ -82,7 +82,7 @@ Figure stretch_figure(const std::string& name, const solve::Material& material, 
           "",
           100 * std::abs(force / exact - 1),
           "%",
-          small ? 8 : 2,
+          small ? 0.2 : 0.02,
           {},
           "analytic",
           result.measures.seconds_setup + result.measures.seconds_stepping};
@@ -107,7 +107,7 @@ Figure shear_figure(const std::string& name, const solve::Material& material, bo
           "",
           100 * std::abs(energy / (exact * std::pow(side, 3) * joule) - 1),
           "%",
-          small ? 8 : 2,
+          0.02,
           {},
           "analytic",
           result.measures.seconds_setup + result.measures.seconds_stepping};

@@ -19,7 +19,8 @@ inline solve::Model cylinder_model(double least_distance, double cells_per_node,
   const Grading rims = rim_fineness < 1 ? Grading{{{radius, 0}, {radius, height}}, rim_fineness, 20} : Grading{};
   model.cloud = cylinder_cloud(radius, height, least_distance, 4, rims);
   model.conditions = test::all_free(model.cloud);
-  model.cells = cells_over(cylinder_surface(radius, height), model.cloud.size(), cells_per_node,
+  model.boundary = cylinder_surface(radius, height);
+  model.cells = cells_over(*model.boundary, model.cloud.size(), cells_per_node,
                            rims.rings.empty() ? std::nullopt : std::optional(refinement_about(rims, 5)));
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const double z = model.cloud.positions(a, 2);

@@ -69,7 +69,7 @@ TEST_F(Stamps, ChangeForTheStagesThatDependOnAnOptionAlone) {
 TEST_F(Stamps, ChangeWithTheContentsOfFilesNotTheirNames) {
   EXPECT_EQ(changed_by([&] { write("t1.nii", "another"); }), "s--r");
   EXPECT_EQ(changed_by([&] { write("load.csv", "another"); }), "--v-");
-  EXPECT_EQ(changed_by([&] { write("run/segment/brain.vtp", "another"); }), "-d-r");
+  EXPECT_EQ(changed_by([&] { write("run/segment/brain.vtp", "another"); }), "-dvr");
   EXPECT_EQ(changed_by([&] { write("run/discretise/nodes.vtu", "another"); }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.load->craniotomy = write("moved.csv", "another"); }), "----");
   EXPECT_EQ(changed_by([&] { scene_.loading.curve = write("curve.csv", "one"); }), "--v-");

@@ -82,6 +82,18 @@ TEST(Warnings, TellOfABodyThatNothingButItsLoadHolds) {
   EXPECT_TRUE(warnings_of(model, shift).empty());
 }
 
+TEST(Warnings, TellOfFewPointsInAPressedBody) {
+  solve::SolveMeasures measures;
+  measures.nodes = 1000;
+  measures.integration_points = 1250;
+  measures.smallest_jacobian = 0.9;
+  EXPECT_TRUE(warnings_of(measures).empty());
+  measures.smallest_jacobian = 0.46;
+  expect_parts(warnings_of(measures).front(), {"only 1.2 integration points a node", "to 0.46"});
+  measures.integration_points = 2000;
+  EXPECT_TRUE(warnings_of(measures).empty());
+}
+
 TEST(Warnings, TellOfAFieldThatFolds) {
   registration::RegisterMeasures measures;
   EXPECT_TRUE(warnings_of(measures).empty());

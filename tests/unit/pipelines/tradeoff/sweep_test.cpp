@@ -20,7 +20,7 @@ class SweepTest : public BallFolder {
       <load><craniotomy file="load.csv"/></load>)" +
                                   more + R"(<tradeoff nodes=")" + nodes +
                                   R"(" points_per_cell="1" basis="linear" derivatives="full" precision="double"
-      tolerance="0.1" reference_nodes=")" +
+      tolerance="0.005" reference_nodes=")" +
                                   reference + R"("/></scene>)");
   }
   Sweep run_sweep(const fs::path& file, const std::vector<std::string>& overrides = {}) {
@@ -37,8 +37,8 @@ class SweepTest : public BallFolder {
 };
 
 TEST_F(SweepTest, MeasuresEachChoiceAgainstTheReference) {
-  const Sweep result = run_sweep(scene("40 120", "300"));
-  EXPECT_EQ(result.reference.front(), "300");
+  const Sweep result = run_sweep(scene("40 640", "1300"));
+  EXPECT_EQ(result.reference.front(), "1300");
   ASSERT_EQ(result.points.size(), 2U);
   EXPECT_EQ(told_, 2U);
   EXPECT_EQ(last_.choice, result.points.back().choice);

@@ -27,16 +27,12 @@ std::string refusal(const Model& model, const SolveOptions& options = test::plan
 TEST(Cut, AlongTheStretchChangesNothing) {
   Model model = strip(1.2);
   SolveOptions options = test::plane_options();
-  options.consistency_defect = 1e-4;
-  options.tolerance = 0.001;
+  options.tolerance = 1e-4;
   const SolveResult whole = solve(model, options);
   model.cuts = {cut_path({{8, 9.3}, {22, 9.3}})};
   const SolveResult cut = solve(model, options);
-  const double of_free_edges =
-      (whole.solution.displacement.col(0) - 0.2 * whole.solution.positions.col(0)).cwiseAbs().maxCoeff();
-  EXPECT_LT(of_free_edges, 0.08);  // of 6 mm, with so few nodes
-  EXPECT_LT(field_difference(whole.solution, cut.solution).largest, of_free_edges);
-  EXPECT_NEAR(cut.history.back().reaction.x() / whole.history.back().reaction.x(), 1, 0.002);
+  EXPECT_LT(field_difference(whole.solution, cut.solution).largest, 1e-3);  // of 6 mm
+  EXPECT_NEAR(cut.history.back().reaction.x() / whole.history.back().reaction.x(), 1, 1e-5);
 }
 
 TEST(Cut, ThroughTheBodyLeavesPartsThatMoveAlone) {

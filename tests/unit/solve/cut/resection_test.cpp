@@ -88,6 +88,7 @@ TEST(Resection, LeavesABodyThatNeverHadTheTissue) {
   const SolveResult taken_out = solve(model, coarse_options());
 
   Model half = box_model(test::box_cells({12, 12, 6}, {side, side, side / 2}), 7);
+  half.boundary = Surface();  // as unknown as the wall of what was taken out
   half.gravity = model.gravity;
   std::vector<std::int32_t> nodes;
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {

@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "solve/quadrature/cell_boundary.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "tests/unit/solve/all_free.hpp"
@@ -179,6 +180,41 @@ TEST_P(NonConforming, PassThePatchTestThatPlainIntegrationFails) {
   RecordProperty("error", figures.str());
   EXPECT_LE(consistent, 1e-8);
   EXPECT_GE(plain, 5e-3);
+}
+
+/// A cube between frictionless plates, its sides free, in cells that do not go with its nodes.
+struct FreeSides : testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Cells, FreeSides, testing::Bool(),
+                         [](const auto& tested) { return tested.param ? "cut" : "coarser"; });
+
+TEST_P(FreeSides, CarryNoForceWhereTheBoundaryIsKnown) {
+  constexpr double stretch = 0.7;
+  Model model = uniaxial(stretch);
+  const double lateral = uniaxial_answer(model.materials.at(1), stretch).second;
+  const Eigen::Matrix3d answer = Eigen::Vector3d(lateral - 1, lateral - 1, stretch - 1).asDiagonal();
+  const Surface boundary = cell_boundary(model.cells);
+  model.cells = GetParam() ? cut_cells() : test::box_cells(4, side);
+  SolveOptions options;
+  options.points_per_cell = 8;
+  options.load_steps = 200;
+  options.tolerance = 1e-7;
+  const auto error = [&](double defect) {
+    options.consistency_defect = defect;
+    const SolveResult result = solve(model, options);
+    EXPECT_TRUE(result.measures.converged) << result.failure;
+    return difference_from(result.solution, answer) / ((1 - stretch) * side);
+  };
+  model.boundary = boundary;
+  const double fine = error(1e-7), by_default = error(SolveOptions().consistency_defect);
+  model.boundary.reset();
+  model.cells.inside_fraction.back() = std::min(model.cells.inside_fraction.back(), 1 - 1e-12);  // not that of cells
+  const double unknown = error(1e-7);
+  RecordProperty("error", std::to_string(fine) + ", " + std::to_string(by_default) + " by default, " +
+                              std::to_string(unknown) + " without");
+  EXPECT_LE(fine, 1e-5);
+  EXPECT_LE(by_default, 2e-4);
+  EXPECT_GE(unknown, 10 * by_default);
 }
 
 }  // namespace brainshift::solve::consistent_derivatives_test
