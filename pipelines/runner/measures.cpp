@@ -82,6 +82,9 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                                             {"log_likelihood", row.log_likelihood}});
     }
   }
+  if (m.estimated_error_95) {
+    report.measures["estimated_error_95_mm"] = *m.estimated_error_95;
+  }
   if (!m.took.empty()) {
     report.measures["took"] = m.took;
   }

@@ -117,7 +117,8 @@ struct SolveMeasures {
   double smallest_jacobian = 0;     ///< least det F over integration points
   double largest_stretch = 0;       ///< largest principal stretch
   double compressed_share = 0;      ///< of the volume, pressed so far that its free faces may crease
-  std::optional<CutMeasures> cut;   ///< absent: nothing was cut
+  std::optional<double> estimated_error_95;  ///< 95 % of the nodes' estimates, mm, see estimated_error()
+  std::optional<CutMeasures> cut;            ///< absent: nothing was cut
   std::optional<ResectionMeasures> resection;
   std::optional<MeasuredFit> measured;  ///< absent: the load is held exactly
   double seconds_setup = 0;

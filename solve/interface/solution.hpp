@@ -17,6 +17,7 @@ struct Solution {
   std::vector<double> spacing;  ///< of the cloud, mm: with the shape options it gives back the shape functions
   ShapeOptions shape;           ///< the shape functions it was computed with
   solve::CutFacets cut = {};    ///< that parts the body; none: empty
+  std::vector<double> estimated_error = {};  ///< of the displacement at each node, mm; empty where there is no estimate
 };
 
 }  // namespace brainshift

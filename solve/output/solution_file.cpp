@@ -165,6 +165,7 @@ Solution read_solution(const std::filesystem::path& file) {
       refuse(file, "the spacing of node " + std::to_string(a) + " is not positive.");
     }
   }
+  solution.estimated_error = vtu::array(file, data, "estimated_error", nodes);
   return solution;
 }
 
@@ -175,6 +176,9 @@ void write_solution(const std::filesystem::path& file, const Solution& solution)
   vtu::add_array(data, "displacement", flat(solution.displacement), 3);
   vtu::add_array(data, "reaction_force", flat(solution.reaction_force), 3);
   vtu::add_array(data, "spacing", solution.spacing);
+  if (!solution.estimated_error.empty()) {
+    vtu::add_array(data, "estimated_error", solution.estimated_error);
+  }
   const std::array basis = {static_cast<std::int32_t>(solution.shape.basis)};
   const std::array dilatation = {solution.shape.dilatation};
   const std::array penalty = {solution.shape.penalty};

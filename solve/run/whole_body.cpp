@@ -8,6 +8,7 @@
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/cut/resection.hpp"
 #include "solve/run/coarse.hpp"
+#include "solve/run/error_estimate.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 
@@ -26,17 +27,19 @@ bool starts_coarse(const Model& model, const SolveOptions& options) {
          model.curve.at(model.curve.duration()) == 1;
 }
 
-/// The coarse solution's displacement at the nodes, taken for their parameters: near enough for a start.
-NodalVectors coarse_start(const Model& model, SolveOptions options, const std::vector<std::int32_t>& original) {
+/// The displacement at the nodes, (n × 3) mm, absent where the coarse cloud cannot be solved.
+std::optional<Points> coarse_solution(const Model& model, SolveOptions options) {
   constexpr double factor = 5;  // what a coarse solution is wrong by is more
   options.tolerance *= factor;
   options.load_steps = std::min(options.load_steps, 100);
-  NodalVectors start;
-  if (const std::optional<Points> displacement = coarse_displacement(model, options, {})) {
-    start.resize(4 * original.size(), 0.0);
-    for (std::size_t a = 0; a < original.size(); ++a) {
-      at(start, a).head<3>() = displacement->row(original[a]);
-    }
+  return coarse_displacement(model, options, {});
+}
+
+/// It is taken for the parameters: near enough for a start.
+NodalVectors as_start(const Points& displacement, const std::vector<std::int32_t>& original) {
+  NodalVectors start(4 * original.size(), 0.0);
+  for (std::size_t a = 0; a < original.size(); ++a) {
+    at(start, a).head<3>() = displacement.row(original[a]);
   }
   return start;
 }
@@ -67,14 +70,23 @@ SolveResult attempt(const Model& model, const SolveOptions& options, SolveMeasur
   const Stopwatch start;
   Prepared prepared = prepare(model, options, {}, measures, progress);
   measures.seconds_setup = start.seconds();
-  NodalVectors coarse;
+  std::optional<Points> coarse;
+  NodalVectors start_from;
   if (starts_coarse(model, options)) {
     const Stopwatch begin;
     report(progress, 0, "solving a coarse cloud");
-    coarse = coarse_start(model, options, prepared.body.original);
+    coarse = coarse_solution(model, options);
+    if (coarse) {
+      start_from = as_start(*coarse, prepared.body.original);
+    }
     measures.seconds_coarse = begin.seconds();
   }
-  return step_to_end(model, options, std::move(prepared), measures, std::move(coarse), progress);
+  SolveResult result = step_to_end(model, options, std::move(prepared), measures, std::move(start_from), progress);
+  if (coarse && result.failure.empty()) {
+    result.solution.estimated_error = estimated_error(model.cloud, result.solution.displacement, *coarse);
+    result.measures.estimated_error_95 = percentile_95(result.solution.estimated_error);
+  }
+  return result;
 }
 
 }  // namespace

@@ -39,7 +39,9 @@ std::vector<Figure> displacement_figures(const solve::SolveResult& result, const
   const std::string of = "displacement difference / imposed, ";
   return {{of + "largest", "3.5 %", percent(d.largest, imposed), "%", bounds.largest, {}, reference.error, seconds},
           {of + "95 %", "", percent(d.percentile95, imposed), "%", bounds.percentile95, {}, reference.error, seconds},
-          {of + "mean", "", percent(d.mean, imposed), "%", bounds.mean, {}, reference.error, seconds}};
+          {of + "mean", "", percent(d.mean, imposed), "%", bounds.mean, {}, reference.error, seconds},
+          {"estimated error / difference, 95 %", "", result.measures.estimated_error_95.value_or(0) / d.percentile95,
+           "", 5, 0.5, reference.error, seconds}};
 }
 
 Outcome compare(const std::string& name, double poisson_ratio, const Eigen::RowVector3d& travel, int axis,

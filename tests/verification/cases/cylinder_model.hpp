@@ -38,6 +38,7 @@ inline solve::Model cylinder_model(double least_distance, double cells_per_node,
 inline solve::SolveOptions steady_options() {
   solve::SolveOptions options;
   options.tolerance = 0.003;
+  options.start = solve::Start::coarse;  // which gives the estimate of the error, too
   return options;
 }
 

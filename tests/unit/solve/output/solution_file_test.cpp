@@ -43,11 +43,13 @@ TEST(Solution, SurvivesWritingAndReading) {
                     .displacement = test::random_points(125, 3, 1),
                     .reaction_force = test::random_points(125, 1, 2),
                     .spacing = cloud.spacing,
-                    .shape = {.basis = Basis::linear, .dilatation = 1.7}};
+                    .shape = {.basis = Basis::linear, .dilatation = 1.7},
+                    .estimated_error = std::vector<double>(125, 0.25)};
   const Solution read = read_back(solution);
   EXPECT_EQ(read.positions, solution.positions);
   EXPECT_EQ(read.displacement, solution.displacement);
   EXPECT_EQ(read.reaction_force, solution.reaction_force);
+  EXPECT_EQ(read.estimated_error, solution.estimated_error);
   EXPECT_EQ(read.spacing, solution.spacing);
   EXPECT_EQ(read.shape.basis, Basis::linear);
   EXPECT_EQ(read.shape.dilatation, 1.7);

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "solve/run/error_estimate.hpp"
+
+#include <gtest/gtest.h>
+
+#include "solve/output/field_difference.hpp"
+#include "tests/unit/solve/models.hpp"
+
+namespace brainshift::solve::error_estimate_test {
+
+constexpr double side = 60;
+
+TEST(ErrorEstimate, IsAShareOfAnEvenDifference) {
+  const NodeCloud cloud = test::irregular_box(5, side);
+  const Points fine = Points::Zero(cloud.positions.rows(), 3), coarse = fine.rowwise() + Eigen::RowVector3d(0, 2, 0);
+  for (const double error : estimated_error(cloud, fine, coarse)) {
+    EXPECT_NEAR(error, 0.8 * 2, 1e-12);
+  }
+}
+
+/// Where two fields cross, the nodes about tell that they lie apart.
+TEST(ErrorEstimate, DoesNotVanishWhereTheFieldsCross) {
+  const NodeCloud cloud = test::irregular_box(9, side);
+  const Points fine = Points::Zero(cloud.positions.rows(), 3);
+  Points coarse = fine;
+  coarse.col(0) = (cloud.positions.col(0).array() - side / 2) / (side / 2);  // 1 mm at the ends
+  const std::vector<double> error = estimated_error(cloud, fine, coarse);
+  for (std::size_t a = 0; a < cloud.size(); ++a) {
+    const double apart = std::abs(coarse(static_cast<Eigen::Index>(a), 0));
+    EXPECT_GE(error[a], 0.1) << apart;
+    EXPECT_LE(error[a], 0.8 * (apart + 0.5));
+  }
+}
+
+/// Against a cloud of eight times the nodes.
+TEST(ErrorEstimate, ComesWithEverySolutionThatHadACoarseStart) {
+  Model coarse = uniaxial(0.8, 9), fine = uniaxial(0.8, 17);
+  for (Model* model : {&coarse, &fine}) {
+    for (Eigen::Index a = 0; a < model->cloud.positions.rows(); ++a) {
+      if (model->cloud.positions(a, 2) < 1e-9 || model->cloud.positions(a, 2) > side - 1e-9) {
+        model->conditions.displacement.row(a).head<2>().setZero();  // bonded: no homogeneous state
+      }
+    }
+  }
+  SolveOptions options;
+  options.start = Start::coarse;
+  const SolveResult result = solve(coarse, options);
+  ASSERT_EQ(result.failure, "");
+  ASSERT_EQ(result.solution.estimated_error.size(), coarse.cloud.size());
+  const double true_95 = field_difference(result.solution, solve(fine, options).solution).percentile_95;
+  RecordProperty("estimate", std::to_string(*result.measures.estimated_error_95) + " of " + std::to_string(true_95));
+  EXPECT_GE(*result.measures.estimated_error_95, 0.5 * true_95);
+  EXPECT_LE(*result.measures.estimated_error_95, 5 * true_95);
+
+  options.start = Start::rest;
+  EXPECT_TRUE(solve(coarse, options).solution.estimated_error.empty());
+}
+
+TEST(ErrorEstimate, TellsBelowWhatMostValuesLie) {
+  std::vector<double> values;
+  for (int i = 0; i < 100; ++i) {
+    values.push_back((i * 37) % 100);
+  }
+  EXPECT_EQ(percentile_95(values), 95);
+}
+
+}  // namespace brainshift::solve::error_estimate_test
