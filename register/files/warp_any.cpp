@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/files/warp_any.hpp"
 
-#include <stdexcept>
 #include <string>
 
+#include "register/files/warp_model.hpp"
+#include "register/warp/recognise_labels.hpp"
 #include "register/warp/warp.hpp"
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/points_file.hpp"
+#include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
 
 namespace brainshift::registration {
@@ -14,43 +17,78 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool ends_with(const fs::path& file, const char* ending) {
-  return file.string().ends_with(ending);
+bool has_ending(const fs::path& file, std::initializer_list<const char*> endings) {
+  return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return ending_of(file) == ending; });
 }
 
-bool is_surface(const fs::path& file) {
-  return ends_with(file, ".vtp") || ends_with(file, ".stl") || ends_with(file, ".ply") || ends_with(file, ".obj");
-}
-
-void warp_points(const fs::path& in, const fs::path& out, const VectorImage& forward) {
+void warp_points(const fs::path& in, PointMover& mover, const fs::path& out) {
   const PointsFile points(in);
-  if (!is_points_file(out) || out.extension() != in.extension()) {
-    throw std::invalid_argument(out.string() + ": the moved points of " + in.string() +
-                                " keep its format; write to a " + in.extension().string() + " file");
-  }
-  points.write_moved(out, move_points(forward, points.positions()));
+  points.write_moved(out, move_points(mover, points.positions()));
 }
 
-void warp_image(const fs::path& in, const fs::path& out, const VectorImage& resampling, const WarpAnyOptions& options) {
-  if (options.labels) {
-    write_image(out, warp(read_label_map(in), resampling));
-  } else {
-    write_image(out, warp(read_image(in), resampling, options.interpolation));
+void warp_surface(const fs::path& in, PointMover& mover, const fs::path& out) {
+  Surface surface = read_surface(in);
+  surface.vertices = move_points(mover, surface.vertices);
+  write_surface(out, surface);
+}
+
+using MoveFile = void (*)(const fs::path& in, PointMover& mover, const fs::path& out);
+
+/// Nothing for an image.
+MoveFile mover_of(const fs::path& file) {
+  if (is_points_file(file)) {
+    return warp_points;
   }
+  if (has_ending(file, {".vtp", ".vtu", ".vtk"})) {
+    return warp_model;
+  }
+  return has_ending(file, {".stl", ".ply", ".obj"}) ? warp_surface : nullptr;
+}
+
+void warp_labels(const LabelMap& labels, const VectorImage& field, const fs::path& out, const WarpAnyOptions& options) {
+  write_image(out, warp(labels, field, options.grid.value_or(labels.geometry)));
+}
+
+WarpedFile warp_image(const fs::path& in, const VectorImage& field, const fs::path& out,
+                      const WarpAnyOptions& options) {
+  if (options.values == Values::labels) {
+    warp_labels(read_label_map(in), field, out, options);
+    return {.is_image = true, .is_label_map = true, .moved = {}};
+  }
+  const ScalarImage image = read_image(in);
+  if (options.values == Values::recognised && looks_like_labels(image)) {
+    warp_labels(read_label_map(in), field, out, options);
+    return {.is_image = true, .is_label_map = true, .moved = {}};
+  }
+  write_image(out, warp(image, field, options.interpolation, options.grid.value_or(image.geometry)));
+  return {.is_image = true, .is_label_map = false, .moved = {}};
 }
 
 }  // namespace
 
-void warp_any(const fs::path& in, const fs::path& register_folder, const fs::path& out, const WarpAnyOptions& options) {
-  if (is_points_file(in)) {
-    warp_points(in, out, read_vector_image(register_folder / "preop_to_intraop.nii.gz"));
-  } else if (is_surface(in)) {
-    Surface surface = read_surface(in);
-    surface.vertices = move_points(read_vector_image(register_folder / "preop_to_intraop.nii.gz"), surface.vertices);
-    write_surface(out, surface);
-  } else {
-    warp_image(in, out, read_vector_image(register_folder / "intraop_to_preop.nii.gz"), options);
+WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& out, const WarpAnyOptions& options) {
+  const MoveFile move = mover_of(in);
+  if (move == nullptr) {
+    return warp_image(in, fields.of_images(), out, options);
   }
+  if (mover_of(out) != move || ending_of(out) != ending_of(in)) {
+    refuse(out,
+           "the moved points of " + in.string() + " keep its format; write to a " + in.extension().string() + " file");
+  }
+  PointMover mover(fields.of_points());
+  move(in, mover, out);
+  return {.is_image = false, .is_label_map = false, .moved = mover.moved()};
+}
+
+fs::path warped_name(const fs::path& in) {
+  const fs::path file = in.has_filename() ? in.filename() : in.parent_path().filename();
+  std::string name = "warped_" + file.string();
+  if (has_ending(file, {".mgz", ".mgh"})) {
+    name = fs::path(name).replace_extension(".nii.gz").string();
+  } else if (fs::is_directory(in)) {
+    name += ".nii.gz";
+  }
+  return name;
 }
 
 }  // namespace brainshift::registration

@@ -42,7 +42,8 @@ class WarpAny : public ::testing::Test {
   }
 
   void warp(const std::string& in, const std::string& out, const WarpAnyOptions& options = {}) const {
-    warp_any(path(in), folder_.path(), path(out), options);
+    RegisterFields fields(folder_.path(), Towards::intraop);
+    warp_any(path(in), fields, path(out), options);
   }
 
   std::string refusal(const std::string& in, const std::string& out) const {
@@ -109,7 +110,7 @@ TEST_F(WarpAny, ResamplesImagesAndLabelMapsOnTheirOwnGrid) {
   write_image(path("t1.nii.gz"), image(g, slope));
   write_image(path("labels.nrrd"), label_map(g, [](const Eigen::Vector3d& x) { return x.x() < centre.x() ? 3 : 9; }));
   warp("t1.nii.gz", "t1_out.mha");
-  warp("labels.nrrd", "labels_out.nii.gz", {.labels = true});
+  warp("labels.nrrd", "labels_out.nii.gz", {.values = Values::labels, .grid = {}});
   const ScalarImage t1 = read_image(path("t1_out.mha"));
   const LabelMap labels = read_label_map(path("labels_out.nii.gz"));
   ASSERT_TRUE(same_geometry(t1.geometry, g));
