@@ -4,6 +4,7 @@
 #include <string>
 
 #include "register/files/warp_model.hpp"
+#include "register/files/warp_tracts.hpp"
 #include "register/warp/recognise_labels.hpp"
 #include "register/warp/warp.hpp"
 #include "segmentation/files/lower_case.hpp"
@@ -41,6 +42,12 @@ MoveFile mover_of(const fs::path& file) {
   }
   if (has_ending(file, {".vtp", ".vtu", ".vtk"})) {
     return warp_model;
+  }
+  if (has_ending(file, {".tck"})) {
+    return warp_tck;
+  }
+  if (has_ending(file, {".trk"})) {
+    return warp_trk;
   }
   return has_ending(file, {".stl", ".ply", ".obj"}) ? warp_surface : nullptr;
 }
