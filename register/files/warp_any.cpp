@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/files/warp_any.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
+#include <utility>
 
+#include "register/files/warp_mesh.hpp"
 #include "register/files/warp_model.hpp"
 #include "register/files/warp_tracts.hpp"
 #include "register/warp/recognise_labels.hpp"
@@ -17,10 +22,6 @@ namespace brainshift::registration {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool has_ending(const fs::path& file, std::initializer_list<const char*> endings) {
-  return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return ending_of(file) == ending; });
-}
 
 void warp_points(const fs::path& in, PointMover& mover, const fs::path& out) {
   const PointsFile points(in);
@@ -40,16 +41,18 @@ MoveFile mover_of(const fs::path& file) {
   if (is_points_file(file)) {
     return warp_points;
   }
-  if (has_ending(file, {".vtp", ".vtu", ".vtk"})) {
-    return warp_model;
-  }
-  if (has_ending(file, {".tck"})) {
-    return warp_tck;
-  }
-  if (has_ending(file, {".trk"})) {
-    return warp_trk;
-  }
-  return has_ending(file, {".stl", ".ply", ".obj"}) ? warp_surface : nullptr;
+  constexpr std::array<std::pair<std::string_view, MoveFile>, 8> movers = {{{".vtp", warp_model},
+                                                                            {".vtu", warp_model},
+                                                                            {".vtk", warp_model},
+                                                                            {".tck", warp_tck},
+                                                                            {".trk", warp_trk},
+                                                                            {".obj", warp_obj},
+                                                                            {".ply", warp_ply},
+                                                                            {".stl", warp_surface}}};
+  const std::string ending = ending_of(file);
+  const auto found =
+      std::find_if(movers.begin(), movers.end(), [&](const auto& mover) { return mover.first == ending; });
+  return found == movers.end() ? nullptr : found->second;
 }
 
 void warp_labels(const LabelMap& labels, const VectorImage& field, const fs::path& out, const WarpAnyOptions& options) {
@@ -90,7 +93,7 @@ WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& 
 fs::path warped_name(const fs::path& in) {
   const fs::path file = in.has_filename() ? in.filename() : in.parent_path().filename();
   std::string name = "warped_" + file.string();
-  if (has_ending(file, {".mgz", ".mgh"})) {
+  if (ending_of(file) == ".mgz" || ending_of(file) == ".mgh") {
     name = fs::path(name).replace_extension(".nii.gz").string();
   } else if (fs::is_directory(in)) {
     name += ".nii.gz";

@@ -30,7 +30,7 @@ struct WarpedFile {
 /// - .nii, .nii.gz, .nrrd, .mha, .mgz, a DICOM folder: an image or label map on any grid;
 /// - .vtp, .vtu, .vtk: surfaces, lines, points and grids; all arrays stay, "displacement" (mm) joins them;
 /// - .tck, .trk: tracts, with all that is kept beside their points;
-/// - .stl, .ply, .obj: a surface model;
+/// - .obj, .ply: models, all else in them stays; .stl: a surface;
 /// - .csv (`x,y,z` among its columns, frame named by a line "# frame: LPS" or "# frame: RAS"), .mrk.json, .fcsv:
 /// points. Images are resampled, all else is moved, in the frame of its file, and keeps what else it holds. `out` must
 /// have the same ending. Throws std::invalid_argument, naming the file, when it cannot be used, and std::runtime_error

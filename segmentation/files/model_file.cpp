@@ -224,6 +224,10 @@ Frame frame_of_model(const fs::path& file, vtkDataObject& model) {
   if (auto* space = vtkStringArray::SafeDownCast(model.GetFieldData()->GetAbstractArray("SPACE"))) {
     return space->GetNumberOfValues() > 0 && space->GetValue(0) == "RAS" ? Frame::ras : Frame::lps;
   }
+  return frame_in_header(file);
+}
+
+Frame frame_in_header(const fs::path& file) {
   return beginning_of(file).find("SPACE=RAS") != std::string::npos ? Frame::ras : Frame::lps;
 }
 

@@ -28,4 +28,7 @@ void write_model(const std::filesystem::path& file, vtkPointSet& model, const st
 /// 3D Slicer notes the frame of a model in the field SPACE, or in a comment of the file's header. LPS without a note.
 Frame frame_of_model(const std::filesystem::path& file, vtkDataObject& model);
 
+/// The same of a file whose header is text.
+Frame frame_in_header(const std::filesystem::path& file);
+
 }  // namespace brainshift
