@@ -16,6 +16,7 @@
 #include "segmentation/files/points_file.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/image/image_series.hpp"
 
 namespace brainshift::registration {
 
@@ -59,8 +60,25 @@ void warp_labels(const LabelMap& labels, const VectorImage& field, const fs::pat
   write_image(out, warp(labels, field, options.grid.value_or(labels.geometry)));
 }
 
+/// Volume by volume, interpolated: labels in time are rare.
+WarpedFile warp_series(const fs::path& in, const VectorImage& field, const fs::path& out,
+                       const WarpAnyOptions& options) {
+  if (options.values == Values::labels) {
+    refuse(in, "label maps of four dimensions are not warped; extract the volumes");
+  }
+  ImageSeries series = read_image_series(in);
+  for (ScalarImage& volume : series.volumes) {
+    volume = warp(volume, field, options.interpolation, options.grid.value_or(volume.geometry));
+  }
+  write_image_series(out, series);
+  return {.is_image = true, .is_label_map = false, .moved = {}};
+}
+
 WarpedFile warp_image(const fs::path& in, const VectorImage& field, const fs::path& out,
                       const WarpAnyOptions& options) {
+  if (is_image_series(in)) {
+    return warp_series(in, field, out, options);
+  }
   if (options.values == Values::labels) {
     warp_labels(read_label_map(in), field, out, options);
     return {.is_image = true, .is_label_map = true, .moved = {}};

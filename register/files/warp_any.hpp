@@ -27,7 +27,7 @@ struct WarpedFile {
 };
 
 /// Takes a file from one brain to the other with the fields of a register folder; what it is, its ending says:
-/// - .nii, .nii.gz, .nrrd, .mha, .mgz, a DICOM folder: an image or label map on any grid;
+/// - .nii, .nii.gz, .nrrd, .mha, .mgz, a DICOM folder: an image or label map on any grid; a 4-D NIfTI volume by volume;
 /// - .vtp, .vtu, .vtk: surfaces, lines, points and grids; all arrays stay, "displacement" (mm) joins them;
 /// - .tck, .trk: tracts, with all that is kept beside their points;
 /// - .obj, .ply: models, all else in them stays; .stl: a surface;

@@ -10,6 +10,7 @@
 
 #include "register/warp/warp.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/image/image_series.hpp"
 #include "tests/unit/register/builders.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
@@ -117,6 +118,30 @@ TEST_F(WarpAny, ResamplesImagesAndLabelMapsOnTheirOwnGrid) {
   EXPECT_NEAR(t1.at(10, 10, 10), slope(g.to_world({10, 10, 10}) - shift), 1e-3);
   EXPECT_EQ(labels.at(10, 10, 10), 3);
   EXPECT_EQ(labels.at(12, 10, 10), 9);
+}
+
+TEST_F(WarpAny, ResamplesASeriesVolumeByVolume) {
+  const ImageGeometry g = grid({12, 11, 10}, {1, 1.5, 2}, oblique());
+  ImageSeries series{.volumes = {}, .start = 0, .step = 2.5};
+  for (const double more : {0.0, 10.0, 20.0}) {
+    series.volumes.push_back(image(g, [&](const Eigen::Vector3d& x) { return more + texture(x); }));
+  }
+  write_image_series(path("bold.nii.gz"), series);
+  ASSERT_TRUE(is_image_series(path("bold.nii.gz")));
+  warp("bold.nii.gz", "bold_out.nii.gz");
+  const ImageSeries warped = read_image_series(path("bold_out.nii.gz"));
+  ASSERT_EQ(warped.volumes.size(), 3U);
+  EXPECT_NEAR(warped.step, 2.5, 1e-6);
+  for (const ScalarImage& volume : warped.volumes) {
+    const auto t = static_cast<std::size_t>(&volume - warped.volumes.data());
+    ASSERT_TRUE(same_geometry(volume.geometry, g));
+    write_image(path("one.nii.gz"), series.volumes[t]);
+    warp("one.nii.gz", "one_out.nii.gz");
+    const ScalarImage alone = read_image(path("one_out.nii.gz"));
+    for (std::size_t v = 0; v < alone.voxels.size(); ++v) {
+      ASSERT_NEAR(volume.voxels[v], alone.voxels[v], 1e-3);
+    }
+  }
 }
 
 TEST_F(WarpAny, RefusesTablesThatDoNotParseWithFileAndLine) {
