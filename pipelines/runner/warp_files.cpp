@@ -5,6 +5,7 @@
 #include <set>
 
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/image/image_series.hpp"
 #include "segmentation/options/values.hpp"
 
 namespace brainshift::pipelines {
@@ -56,7 +57,8 @@ std::vector<std::string> warp_files(const WarpJob& job, const fs::path& out) {
   registration::RegisterFields fields(fs::is_directory(stage) ? stage : job.run, job.towards);
   registration::WarpAnyOptions options = job.options;
   if (!job.like.empty()) {
-    options.grid = read_image(job.like).geometry;
+    options.grid = is_image_series(job.like) ? read_image_series(job.like).volumes.front().geometry
+                                             : read_image(job.like).geometry;
   }
   return warp_files(job.files, fields, out, options);
 }

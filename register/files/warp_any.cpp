@@ -74,6 +74,14 @@ WarpedFile warp_series(const fs::path& in, const VectorImage& field, const fs::p
   return {.is_image = true, .is_label_map = false, .moved = {}};
 }
 
+/// Whether the name is one of an image, as image readers take it; a folder may hold DICOM.
+bool may_be_image(const fs::path& file) {
+  const std::string name = in_lower_case(file.filename().string());
+  constexpr std::array<std::string_view, 7> endings = {".nii", ".nii.gz", ".nrrd", ".mha", ".mgz", ".mgh", ".mgh.gz"};
+  return fs::is_directory(file) ||
+         std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
+}
+
 WarpedFile warp_image(const fs::path& in, const VectorImage& field, const fs::path& out,
                       const WarpAnyOptions& options) {
   if (is_image_series(in)) {
@@ -96,6 +104,11 @@ WarpedFile warp_image(const fs::path& in, const VectorImage& field, const fs::pa
 
 WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& out, const WarpAnyOptions& options) {
   const MoveFile move = mover_of(in);
+  if (move == nullptr && fs::exists(in) && !may_be_image(in)) {
+    refuse(in,
+           "its ending is none that is known; give an image (.nii, .nii.gz, .nrrd, .mha, .mgz, a folder with DICOM), a "
+           "model (.vtp, .vtu, .vtk, .stl, .ply, .obj), tracts (.tck, .trk) or points (.mrk.json, .fcsv, .csv)");
+  }
   if (move == nullptr) {
     return warp_image(in, fields.of_images(), out, options);
   }

@@ -177,6 +177,13 @@ TEST_F(WarpAny, RefusesToChangeTheFormatOfPoints) {
   EXPECT_NE(refusal("in.csv", "out.mrk.json").find(".csv"), std::string::npos);
 }
 
+TEST_F(WarpAny, RefusesAnUnknownEndingAndNamesThoseThatAreKnown) {
+  write("in.gii", "<GIFTI/>");
+  const std::string said = refusal("in.gii", "out.gii");
+  EXPECT_NE(said.find("in.gii: its ending is none that is known"), std::string::npos);
+  EXPECT_NE(said.find(".trk"), std::string::npos);
+}
+
 TEST_F(WarpAny, RefusesFilesThatAreNotThere) {
   refusal("none.csv", "out.csv");
   refusal("none.mrk.json", "out.mrk.json");
