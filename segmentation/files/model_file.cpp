@@ -2,6 +2,8 @@
 #include "segmentation/files/model_file.hpp"
 
 #include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkDataArray.h>
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkLogger.h>
@@ -19,6 +21,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "segmentation/files/legacy_vtk_claims.hpp"
 #include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
@@ -121,7 +124,12 @@ vtkSmartPointer<vtkPointSet> read_legacy_as(const fs::path& file) {
   return reader->GetOutput();
 }
 
+constexpr double new_cells_since = 5;  // the version in which cells became offsets and corners
+
 vtkSmartPointer<vtkPointSet> read_legacy(const fs::path& file) {
+  if (legacy_version(file) < new_cells_since) {
+    check_legacy_vtk_claims(file);
+  }
   vtkNew<vtkPolyDataReader> kind;
   kind->SetFileName(file.c_str());
   if (legacy_version(file) > 0 && kind->IsFilePolyData() != 0) {
@@ -139,7 +147,7 @@ void write_legacy_as(const fs::path& file, vtkPointSet& model, const fs::path& a
   kind->SetFileName(as_in.c_str());
   kind->OpenVTKFile();
   kind->ReadHeader();
-  constexpr double new_cells_since = 5;  // programs that wrote the old form may not read the new one
+  // A program that wrote the old form may not read the new one.
   vtkNew<Writer> writer;
   writer->SetInputData(&model);
   writer->SetFileType(kind->GetFileType());
@@ -154,6 +162,32 @@ void write_legacy_as(const fs::path& file, vtkPointSet& model, const fs::path& a
   out.close();
   if (!made || !out) {
     throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+  }
+}
+
+/// VTK trusts what a file says of its cells.
+void check_cells(const fs::path& file, vtkCellArray* cells, vtkIdType points) {
+  if (cells == nullptr || cells->GetNumberOfCells() == 0) {
+    return;
+  }
+  const double* const corners = cells->GetConnectivityArray()->GetRange(0);
+  const bool known = cells->GetConnectivityArray()->GetNumberOfValues() == 0 ||
+                     (corners[0] >= 0 && corners[1] < static_cast<double>(points));
+  const double* const offsets = cells->GetOffsetsArray()->GetRange(0);
+  if (!known || offsets[0] < 0 ||
+      offsets[1] > static_cast<double>(cells->GetConnectivityArray()->GetNumberOfValues())) {
+    refuse(file, "a cell names a point that does not exist; the file is damaged");
+  }
+}
+
+void check_cells(const fs::path& file, vtkPointSet& model) {
+  const vtkIdType points = model.GetNumberOfPoints();
+  if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(&model)) {
+    check_cells(file, grid->GetCells(), points);
+  } else if (auto* const data = vtkPolyData::SafeDownCast(&model)) {
+    for (vtkCellArray* cells : {data->GetVerts(), data->GetLines(), data->GetPolys(), data->GetStrips()}) {
+      check_cells(file, cells, points);
+    }
   }
 }
 
@@ -205,6 +239,7 @@ vtkSmartPointer<vtkPointSet> read_model(const fs::path& file) {
     refuse(file, "models with arrays end in .vtp, .vtu or .vtk");
   }
   check_points(file, *model);
+  check_cells(file, *model);
   return model;
 }
 

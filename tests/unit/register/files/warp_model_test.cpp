@@ -109,6 +109,10 @@ TEST_F(WarpModel, WhatCannotBeReadIsRefusedByName) {
   const std::string whole = tract_vtp("LPS");
   EXPECT_NE(refused("cut.vtp", whole.substr(0, whole.size() / 2)).find("cut.vtp: is no .vtp"), std::string::npos);
   EXPECT_NE(refused("cut.vtk", legacy("3.0", "LINES 1 4\n3 0 1 2").substr(0, 90)).find("cut.vtk"), std::string::npos);
+  for (const char* cells :
+       {"LINES 1 400\n3 0 1 2", "LINES 5 4\n3 0 1 2", "LINES 1 4\n9 0 1 2", "LINES 1 4\n3 0 1 99"}) {
+    EXPECT_NE(refused("cells.vtk", legacy("3.0", cells)).find("cells.vtk: "), std::string::npos) << cells;
+  }
   EXPECT_NE(refused("text.vtk", "nothing\n").find("text.vtk: is no legacy .vtk"), std::string::npos);
   std::string not_finite = legacy("3.0", "LINES 1 4\n3 0 1 2");
   not_finite.replace(not_finite.find("-5 9 4"), 2, "nan");
