@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <cctype>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
