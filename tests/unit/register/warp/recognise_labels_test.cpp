@@ -21,6 +21,10 @@ TEST(RecogniseLabels, ByFewWholeNumbersInPatches) {
 TEST(RecogniseLabels, NotAnMriOfBytesNorNumbersBetween) {
   EXPECT_FALSE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) { return std::round(texture(x)); })));
   EXPECT_FALSE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) { return x.x() > 3 ? 0.5 : 0; })));
+  EXPECT_FALSE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) { return x.x() > 3 ? 40 : -1000; })));
+  EXPECT_FALSE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) {
+    return x.z() > centre.z() ? std::round(texture(x)) : 7;  // a background that is not 0
+  })));
   int next = 0;
   EXPECT_FALSE(looks_like_labels(image(g, [&](const Eigen::Vector3d&) { return next++; })));
 }
