@@ -9,7 +9,7 @@
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/patient_registration.hpp"
 #include "pipelines/runner/warnings.hpp"
-#include "register/files/warp_any.hpp"
+#include "pipelines/runner/warp_files.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/image/frame_note.hpp"
 #include "solve/load/noisy_load.hpp"
@@ -104,19 +104,6 @@ void set_classes(const LabelMap& labels, bool tumour, segmentation::SegmentOptio
   options.closing = options.closing.value_or(radius);
 }
 
-/// Moves one more file with the fields that were just written to the folder.
-void warp_file(const fs::path& file, const fs::path& out, const registration::WarpAnyOptions& options) {
-  fs::path target = out / ("warped_" + file.filename().string());
-  if (target.extension() == ".mgz" || target.extension() == ".mgh") {
-    target.replace_extension(".nii.gz");
-  }
-  if (fs::exists(target)) {
-    throw std::invalid_argument(file.string() + ": there is a " + target.filename().string() +
-                                " already; rename the file that is to be warped");
-  }
-  registration::warp_any(file, out, target, options);
-}
-
 /// A stage knows no files; what it refuses is what these hold.
 template <class Work>
 auto naming(const std::string& files, const Work& work) {
@@ -125,6 +112,10 @@ auto naming(const std::string& files, const Work& work) {
   } catch (const std::invalid_argument& fault) {
     throw std::invalid_argument(files.empty() ? fault.what() : files + ": " + fault.what());
   }
+}
+
+void add(const std::vector<std::string>& notes, StageReport& report) {
+  report.notes.insert(report.notes.end(), notes.begin(), notes.end());
 }
 
 void warn(const Warnings& warnings, StageReport& report) {
@@ -385,14 +376,15 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
     return registration::register_images(input, job.options, progress);
   });
   registration::write_registration(out, result);
-  for (const fs::path& file : job.warp) {
-    warp_file(file, out, {.labels = false, .interpolation = job.options.interpolation});
-  }
-  for (const fs::path& file : job.warp_labels) {
-    warp_file(file, out, {.labels = true, .interpolation = job.options.interpolation});
-  }
   StageReport said = report_of(result);
   warn(warnings_of(result.measures), said);
+  if (!job.warp.empty() || !job.warp_labels.empty()) {
+    registration::RegisterFields fields(out, registration::Towards::intraop);
+    registration::WarpAnyOptions options{.interpolation = job.options.interpolation, .grid = {}};
+    add(warp_files(job.warp, fields, out, options), said);
+    options.values = registration::Values::labels;
+    add(warp_files(job.warp_labels, fields, out, options), said);
+  }
   return said;
 }
 

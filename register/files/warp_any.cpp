@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/files/warp_any.hpp"
 
-#include <stdexcept>
+#include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
+#include <utility>
 
+#include "register/files/warp_mesh.hpp"
+#include "register/files/warp_model.hpp"
+#include "register/files/warp_tracts.hpp"
+#include "register/warp/recognise_labels.hpp"
 #include "register/warp/warp.hpp"
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/points_file.hpp"
+#include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/image/image_series.hpp"
 
 namespace brainshift::registration {
 
@@ -14,43 +24,112 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool ends_with(const fs::path& file, const char* ending) {
-  return file.string().ends_with(ending);
-}
-
-bool is_surface(const fs::path& file) {
-  return ends_with(file, ".vtp") || ends_with(file, ".stl") || ends_with(file, ".ply") || ends_with(file, ".obj");
-}
-
-void warp_points(const fs::path& in, const fs::path& out, const VectorImage& forward) {
+void warp_points(const fs::path& in, PointMover& mover, const fs::path& out) {
   const PointsFile points(in);
-  if (!is_points_file(out) || out.extension() != in.extension()) {
-    throw std::invalid_argument(out.string() + ": the moved points of " + in.string() +
-                                " keep its format; write to a " + in.extension().string() + " file");
-  }
-  points.write_moved(out, move_points(forward, points.positions()));
+  points.write_moved(out, move_points(mover, points.positions()));
 }
 
-void warp_image(const fs::path& in, const fs::path& out, const VectorImage& resampling, const WarpAnyOptions& options) {
-  if (options.labels) {
-    write_image(out, warp(read_label_map(in), resampling));
-  } else {
-    write_image(out, warp(read_image(in), resampling, options.interpolation));
+void warp_surface(const fs::path& in, PointMover& mover, const fs::path& out) {
+  Surface surface = read_surface(in);
+  surface.vertices = move_points(mover, surface.vertices);
+  write_surface(out, surface);
+}
+
+using MoveFile = void (*)(const fs::path& in, PointMover& mover, const fs::path& out);
+
+/// Nothing for an image.
+MoveFile mover_of(const fs::path& file) {
+  if (is_points_file(file)) {
+    return warp_points;
   }
+  constexpr std::array<std::pair<std::string_view, MoveFile>, 8> movers = {{{".vtp", warp_model},
+                                                                            {".vtu", warp_model},
+                                                                            {".vtk", warp_model},
+                                                                            {".tck", warp_tck},
+                                                                            {".trk", warp_trk},
+                                                                            {".obj", warp_obj},
+                                                                            {".ply", warp_ply},
+                                                                            {".stl", warp_surface}}};
+  const std::string ending = ending_of(file);
+  const auto found =
+      std::find_if(movers.begin(), movers.end(), [&](const auto& mover) { return mover.first == ending; });
+  return found == movers.end() ? nullptr : found->second;
+}
+
+void warp_labels(const LabelMap& labels, const VectorImage& field, const fs::path& out, const WarpAnyOptions& options) {
+  write_image(out, warp(labels, field, options.grid.value_or(labels.geometry)));
+}
+
+/// Volume by volume, interpolated: labels in time are rare.
+WarpedFile warp_series(const fs::path& in, const VectorImage& field, const fs::path& out,
+                       const WarpAnyOptions& options) {
+  if (options.values == Values::labels) {
+    refuse(in, "label maps of four dimensions are not warped; extract the volumes");
+  }
+  ImageSeries series = read_image_series(in);
+  for (ScalarImage& volume : series.volumes) {
+    volume = warp(volume, field, options.interpolation, options.grid.value_or(volume.geometry));
+  }
+  write_image_series(out, series);
+  return {.is_image = true, .is_label_map = false, .moved = {}};
+}
+
+/// Whether the name is one of an image, as image readers take it; a folder may hold DICOM.
+bool may_be_image(const fs::path& file) {
+  const std::string name = in_lower_case(file.filename().string());
+  constexpr std::array<std::string_view, 7> endings = {".nii", ".nii.gz", ".nrrd", ".mha", ".mgz", ".mgh", ".mgh.gz"};
+  return fs::is_directory(file) ||
+         std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
+}
+
+WarpedFile warp_image(const fs::path& in, const VectorImage& field, const fs::path& out,
+                      const WarpAnyOptions& options) {
+  if (is_image_series(in)) {
+    return warp_series(in, field, out, options);
+  }
+  if (options.values == Values::labels) {
+    warp_labels(read_label_map(in), field, out, options);
+    return {.is_image = true, .is_label_map = true, .moved = {}};
+  }
+  const ScalarImage image = read_image(in);
+  if (options.values == Values::recognised && looks_like_labels(image)) {
+    warp_labels(read_label_map(in), field, out, options);
+    return {.is_image = true, .is_label_map = true, .moved = {}};
+  }
+  write_image(out, warp(image, field, options.interpolation, options.grid.value_or(image.geometry)));
+  return {.is_image = true, .is_label_map = false, .moved = {}};
 }
 
 }  // namespace
 
-void warp_any(const fs::path& in, const fs::path& register_folder, const fs::path& out, const WarpAnyOptions& options) {
-  if (is_points_file(in)) {
-    warp_points(in, out, read_vector_image(register_folder / "preop_to_intraop.nii.gz"));
-  } else if (is_surface(in)) {
-    Surface surface = read_surface(in);
-    surface.vertices = move_points(read_vector_image(register_folder / "preop_to_intraop.nii.gz"), surface.vertices);
-    write_surface(out, surface);
-  } else {
-    warp_image(in, out, read_vector_image(register_folder / "intraop_to_preop.nii.gz"), options);
+WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& out, const WarpAnyOptions& options) {
+  const MoveFile move = mover_of(in);
+  if (move == nullptr && fs::exists(in) && !may_be_image(in)) {
+    refuse(in,
+           "its ending is none that is known; give an image (.nii, .nii.gz, .nrrd, .mha, .mgz, a folder with DICOM), a "
+           "model (.vtp, .vtu, .vtk, .stl, .ply, .obj), tracts (.tck, .trk) or points (.mrk.json, .fcsv, .csv)");
   }
+  if (move == nullptr) {
+    return warp_image(in, fields.of_images(), out, options);
+  }
+  if (mover_of(out) != move || ending_of(out) != ending_of(in)) {
+    refuse(out,
+           "the moved points of " + in.string() + " keep its format; write to a " + in.extension().string() + " file");
+  }
+  PointMover mover(fields.of_points());
+  move(in, mover, out);
+  return {.is_image = false, .is_label_map = false, .moved = mover.moved()};
+}
+
+fs::path warped_name(const fs::path& in) {
+  const fs::path file = in.has_filename() ? in.filename() : in.parent_path().filename();
+  std::string name = "warped_" + file.string();
+  if (ending_of(file) == ".mgz" || ending_of(file) == ".mgh") {
+    name = fs::path(name).replace_extension(".nii.gz").string();
+  } else if (fs::is_directory(in)) {
+    name += ".nii.gz";
+  }
+  return name;
 }
 
 }  // namespace brainshift::registration

@@ -1,26 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
+#include "register/files/register_fields.hpp"
 #include "register/interface/options.hpp"
+#include "register/warp/point_mover.hpp"
+#include "segmentation/image/image.hpp"
 
 namespace brainshift::registration {
 
+/// What the values of an image are.
+enum class Values : std::uint8_t { recognised, intensities, labels };
+
 struct WarpAnyOptions {
-  bool labels = false;  ///< an image is a label map: nearest voxel, whole numbers
+  Values values = Values::recognised;  ///< labels: nearest voxel, whole numbers
   Interpolation interpolation = Interpolation::linear;
+  std::optional<ImageGeometry> grid;  ///< of warped images; their own if absent
 };
 
-/// Takes a preop file to the intraoperative brain with the fields of a register folder; what it is, its ending says:
-/// - .nii, .nii.gz, .nrrd, .mha, a DICOM folder: an image or label map on any grid, resampled on its own grid;
-/// - .vtp, .stl, .ply, .obj: a surface model, its vertices moved (arrays on it are not kept);
+struct WarpedFile {
+  bool is_image = false, is_label_map = false;
+  MovedPoints moved;  ///< of what is no image
+};
+
+/// Takes a file from one brain to the other with the fields of a register folder; what it is, its ending says:
+/// - .nii, .nii.gz, .nrrd, .mha, .mgz, a DICOM folder: an image or label map on any grid; a 4-D NIfTI volume by volume;
+/// - .vtp, .vtu, .vtk: surfaces, lines, points and grids; all arrays stay, "displacement" (mm) joins them;
+/// - .tck, .trk: tracts, with all that is kept beside their points;
+/// - .obj, .ply: models, all else in them stays; .stl: a surface;
 /// - .csv (`x,y,z` among its columns, frame named by a line "# frame: LPS" or "# frame: RAS"), .mrk.json, .fcsv:
-/// points,
-///   moved; everything else in the file stays as it is, the frame too. `out` must have the same ending.
-/// Throws std::invalid_argument, naming the file, when it cannot be used, and std::runtime_error when `out` cannot be
-/// written whole.
-void warp_any(const std::filesystem::path& in, const std::filesystem::path& register_folder,
-              const std::filesystem::path& out, const WarpAnyOptions& options = {});
+/// points. Images are resampled, all else is moved, in the frame of its file, and keeps what else it holds. `out` must
+/// have the same ending. Throws std::invalid_argument, naming the file, when it cannot be used, and std::runtime_error
+/// when `out` cannot be written whole.
+WarpedFile warp_any(const std::filesystem::path& in, RegisterFields& fields, const std::filesystem::path& out,
+                    const WarpAnyOptions& options = {});
+
+/// The name under which a moved file is written: "warped_" and its own, an image that cannot be written in its own
+/// format as .nii.gz.
+std::filesystem::path warped_name(const std::filesystem::path& in);
 
 }  // namespace brainshift::registration

@@ -17,4 +17,9 @@ Points move_points(const VectorImage& forward, const Points& points);
 ScalarImage warp(const ScalarImage& image, const VectorImage& resampling, Interpolation interpolation);
 LabelMap warp(const LabelMap& labels, const VectorImage& resampling);
 
+/// The same on another grid, where every voxel is interpolated.
+ScalarImage warp(const ScalarImage& image, const VectorImage& resampling, Interpolation interpolation,
+                 const ImageGeometry& grid);
+LabelMap warp(const LabelMap& labels, const VectorImage& resampling, const ImageGeometry& grid);
+
 }  // namespace brainshift::registration

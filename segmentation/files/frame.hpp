@@ -21,6 +21,11 @@ inline std::optional<Frame> frame_named(std::string_view name) {
   return std::nullopt;
 }
 
+/// What turns a vector of the frame to LPS, axis by axis, and back.
+inline Eigen::Vector3d axes_to_lps(Frame frame) {
+  return frame == Frame::ras ? Eigen::Vector3d(-1, -1, 1) : Eigen::Vector3d(1, 1, 1);
+}
+
 /// Positions or displacements in LPS.
 inline void to_lps(Points& points, Frame frame) {
   if (frame == Frame::ras) {

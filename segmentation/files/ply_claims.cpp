@@ -33,26 +33,16 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
 };
 
-/// None for an unknown name.
-std::optional<std::size_t> bytes_of_type(const std::string& name) {
-  static const std::map<std::string, std::size_t> bytes = {{"char", 1},  {"int8", 1},    {"uchar", 1},  {"uint8", 1},
-                                                           {"short", 2}, {"int16", 2},   {"ushort", 2}, {"uint16", 2},
-                                                           {"int", 4},   {"int32", 4},   {"uint", 4},   {"uint32", 4},
-                                                           {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
-  const auto found = bytes.find(name);
-  return found == bytes.end() ? std::nullopt : std::optional(found->second);
-}
-
 /// None where the line is no property.
 std::optional<PlyProperty> read_property(std::istringstream& words) {
   std::string type, count, item;
   words >> type;
   if (type != "list") {
-    const auto bytes = bytes_of_type(type);
+    const auto bytes = bytes_of_ply_type(type);
     return bytes ? std::optional(PlyProperty{.bytes = *bytes, .count_bytes = {}}) : std::nullopt;
   }
   words >> count >> item;
-  const auto bytes = bytes_of_type(item), count_bytes = bytes_of_type(count);
+  const auto bytes = bytes_of_ply_type(item), count_bytes = bytes_of_ply_type(count);
   return bytes && count_bytes ? std::optional(PlyProperty{.bytes = *bytes, .count_bytes = count_bytes}) : std::nullopt;
 }
 
@@ -163,6 +153,15 @@ bool has_all(Rows rows, const std::vector<PlyElement>& elements) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> bytes_of_ply_type(const std::string& name) {
+  static const std::map<std::string, std::size_t> bytes = {{"char", 1},  {"int8", 1},    {"uchar", 1},  {"uint8", 1},
+                                                           {"short", 2}, {"int16", 2},   {"ushort", 2}, {"uint16", 2},
+                                                           {"int", 4},   {"int32", 4},   {"uint", 4},   {"uint32", 4},
+                                                           {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
+  const auto found = bytes.find(name);
+  return found == bytes.end() ? std::nullopt : std::optional(found->second);
+}
 
 void check_ply_claims(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

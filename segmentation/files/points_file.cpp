@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/files/points_file.hpp"
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 
 #include "segmentation/files/frame.hpp"
@@ -26,6 +28,7 @@ bool ends_with(const std::filesystem::path& file, std::string_view ending) {
 struct ControlPoint {
   std::string position;  ///< JSON pointer
   Frame frame;
+  std::size_t list;
 };
 
 struct Markups {
@@ -132,8 +135,33 @@ void for_each_control_point(const Json& document, const std::filesystem::path& f
         refuse(file, which + " is no object");
       }
       use(points[p],
-          ControlPoint{"/markups/" + std::to_string(l) + "/controlPoints/" + std::to_string(p) + "/position", frame},
+          ControlPoint{"/markups/" + std::to_string(l) + "/controlPoints/" + std::to_string(p) + "/position", frame, l},
           which + " (\"" + label_of(points[p]) + "\")");
+    }
+  }
+}
+
+/// Where planes and boxes say a second time where they lie: the entries of x, y and z.
+constexpr std::array<std::pair<const char*, std::array<std::size_t, 3>>, 3> second_places = {
+    {{"center", {0, 1, 2}}, {"origin", {0, 1, 2}}, {"baseToNode", {3, 7, 11}}}};
+
+/// Moves what a plane or box says of its place, in its frame, as the control point nearest to it, mostly the same
+/// place.
+void move_second_places(Json& list, const Points& before, const Points& after) {
+  for (const auto& [name, entries] : second_places) {
+    if (!list.contains(name) || !list.at(name).is_array() || list.at(name).size() <= entries[2]) {
+      continue;
+    }
+    Json& numbers = list.at(name);
+    Eigen::RowVector3d place = Eigen::RowVector3d::Constant(NAN);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const Json& number = numbers[entries[static_cast<std::size_t>(axis)]];
+      place[axis] = number.is_number() ? number.get<double>() : NAN;
+    }
+    Eigen::Index nearest = 0;
+    (before.rowwise() - place).rowwise().squaredNorm().minCoeff(&nearest);
+    for (Eigen::Index axis = 0; axis < 3 && place.allFinite(); ++axis) {
+      numbers[entries[static_cast<std::size_t>(axis)]] = place[axis] + after(nearest, axis) - before(nearest, axis);
     }
   }
 }
@@ -180,6 +208,16 @@ void PointsFile::write_moved(const std::filesystem::path& out, const Points& pla
     return;
   }
   Markups markups = std::get<Markups>(content_->as_read);
+  for (std::size_t begin = 0, end = 0; begin < markups.points.size(); begin = end) {
+    const ControlPoint& first = markups.points[begin];
+    for (end = begin; end < markups.points.size() && markups.points[end].list == first.list; ++end) {
+    }
+    const auto row = static_cast<Eigen::Index>(begin), rows = static_cast<Eigen::Index>(end - begin);
+    Points before = positions_.middleRows(row, rows), after = places.middleRows(row, rows);
+    to_lps(before, first.frame);
+    to_lps(after, first.frame);
+    move_second_places(markups.document["markups"][first.list], before, after);
+  }
   for (std::size_t i = 0; i < markups.points.size(); ++i) {
     Points place = places.row(static_cast<Eigen::Index>(i));
     to_lps(place, markups.points[i].frame);  // the way there and back is the same

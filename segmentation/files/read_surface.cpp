@@ -2,23 +2,18 @@
 #include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
 #include <CGAL/Simple_cartesian.h>
-#include <vtkCallbackCommand.h>
-#include <vtkFieldData.h>
-#include <vtkStringArray.h>
 #include <vtkTriangleFilter.h>
-#include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
 #include "segmentation/files/lower_case.hpp"
+#include "segmentation/files/model_file.hpp"
 #include "segmentation/files/ply_claims.hpp"
 #include "segmentation/files/read_obj.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/files/vtk_bridge.hpp"
-#include "segmentation/files/vtk_claims.hpp"
 
 namespace brainshift {
 namespace {
@@ -69,44 +64,6 @@ vtkSmartPointer<vtkPolyData> to_vtk(const fs::path& file, const PolygonSoup& sou
   return result;
 }
 
-void note_fault(vtkObject*, unsigned long, void* failed, void*) {
-  *static_cast<bool*>(failed) = true;
-}
-
-vtkSmartPointer<vtkPolyData> read_vtp(const fs::path& file) {
-  check_vtk_claims(file);
-  bool failed = false;
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetCallback(note_fault);
-  observer->SetClientData(&failed);
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetReaderErrorObserver(observer);
-  reader->SetParserErrorObserver(observer);
-  reader->AddObserver(vtkCommand::ErrorEvent, observer);
-  reader->AddObserver(vtkCommand::WarningEvent, observer);
-  reader->SetFileName(file.c_str());
-  const bool readable = reader->CanReadFile(file.c_str()) != 0;
-  if (readable) {
-    reader->Update();
-  }
-  if (!readable || failed || reader->GetErrorCode() != 0) {
-    throw std::invalid_argument(file.string() + ": is no .vtp surface, or is damaged or truncated; copy it again");
-  }
-  return reader->GetOutput();
-}
-
-// 3D Slicer notes the frame of a model in a comment of the header, or in a field of a .vtp.
-bool says_ras(const fs::path& file, vtkPolyData& data) {
-  if (auto* space = vtkStringArray::SafeDownCast(data.GetFieldData()->GetAbstractArray("SPACE"))) {
-    return space->GetNumberOfValues() > 0 && space->GetValue(0) == "RAS";
-  }
-  constexpr std::size_t header_length = 1024;
-  std::string header(header_length, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(header.data(), static_cast<std::streamsize>(header.size()));
-  return header.find("SPACE=RAS") != std::string::npos;
-}
-
 void check_values(const fs::path& file, const Surface& surface) {
   if (surface.triangles.rows() == 0) {
     throw std::invalid_argument(file.string() + ": holds no face; a triangulated surface is needed");
@@ -153,7 +110,7 @@ Surface read_surface(const fs::path& file) {
   triangulate->Update();
   Surface surface = from_vtk(*triangulate->GetOutput());
   check_values(file, surface);
-  if (says_ras(file, *polygons)) {
+  if (frame_of_model(file, *polygons) == Frame::ras) {
     surface.vertices.leftCols<2>() *= -1.0;
   }
   return surface;

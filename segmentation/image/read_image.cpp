@@ -11,11 +11,13 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/image/bytes.hpp"
 #include "segmentation/image/dicom_series.hpp"
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
+#include "segmentation/image/image_series.hpp"
 #include "segmentation/image/whole_file.hpp"
 #include "segmentation/options/values.hpp"
 
@@ -133,14 +135,11 @@ void check_read_geometry(const fs::path& file, const ImageGeometry& geometry) {
   check_volume(file, taken, 1);
 }
 
-template <class Pixel>
-Pointer<Pixel> read_any(const fs::path& file, unsigned components) {
-  std::error_code unknown;
+/// ITK's exceptions as ours.
+template <class Read>
+auto naming_faults(const fs::path& file, const Read& read) {
   try {
-    auto image =
-        fs::is_directory(file, unknown) ? read_dicom<Pixel>(file, components) : read_file<Pixel>(file, components);
-    check_read_geometry(file, geometry_of(*image));
-    return image;
+    return read();
   } catch (const std::invalid_argument&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -150,6 +149,17 @@ Pointer<Pixel> read_any(const fs::path& file, unsigned components) {
   } catch (const std::exception&) {
     refuse(file, "cannot be read, damaged or truncated; copy it again, or convert it to .nii.gz");
   }
+}
+
+template <class Pixel>
+Pointer<Pixel> read_any(const fs::path& file, unsigned components) {
+  std::error_code unknown;
+  return naming_faults(file, [&] {
+    auto image =
+        fs::is_directory(file, unknown) ? read_dicom<Pixel>(file, components) : read_file<Pixel>(file, components);
+    check_read_geometry(file, geometry_of(*image));
+    return image;
+  });
 }
 
 void check_finite(const fs::path& file, const ImageGeometry& geometry, std::span<const float> values,
@@ -195,6 +205,52 @@ VectorImage read_vector_image(const fs::path& file) {
   const std::span<const float> values(image.voxels.front().data(), 3 * image.voxels.size());
   check_finite(file, image.geometry, values, 3);
   return image;
+}
+
+bool is_image_series(const fs::path& file) {
+  const std::string name = in_lower_case(file.filename().string());
+  std::error_code unknown;
+  if (!(name.ends_with(".nii") || name.ends_with(".nii.gz")) || !fs::is_regular_file(file, unknown)) {
+    return false;
+  }
+  check_readable(file);
+  const std::vector<std::uint64_t> size = read_nifti_header(file).size;
+  return std::any_of(size.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(3, size.size())), size.end(),
+                     [](std::uint64_t along) { return along > 1; });
+}
+
+ImageSeries read_image_series(const fs::path& file) {
+  using Itk4 = itk::Image<float, 4>;
+  const Itk4::Pointer image = naming_faults(file, [&] {
+    const ImageHeader header = check_whole_series(file);
+    const auto io = make_image_io(image_format(file));
+    io->SetFileName(file.string());
+    io->ReadImageInformation();
+    check_agreement(file, *io, header);
+    auto reader = itk::ImageFileReader<Itk4>::New();
+    reader->SetImageIO(io);
+    reader->SetFileName(file.string());
+    reader->Update();
+    return Itk4::Pointer(reader->GetOutput());
+  });
+  ImageGeometry grid;
+  const auto size = image->GetLargestPossibleRegion().GetSize();
+  for (unsigned row = 0; row < 3; ++row) {
+    grid.size[row] = static_cast<int>(size[row]);
+    grid.spacing[row] = image->GetSpacing()[row];
+    grid.origin[row] = image->GetOrigin()[row];
+    for (unsigned column = 0; column < 3; ++column) {
+      grid.direction(row, column) = image->GetDirection()(row, column);
+    }
+  }
+  check_read_geometry(file, grid);
+  ImageSeries series{.volumes = {}, .start = image->GetOrigin()[3], .step = image->GetSpacing()[3]};
+  for (std::size_t t = 0; t < size[3]; ++t) {
+    const float* const begin = image->GetBufferPointer() + t * grid.voxel_count();
+    series.volumes.push_back({grid, std::vector<float>(begin, begin + grid.voxel_count())});
+    check_finite(file, grid, series.volumes.back().voxels, 1);
+  }
+  return series;
 }
 
 }  // namespace brainshift

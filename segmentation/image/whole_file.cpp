@@ -85,6 +85,22 @@ ImageHeader check_whole(const fs::path& file, ImageFormat format, std::uint64_t 
   return header;
 }
 
+ImageHeader check_whole_series(const fs::path& file) {
+  const ImageHeader header = read_nifti_header(file);
+  ImageHeader as_one = header;  // of the same values: the bounds of a volume hold for all of them together
+  as_one.size.resize(3);
+  check_volume(file, as_one, 1);
+  for (std::size_t axis = 3; axis < header.size.size(); ++axis) {
+    as_one.size[2] *= std::min(header.size[axis], std::uint64_t{1} << 32U);
+    check_header(file, as_one, 1);
+  }
+  if (header.size.size() != 4) {
+    refuse(file, "images of three or four dimensions are read, it has " + std::to_string(header.size.size()));
+  }
+  check_nifti_voxels(file, header);
+  return header;
+}
+
 std::string voxel_name(const Eigen::Array3i& size, std::size_t offset) {
   const auto nx = static_cast<std::size_t>(size.x());
   const auto ny = static_cast<std::size_t>(size.y());

@@ -18,6 +18,9 @@ namespace brainshift {
 /// std::invalid_argument, naming the file.
 ImageHeader check_whole(const std::filesystem::path& file, ImageFormat format, std::uint64_t components);
 
+/// The same of a .nii or .nii.gz with a fourth axis, one value a voxel.
+ImageHeader check_whole_series(const std::filesystem::path& file);
+
 /// "voxel (i, j, k)" of an offset into the voxels.
 std::string voxel_name(const Eigen::Array3i& size, std::size_t offset);
 

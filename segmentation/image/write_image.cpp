@@ -6,11 +6,13 @@
 #include <itkImageFileWriter.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
+#include "segmentation/image/image_series.hpp"
 #include "segmentation/image/whole_file.hpp"
 
 namespace brainshift {
@@ -59,17 +61,17 @@ void check_written(const fs::path& file, const ItkImageType& image) {
   reader->Update();
 }
 
-template <class T>
-void write_any(const fs::path& file, const Image<T>& image) {
+template <class ItkImageType>
+void write_itk(const fs::path& file, const ItkImageType& image) {
   const ImageFormat format = image_format(file);
   // ITK compresses NIfTI on one thread at zlib's slow default; ours runs on all of them and checks what it writes.
   const fs::path written = format == ImageFormat::nifti_gz ? fs::path(file.string() + ".part.nii") : file;
   std::error_code ignored;
   try {
-    ask_for_room(written, image.voxels.size() * sizeof(T));
-    const auto itk_image = seen_by_itk(image);
-    write_with_itk(written, *itk_image);
-    check_written(written, *itk_image);
+    ask_for_room(written,
+                 image.GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(typename ItkImageType::PixelType));
+    write_with_itk(written, image);
+    check_written(written, image);
     if (written != file) {
       write_gzip(file, written);
       fs::remove(written, ignored);
@@ -78,6 +80,11 @@ void write_any(const fs::path& file, const Image<T>& image) {
     fs::remove(written, ignored);
     throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
   }
+}
+
+template <class T>
+void write_any(const fs::path& file, const Image<T>& image) {
+  write_itk(file, *seen_by_itk(image));
 }
 
 }  // namespace
@@ -90,6 +97,38 @@ void write_image(const fs::path& file, const LabelMap& image) {
 }
 void write_image(const fs::path& file, const VectorImage& image) {
   write_any(file, image);
+}
+
+void write_image_series(const fs::path& file, const ImageSeries& series) {
+  using Itk4 = itk::Image<float, 4>;
+  const ImageGeometry& grid = series.volumes.at(0).geometry;
+  auto image = Itk4::New();
+  Itk4::SizeType size;
+  Itk4::SpacingType spacing;
+  Itk4::PointType origin;
+  Itk4::DirectionType direction;
+  direction.SetIdentity();
+  for (unsigned row = 0; row < 3; ++row) {
+    size[row] = static_cast<itk::SizeValueType>(grid.size[row]);
+    spacing[row] = grid.spacing[row];
+    origin[row] = grid.origin[row];
+    for (unsigned column = 0; column < 3; ++column) {
+      direction(row, column) = grid.direction(row, column);
+    }
+  }
+  size[3] = series.volumes.size();
+  spacing[3] = series.step > 0 ? series.step : 1;
+  origin[3] = series.start;
+  image->SetRegions(size);
+  image->SetSpacing(spacing);
+  image->SetOrigin(origin);
+  image->SetDirection(direction);
+  image->Allocate();
+  float* place = image->GetBufferPointer();
+  for (const ScalarImage& volume : series.volumes) {
+    place = std::copy(volume.voxels.begin(), volume.voxels.end(), place);
+  }
+  write_itk(file, *image);
 }
 
 }  // namespace brainshift

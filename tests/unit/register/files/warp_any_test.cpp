@@ -10,6 +10,7 @@
 
 #include "register/warp/warp.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/image/image_series.hpp"
 #include "tests/unit/register/builders.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
@@ -42,7 +43,8 @@ class WarpAny : public ::testing::Test {
   }
 
   void warp(const std::string& in, const std::string& out, const WarpAnyOptions& options = {}) const {
-    warp_any(path(in), folder_.path(), path(out), options);
+    RegisterFields fields(folder_.path(), Towards::intraop);
+    warp_any(path(in), fields, path(out), options);
   }
 
   std::string refusal(const std::string& in, const std::string& out) const {
@@ -109,13 +111,37 @@ TEST_F(WarpAny, ResamplesImagesAndLabelMapsOnTheirOwnGrid) {
   write_image(path("t1.nii.gz"), image(g, slope));
   write_image(path("labels.nrrd"), label_map(g, [](const Eigen::Vector3d& x) { return x.x() < centre.x() ? 3 : 9; }));
   warp("t1.nii.gz", "t1_out.mha");
-  warp("labels.nrrd", "labels_out.nii.gz", {.labels = true});
+  warp("labels.nrrd", "labels_out.nii.gz", {.values = Values::labels, .grid = {}});
   const ScalarImage t1 = read_image(path("t1_out.mha"));
   const LabelMap labels = read_label_map(path("labels_out.nii.gz"));
   ASSERT_TRUE(same_geometry(t1.geometry, g));
   EXPECT_NEAR(t1.at(10, 10, 10), slope(g.to_world({10, 10, 10}) - shift), 1e-3);
   EXPECT_EQ(labels.at(10, 10, 10), 3);
   EXPECT_EQ(labels.at(12, 10, 10), 9);
+}
+
+TEST_F(WarpAny, ResamplesASeriesVolumeByVolume) {
+  const ImageGeometry g = grid({12, 11, 10}, {1, 1.5, 2}, oblique());
+  ImageSeries series{.volumes = {}, .start = 0, .step = 2.5};
+  for (const double more : {0.0, 10.0, 20.0}) {
+    series.volumes.push_back(image(g, [&](const Eigen::Vector3d& x) { return more + texture(x); }));
+  }
+  write_image_series(path("bold.nii.gz"), series);
+  ASSERT_TRUE(is_image_series(path("bold.nii.gz")));
+  warp("bold.nii.gz", "bold_out.nii.gz");
+  const ImageSeries warped = read_image_series(path("bold_out.nii.gz"));
+  ASSERT_EQ(warped.volumes.size(), 3U);
+  EXPECT_NEAR(warped.step, 2.5, 1e-6);
+  for (const ScalarImage& volume : warped.volumes) {
+    const auto t = static_cast<std::size_t>(&volume - warped.volumes.data());
+    ASSERT_TRUE(same_geometry(volume.geometry, g));
+    write_image(path("one.nii.gz"), series.volumes[t]);
+    warp("one.nii.gz", "one_out.nii.gz");
+    const ScalarImage alone = read_image(path("one_out.nii.gz"));
+    for (std::size_t v = 0; v < alone.voxels.size(); ++v) {
+      ASSERT_NEAR(volume.voxels[v], alone.voxels[v], 1e-3);
+    }
+  }
 }
 
 TEST_F(WarpAny, RefusesTablesThatDoNotParseWithFileAndLine) {
@@ -149,6 +175,13 @@ TEST_F(WarpAny, RefusesMarkupsThatAreNone) {
 TEST_F(WarpAny, RefusesToChangeTheFormatOfPoints) {
   write("in.csv", "# frame: LPS\nx,y,z\n1,2,3\n");
   EXPECT_NE(refusal("in.csv", "out.mrk.json").find(".csv"), std::string::npos);
+}
+
+TEST_F(WarpAny, RefusesAnUnknownEndingAndNamesThoseThatAreKnown) {
+  write("in.gii", "<GIFTI/>");
+  const std::string said = refusal("in.gii", "out.gii");
+  EXPECT_NE(said.find("in.gii: its ending is none that is known"), std::string::npos);
+  EXPECT_NE(said.find(".trk"), std::string::npos);
 }
 
 TEST_F(WarpAny, RefusesFilesThatAreNotThere) {

@@ -146,4 +146,17 @@ TEST(Warp, TakesABlobItsLabelItsPointAndItsSurfaceToTheSamePlace) {
   EXPECT_LT((centroid(label) - point).norm(), 0.25 + 1.1 / 2);
 }
 
+TEST(WarpImage, OnAnotherGridIsWhatItIsThereOnItsOwn) {
+  const ImageGeometry own = grid({40, 38, 36}, {1.2, 1.2, 1.2}), other = grid({9, 8, 7}, {4, 4, 4}, oblique());
+  const auto slope = [](const Eigen::Vector3d& x) { return 100 + x.x() - 2 * x.z(); };
+  const Eigen::Vector3d shift(1.5, -2, 3);
+  const VectorImage resampling = field(own, [&](const Eigen::Vector3d&) { return shift; });
+  const ScalarImage warped = warp(image(own, slope), resampling, Interpolation::linear, other);
+  EXPECT_NEAR(warped.at(4, 4, 3), slope(other.to_world({4, 4, 3}) + shift), 1e-3);
+  const LabelMap labels = label_map(own, [](const Eigen::Vector3d& x) { return x.z() > centre.z() ? 3 : 9; });
+  const LabelMap moved = warp(labels, resampling, other);
+  EXPECT_TRUE(same_geometry(moved.geometry, other));
+  EXPECT_EQ(moved.at(4, 4, 3), label_at(labels, other.to_world({4, 4, 3}) + shift));
+}
+
 }  // namespace brainshift::registration::warp_image_test

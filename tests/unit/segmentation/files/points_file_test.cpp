@@ -127,4 +127,19 @@ TEST(PointsFile, OfAnUnknownKindIsRefused) {
   EXPECT_NE(refusal([&] { PointsFile(folder.write("p.txt", "1,2,3")).positions(); }).find(".fcsv"), std::string::npos);
 }
 
+TEST(PointsFile, PlanesAndBoxesSayTheirPlaceTwiceAndBothMove) {
+  const test::ScratchFolder folder;
+  const PointsFile box(folder.write("roi.mrk.json", R"({"markups": [{"type": "ROI", "coordinateSystem": "RAS",
+    "center": [1, 2, 3], "size": [4, 5, 6], "baseToNode": [1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1],
+    "controlPoints": [{"position": [1, 2, 3]}]}]})"));
+  box.write_moved(folder / "moved.mrk.json", box.positions().rowwise() + Eigen::RowVector3d(10, 20, 30));
+  const auto moved = nlohmann::json::parse(test::bytes_of(folder / "moved.mrk.json"))["markups"][0];
+  EXPECT_EQ(moved["center"], nlohmann::json({-9.0, -18.0, 33.0}));
+  EXPECT_EQ(moved["controlPoints"][0]["position"], moved["center"]);
+  EXPECT_EQ(moved["baseToNode"][3], -9.0);
+  EXPECT_EQ(moved["baseToNode"][7], -18.0);
+  EXPECT_EQ(moved["baseToNode"][11], 33.0);
+  EXPECT_EQ(moved["size"], nlohmann::json({4, 5, 6}));
+}
+
 }  // namespace brainshift::test::points_file_test

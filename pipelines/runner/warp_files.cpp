@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/warp_files.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "segmentation/files/refuse.hpp"
+#include "segmentation/image/image_series.hpp"
+#include "segmentation/options/values.hpp"
+
+namespace brainshift::pipelines {
+namespace fs = std::filesystem;
+namespace {
+
+/// What became of a file, as a sentence.
+std::string told(const fs::path& file, const registration::WarpedFile& warped) {
+  const std::string name = file.filename().string() + ": ";
+  if (warped.is_image) {
+    return name + (warped.is_label_map ? "a label map, each voxel took the nearest label" : "an image, interpolated");
+  }
+  const registration::MovedPoints& moved = warped.moved;
+  std::string sentence = name + std::to_string(moved.points) + " points, moved by up to " +
+                         write_number(std::round(100 * moved.largest) / 100) + " mm";
+  if (moved.outside > 0) {
+    sentence += "; " + std::to_string(moved.outside) + " lie outside the run's image and stay where they were";
+  }
+  return sentence;
+}
+
+void check_names(const std::vector<fs::path>& files, const fs::path& out) {
+  std::set<fs::path> names;
+  for (const fs::path& file : files) {
+    const fs::path name = registration::warped_name(file);
+    if (!fs::exists(file)) {
+      refuse(file, "no such file; check the path");
+    }
+    if (fs::exists(out / name) || !names.insert(name).second) {
+      refuse(file, "there is a " + name.string() + " already; rename the file that is to be warped");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warp_files(const std::vector<fs::path>& files, registration::RegisterFields& fields,
+                                    const fs::path& out, const registration::WarpAnyOptions& options) {
+  check_names(files, out);
+  std::vector<std::string> notes;
+  for (const fs::path& file : files) {
+    notes.push_back(told(file, registration::warp_any(file, fields, out / registration::warped_name(file), options)));
+  }
+  return notes;
+}
+
+std::vector<std::string> warp_files(const WarpJob& job, const fs::path& out) {
+  const fs::path stage = job.run / "register";
+  registration::RegisterFields fields(fs::is_directory(stage) ? stage : job.run, job.towards);
+  registration::WarpAnyOptions options = job.options;
+  if (!job.like.empty()) {
+    options.grid = is_image_series(job.like) ? read_image_series(job.like).volumes.front().geometry
+                                             : read_image(job.like).geometry;
+  }
+  return warp_files(job.files, fields, out, options);
+}
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "register/files/warp_any.hpp"
+
+namespace brainshift::pipelines {
+
+/// Files that a finished run's fields take to the other brain.
+struct WarpJob {
+  std::filesystem::path run;  ///< the --out of a run, or its register folder
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path like;  ///< image whose grid warped images take; their own if empty
+  registration::Towards towards = registration::Towards::intraop;
+  registration::WarpAnyOptions options;
+};
+
+/// Writes each to a folder as warped_NAME. Returns a sentence on each. Throws std::invalid_argument, before anything is
+/// written, where a file is missing, two would get one name or one would be written over, and as warp_any().
+std::vector<std::string> warp_files(const std::vector<std::filesystem::path>& files,
+                                    registration::RegisterFields& fields, const std::filesystem::path& out,
+                                    const registration::WarpAnyOptions& options);
+
+/// The same with a run's fields.
+std::vector<std::string> warp_files(const WarpJob& job, const std::filesystem::path& out);
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+namespace brainshift::registration {
+
+/// A file that is written bit by bit; it is removed when it is not finished.
+class OutStream {
+ public:
+  explicit OutStream(std::filesystem::path file) : file_(std::move(file)), stream_(file_, std::ios::binary) {}
+  ~OutStream() {
+    if (!finished_) {
+      stream_.close();
+      std::error_code ignored;
+      std::filesystem::remove(file_, ignored);
+    }
+  }
+  OutStream(const OutStream&) = delete;
+  OutStream& operator=(const OutStream&) = delete;
+
+  void write(const void* bytes, std::size_t count) {
+    stream_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(count));
+  }
+
+  /// Throws std::runtime_error when not all could be written.
+  void finish() {
+    stream_.close();
+    if (!stream_) {
+      throw std::runtime_error(file_.string() +
+                               ": could not be written whole; is the disk full or the folder read-only?");
+    }
+    finished_ = true;
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::ofstream stream_;
+  bool finished_ = false;
+};
+
+}  // namespace brainshift::registration

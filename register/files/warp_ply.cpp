@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstring>
+#include <fstream>
+#include <optional>
+
+#include "register/files/byte_order.hpp"
+#include "register/files/out_stream.hpp"
+#include "register/files/text_vertex.hpp"
+#include "register/files/warp_mesh.hpp"
+#include "segmentation/files/model_file.hpp"
+#include "segmentation/files/ply_claims.hpp"
+#include "segmentation/files/readable_file.hpp"
+
+namespace brainshift::registration {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlyProperty {
+  std::string name, type;
+  std::size_t offset;  ///< bytes from the beginning of its row
+};
+
+/// Of the element "vertex", which comes first in the file.
+struct PlyVertices {
+  std::string format;
+  std::size_t rows = 0;
+  std::size_t row_bytes = 0;
+  std::vector<PlyProperty> properties;
+  std::size_t header_lines = 0;
+
+  std::size_t place_of(const fs::path& file, const char* name) const {
+    for (std::size_t p = 0; p < properties.size(); ++p) {
+      if (properties[p].name == name) {
+        return p;
+      }
+    }
+    refuse(file, std::string("its vertices have no property ") + name + "; is it a .ply model?");
+  }
+};
+
+void add_property(const fs::path& file, const std::vector<std::string_view>& words, PlyVertices& vertices) {
+  const auto bytes = words.size() == 3 ? bytes_of_ply_type(std::string(words[1])) : std::nullopt;
+  if (!bytes) {
+    refuse(file, "a property of its vertices is no single number; save the model without it");
+  }
+  vertices.properties.push_back({std::string(words[2]), std::string(words[1]), vertices.row_bytes});
+  vertices.row_bytes += *bytes;
+}
+
+/// Copies the header line by line.
+PlyVertices take_header(const fs::path& file, std::istream& in, OutStream& out) {
+  PlyVertices vertices;
+  std::string line, element;
+  bool found = false;
+  while (std::getline(in, line)) {
+    const std::vector<std::string_view> words = words_in(line);
+    const std::string_view keyword = words.empty() ? std::string_view() : words.front();
+    if (vertices.header_lines++ == 0 && keyword != "ply") {
+      break;
+    }
+    const std::string with_end = line + "\n";
+    out.write(with_end.data(), with_end.size());
+    if (keyword == "format" && words.size() > 1) {
+      vertices.format = words[1];
+    } else if (keyword == "element" && words.size() > 2) {
+      if (!found && words[1] != "vertex") {
+        refuse(file, "its vertices do not come first; save it again with another program");
+      }
+      vertices.rows = found
+                          ? vertices.rows
+                          : static_cast<std::size_t>(parse_number(std::string(words[2]), file, vertices.header_lines));
+      element = words[1];
+      found = true;
+    } else if (keyword == "property" && element == "vertex") {
+      add_property(file, words, vertices);
+    } else if (keyword == "end_header" && found) {
+      return vertices;
+    }
+  }
+  refuse(file, "is no .ply model, or its header is damaged; copy it again");
+}
+
+void move_text(const fs::path& file, const PlyVertices& vertices, const std::array<std::size_t, 3>& places,
+               const Eigen::Vector3d& to_lps, std::istream& in, PointMover& mover, OutStream& out) {
+  std::string line;
+  for (std::size_t row = 0; row < vertices.rows && std::getline(in, line); ++row) {
+    const std::string moved =
+        with_moved_words(line, places, to_lps, mover, file, vertices.header_lines + row + 1) + (in.eof() ? "" : "\n");
+    out.write(moved.data(), moved.size());
+  }
+}
+
+template <class Number>
+void move_bytes(const fs::path& file, const PlyVertices& vertices, const std::array<std::size_t, 3>& places,
+                const Eigen::Vector3d& to_lps, std::istream& in, PointMover& mover, OutStream& out) {
+  const bool swapped = (vertices.format == "binary_big_endian") == (std::endian::native == std::endian::little);
+  std::vector<char> bytes(vertices.row_bytes);
+  for (std::size_t row = 0; row < vertices.rows; ++row) {
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    std::array<Number, 3> x{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::memcpy(&x[axis], bytes.data() + vertices.properties[places[axis]].offset, sizeof(Number));
+    }
+    swap_if(swapped, x);
+    const Eigen::Vector3d here(x[0], x[1], x[2]);
+    if (!in || !here.allFinite()) {
+      refuse(file, "vertex " + std::to_string(row + 1) + " is missing or not finite; repair the file");
+    }
+    const Eigen::Vector3d moved = here + to_lps.cwiseProduct(mover.displacement(to_lps.cwiseProduct(here)));
+    x = {static_cast<Number>(moved[0]), static_cast<Number>(moved[1]), static_cast<Number>(moved[2])};
+    swap_if(swapped, x);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::memcpy(bytes.data() + vertices.properties[places[axis]].offset, &x[axis], sizeof(Number));
+    }
+    out.write(bytes.data(), bytes.size());
+  }
+}
+
+void copy_rest(std::istream& in, OutStream& out) {
+  std::array<char, 65536> bytes{};
+  while (in.read(bytes.data(), bytes.size()), in.gcount() > 0) {
+    out.write(bytes.data(), static_cast<std::size_t>(in.gcount()));
+  }
+}
+
+}  // namespace
+
+void warp_ply(const fs::path& in, PointMover& mover, const fs::path& out) {
+  check_readable(in);
+  check_ply_claims(in);
+  const Eigen::Vector3d to_lps = axes_to_lps(frame_in_header(in));
+  std::ifstream stream(in, std::ios::binary);
+  OutStream moved(out);
+  const PlyVertices vertices = take_header(in, stream, moved);
+  const std::array<std::size_t, 3> places = {vertices.place_of(in, "x"), vertices.place_of(in, "y"),
+                                             vertices.place_of(in, "z")};
+  const auto all_are = [&](const char* a, const char* b) {
+    return std::all_of(places.begin(), places.end(), [&](std::size_t p) {
+      return vertices.properties[p].type == a || vertices.properties[p].type == b;
+    });
+  };
+  if (vertices.format == "ascii") {
+    move_text(in, vertices, places, to_lps, stream, mover, moved);
+  } else if (all_are("float", "float32")) {
+    move_bytes<float>(in, vertices, places, to_lps, stream, mover, moved);
+  } else if (all_are("double", "float64")) {
+    move_bytes<double>(in, vertices, places, to_lps, stream, mover, moved);
+  } else {
+    refuse(in, "x, y and z must be float or double; save the model again so");
+  }
+  if (mover.moved().points == 0) {
+    refuse(in, "holds no vertex");
+  }
+  copy_rest(stream, moved);
+  moved.finish();
+}
+
+}  // namespace brainshift::registration

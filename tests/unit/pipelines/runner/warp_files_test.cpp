@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/warp_files.hpp"
+
+#include "segmentation/files/points_file.hpp"
+#include "tests/unit/expect_parts.hpp"
+#include "tests/unit/pipelines/run_folder.hpp"
+#include "tests/unit/register/builders.hpp"
+
+namespace brainshift::pipelines::warp_files_test {
+
+using registration::Towards;
+using test::expect_parts;
+using test::refusal;
+namespace builders = registration::builders;
+
+/// A run whose brain sinks.
+class WarpFiles : public RunFolder {
+ protected:
+  static void SetUpTestSuite() {
+    run_ = std::make_unique<test::ScratchFolder>();
+    fs::create_directories(*run_ / "register");
+    const auto result = registration::register_images(builders::head(builders::sinking), {});
+    registration::write_registration(*run_ / "register", result);
+  }
+  static void TearDownTestSuite() { run_.reset(); }
+  void SetUp() override {
+    fs::create_directories(folder_ / "out");
+    fs::create_directories(folder_ / "back");
+  }
+  std::vector<std::string> warp(const std::vector<fs::path>& files, Towards towards, const std::string& out,
+                                const fs::path& like = {}) const {
+    return warp_files({.run = run_->path(), .files = files, .like = like, .towards = towards, .options = {.grid = {}}},
+                      folder_ / out);
+  }
+
+  static inline std::unique_ptr<test::ScratchFolder> run_;
+};
+
+TEST_F(WarpFiles, PointsGoThereByTheKnownMotionAndComeBack) {
+  const Points preop = (Points(4, 3) << 3, -5, 8, 8, -2, 25, 5, 0, 31, -8, 3, 12).finished();
+  std::ostringstream text;
+  text << "# frame: LPS\nx,y,z\n" << preop.format(Eigen::IOFormat(9, 0, ",", "\n")) << '\n';
+  const fs::path file = write("points.csv", text.str());
+  const auto notes = warp({file}, Towards::intraop, "out");
+  expect_parts(notes.front(), {"points.csv: 4 points, moved by up to", "mm"});
+  const Points there = PointsFile(folder_ / "out/warped_points.csv").positions();
+  for (Eigen::Index p = 0; p < 4; ++p) {
+    const Eigen::Vector3d known = builders::sinking(preop.row(p));
+    EXPECT_LT((there.row(p) - preop.row(p) - known.transpose()).norm(), 0.05 * known.norm()) << p;
+  }
+  warp({folder_ / "out/warped_points.csv"}, Towards::preop, "back");
+  const Points back = PointsFile(folder_ / "back/warped_warped_points.csv").positions();
+  EXPECT_LT((back - preop).rowwise().norm().maxCoeff(), 0.05);
+}
+
+TEST_F(WarpFiles, ImagesAreWhatTheStageMakesOrOnAnothersGrid) {
+  const auto head = builders::head(builders::sinking);
+  write_image(folder_ / "t1.nii.gz", head.t1);
+  write_image(folder_ / "labels.nii.gz", *head.labels);
+  const auto notes = warp({folder_ / "t1.nii.gz", folder_ / "labels.nii.gz"}, Towards::intraop, "out");
+  expect_parts(notes[1], {"labels.nii.gz", "label map"});
+  const ScalarImage warped = read_image(folder_ / "out/warped_t1.nii.gz"),
+                    expected = read_image(*run_ / "register/warped.nii.gz");
+  for (std::size_t v = 0; v < expected.voxels.size(); ++v) {  // the file holds the grid in single precision
+    ASSERT_NEAR(warped.voxels[v], expected.voxels[v], 1e-3);
+  }
+  EXPECT_EQ(read_label_map(folder_ / "out/warped_labels.nii.gz").voxels,
+            read_label_map(*run_ / "register/warped_labels.nii.gz").voxels);
+  const ScalarImage like = builders::image(builders::grid({10, 12, 14}, {3, 3, 3}), builders::texture);
+  write_image(folder_ / "like.nii.gz", like);
+  warp({folder_ / "t1.nii.gz"}, Towards::intraop, "back", folder_ / "like.nii.gz");
+  EXPECT_TRUE(same_geometry(read_image(folder_ / "back/warped_t1.nii.gz").geometry, like.geometry));
+}
+
+TEST_F(WarpFiles, WhatLiesOutsideTheImageIsTold) {
+  const fs::path file = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n500,0,0\n");
+  expect_parts(warp({file}, Towards::intraop, "out").front(), {"2 points", "1 lie outside the run's image"});
+}
+
+TEST_F(WarpFiles, NothingIsWrittenWhereAFileIsMissingOrTwoHaveOneName) {
+  const fs::path file = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n");
+  const fs::path other = write("other/points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n");
+  expect_parts(refusal([&] { warp({file, other}, Towards::intraop, "out"); }), {"other/points.csv", "rename"});
+  expect_parts(refusal([&] { warp({file, folder_ / "none.tck"}, Towards::intraop, "out"); }), {"none.tck", "no such"});
+  EXPECT_TRUE(fs::is_empty(folder_ / "out"));
+}
+
+}  // namespace brainshift::pipelines::warp_files_test

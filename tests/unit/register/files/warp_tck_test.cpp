@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "register/files/byte_order.hpp"
+#include "register/files/warp_tracts.hpp"
+#include "tests/unit/register/builders.hpp"
+#include "tests/unit/scratch_folder.hpp"
+
+namespace brainshift::registration::warp_tck_test {
+
+using namespace builders;
+
+const Eigen::Vector3d shift(1.5, -2, 3);
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Numbers as they stand in the file.
+template <class Number>
+std::string bytes_of_numbers(const std::vector<double>& values, bool swapped) {
+  std::string bytes;
+  for (const double value : values) {
+    std::array<Number, 1> number{static_cast<Number>(value)};
+    swap_if(swapped, number);
+    bytes.append(reinterpret_cast<const char*>(number.data()), sizeof(Number));
+  }
+  return bytes;
+}
+
+/// Two tracts in RAS, the last point of which lies outside the image.
+std::vector<double> tracts(const Eigen::Vector3d& u) {
+  return {-3 - u[0], 5 - u[1], 8 + u[2], -3 - u[0], 5 - u[1], 9 + u[2], nan, nan,      nan,      -4 - u[0], 5 - u[1],
+          9 + u[2],  500,      0,        0,         nan,      nan,      nan, infinity, infinity, infinity};
+}
+
+std::string header(const std::string& datatype, const std::string& file = ". 128") {
+  std::string text = "mrtrix tracks\ncommand_history: tckgen with: a colon\nstep_size: 0.5\ndatatype: " + datatype +
+                     "\ncount: 2\nfile: " + file + "\nEND\n";
+  text.resize(128, '\0');
+  return text;
+}
+
+class WarpTck : public ::testing::Test {
+ protected:
+  std::string warped(const std::string& text) {
+    warp_tck(folder_.write("in.tck", text), mover_, folder_ / "out.tck");
+    return test::bytes_of(folder_ / "out.tck");
+  }
+  std::string refused(const std::string& text) {
+    const std::string said =
+        test::refusal([&] { warp_tck(folder_.write("in.tck", text), mover_, folder_ / "out.tck"); });
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.tck")) << said;
+    return said;
+  }
+
+  test::ScratchFolder folder_;
+  VectorImage field_ = field(grid({12, 12, 12}, {4, 4, 4}, oblique()), [](const Eigen::Vector3d&) { return shift; });
+  PointMover mover_{field_};
+};
+
+TEST_F(WarpTck, MovesPointsOfEveryKindOfNumberAndKeepsAllElseByteForByte) {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  for (const bool big : {false, true}) {
+    const std::string order = big ? "BE" : "LE";
+    EXPECT_EQ(warped(header("Float32" + order) + bytes_of_numbers<float>(tracts(none), big)),
+              header("Float32" + order) + bytes_of_numbers<float>(tracts(shift), big));
+    EXPECT_EQ(warped(header("Float64" + order) + bytes_of_numbers<double>(tracts(none), big)),
+              header("Float64" + order) + bytes_of_numbers<double>(tracts(shift), big));
+  }
+  EXPECT_EQ(mover_.moved().points, 16U);
+  EXPECT_EQ(mover_.moved().outside, 4U);
+}
+
+TEST_F(WarpTck, RefusesWhatItCannotReadAndLeavesNothing) {
+  const std::string data = bytes_of_numbers<float>(tracts(Eigen::Vector3d::Zero()), false);
+  EXPECT_NE(refused("something else\n").find("in.tck: is no MRtrix tract file"), std::string::npos);
+  EXPECT_NE(refused(header("Float32LE").substr(0, 60)).find("END"), std::string::npos);
+  EXPECT_NE(refused(header("Int16LE") + data).find("\"Int16LE\"; Float32LE"), std::string::npos);
+  EXPECT_NE(refused(header("Float32LE", "other.dat 0") + data).find("END or the place"), std::string::npos);
+  EXPECT_NE(refused(header("Float32LE", "other.dat 128") + data).find("another file"), std::string::npos);
+  EXPECT_NE(refused(header("Float32LE") + data.substr(0, data.size() - 12)).find("truncated"), std::string::npos);
+  EXPECT_NE(refused(header("Float32LE") + bytes_of_numbers<float>({1, nan, 2}, false)).find(" is not finite"),
+            std::string::npos);
+}
+
+}  // namespace brainshift::registration::warp_tck_test
