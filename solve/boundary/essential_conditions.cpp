@@ -23,7 +23,7 @@ Eigen::VectorXd component_of(const NodalVectors& vectors, int axis) {
 }
 
 bool same_columns(const Points& values) {
-  return values.col(0) == values.col(1) && values.col(0) == values.col(2);
+  return values.rows() == 0 || (values.col(0) == values.col(1) && values.col(0) == values.col(2));
 }
 
 Eigen::VectorXd stacked(const Eigen::VectorXd& above, const Eigen::VectorXd& below) {
@@ -105,9 +105,11 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
     c.compliance = compliance(measured, c.node, axis) / weight;
-    c.shape = stacked(c.shape, inner_shape);
-    c.prescribed = stacked(c.prescribed, measured.inner_displacement.col(axis));
-    c.loaded = stacked(c.loaded, Eigen::VectorXd::Ones(measured.inner.rows()));
+    if (measured.inner.rows() > 0) {
+      c.shape = stacked(c.shape, inner_shape);
+      c.prescribed = stacked(c.prescribed, measured.inner_displacement.col(axis));
+      c.loaded = stacked(c.loaded, Eigen::VectorXd::Ones(measured.inner.rows()));
+    }
     c.multiplier = c.scratch = c.multiplier_before = Eigen::VectorXd::Zero(c.prescribed.size());
   }
 }
