@@ -15,10 +15,10 @@ namespace brainshift::registration {
 /// surface is open or does not meet the image, the solution does not fit the brain, or an option is out of range.
 Registration register_images(const RegisterInput& input, const RegisterOptions& options, const Progress& progress = {});
 
-/// Writes warped.nii.gz, warped_labels.nii.gz, intraop_to_preop and preop_to_intraop (.nii.gz and .h5), jacobian.nii.gz
-/// and landmarks.csv (`label,x,y,z` preop, `intraop_x,…`, `ux,uy,uz`, mm LPS) into an existing folder; the image,
-/// labels and landmarks only when there are any. Throws std::runtime_error, naming the file, when one cannot be written
-/// whole.
+/// Writes warped.nii.gz, warped_labels.nii.gz, the fields intraop_to_preop.nii.gz and preop_to_intraop.nii.gz, the
+/// transforms of write_transform_files(), jacobian.nii.gz and landmarks.csv (`label,x,y,z` preop, `intraop_x,…`,
+/// `ux,uy,uz`, mm LPS) into an existing folder; the image, labels and landmarks only when there are any. Throws
+/// std::runtime_error, naming the file, when one cannot be written whole.
 void write_registration(const std::filesystem::path& folder, const Registration& registration);
 
 }  // namespace brainshift::registration

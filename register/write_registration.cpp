@@ -9,7 +9,7 @@
 #include <iomanip>
 #include <stdexcept>
 
-#include "register/files/write_transform.hpp"
+#include "register/files/transform_files.hpp"
 
 namespace brainshift::registration {
 
@@ -42,8 +42,7 @@ void write_registration(const std::filesystem::path& folder, const Registration&
   const auto when = threads > 1 ? std::launch::async : std::launch::deferred;
   std::future<void> transforms = std::async(when, [&folder, &registration, threads] {
     omp_set_num_threads(threads);  // OpenMP keeps it for each thread
-    write_transform(folder / "intraop_to_preop.h5", registration.resampling);
-    write_transform(folder / "preop_to_intraop.h5", registration.forward);
+    write_transform_files(folder, registration.resampling, registration.forward);
   });
   write_image(folder / "intraop_to_preop.nii.gz", registration.resampling);
   write_image(folder / "preop_to_intraop.nii.gz", registration.forward);

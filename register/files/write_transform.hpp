@@ -7,10 +7,9 @@
 
 namespace brainshift::registration {
 
-/// The fields as an ITK displacement field transform (.h5: 3D Slicer, SimpleITK and ANTs load it), in single precision,
-/// cut to the box where the field is not zero: such a transform is the identity outside its grid.
-/// itk::TransformFileWriter makes the same file, but compresses it on one thread. Throws std::runtime_error when it
-/// cannot be written whole.
+/// A field as an ITK displacement field transform (.h5: 3D Slicer, SimpleITK and ANTs load it), in single precision.
+/// Such a transform is the identity outside its grid. itk::TransformFileWriter makes the same file, but compresses it
+/// on one thread. Throws std::runtime_error when it cannot be written whole.
 void write_transform(const std::filesystem::path& file, const VectorImage& field);
 
 }  // namespace brainshift::registration

@@ -67,8 +67,8 @@ TEST_F(Run, LeavesEveryArtefactOfTheDesign) {
        {"segment/labels.nii.gz", "segment/brain.vtp", "segment/skull.vtp", "discretise/nodes.vtu",
         "discretise/cells.vtu", "solve/solution.vtu", "solve/history.csv", "register/warped.nii.gz",
         "register/warped_labels.nii.gz", "register/intraop_to_preop.nii.gz", "register/preop_to_intraop.nii.gz",
-        "register/intraop_to_preop.h5", "register/preop_to_intraop.h5", "register/landmarks.csv",
-        "register/jacobian.nii.gz", "report/index.html", "run.json"}) {
+        "register/from-preop_to-intraop_mode-image_xfm.h5", "register/from-preop_to-intraop_mode-points_xfm.h5",
+        "register/landmarks.csv", "register/jacobian.nii.gz", "report/index.html", "run.json"}) {
     EXPECT_GT(fs::exists(finished() / file) ? fs::file_size(finished() / file) : 0, 0U) << file;
   }
   EXPECT_TRUE(half_written(finished()).empty());

@@ -95,9 +95,9 @@ class RegistrationFiles : public ::testing::Test {
 };
 
 TEST_F(RegistrationFiles, AreAllThere) {
-  for (const char* name :
-       {"warped.nii.gz", "warped_labels.nii.gz", "intraop_to_preop.nii.gz", "preop_to_intraop.nii.gz",
-        "intraop_to_preop.h5", "preop_to_intraop.h5", "landmarks.csv", "jacobian.nii.gz"}) {
+  for (const char* name : {"warped.nii.gz", "warped_labels.nii.gz", "intraop_to_preop.nii.gz",
+                           "preop_to_intraop.nii.gz", "from-preop_to-intraop_mode-image_xfm.h5",
+                           "from-preop_to-intraop_mode-points_xfm.h5", "landmarks.csv", "jacobian.nii.gz"}) {
     EXPECT_TRUE(std::filesystem::is_regular_file(folder_->path() / name)) << name;
   }
 }
@@ -107,11 +107,11 @@ TEST_F(RegistrationFiles, TheFieldImageIsADisplacementFieldThatItkResamplesWithA
 }
 
 TEST_F(RegistrationFiles, TheTransformIsOneThatItkResamplesWithAsWeDo) {
-  expect_same_resampling(read_transform(folder_->path() / "intraop_to_preop.h5"));
+  expect_same_resampling(read_transform(folder_->path() / "from-preop_to-intraop_mode-image_xfm.h5"));
 }
 
 TEST_F(RegistrationFiles, TheForwardTransformMovesPointsAsWeDo) {
-  const auto transform = read_transform(folder_->path() / "preop_to_intraop.h5");
+  const auto transform = read_transform(folder_->path() / "from-preop_to-intraop_mode-points_xfm.h5");
   ASSERT_NE(transform.GetPointer(), nullptr);
   const Points& nodes = input_->solution.positions;
   const Points moved = move_points(registration_->forward, nodes);
@@ -124,7 +124,7 @@ TEST_F(RegistrationFiles, TheForwardTransformMovesPointsAsWeDo) {
 }
 
 TEST_F(RegistrationFiles, TheTransformsKeepOnlyTheBoxThatMoves) {
-  const auto transform = read_transform(folder_->path() / "intraop_to_preop.h5");
+  const auto transform = read_transform(folder_->path() / "from-preop_to-intraop_mode-image_xfm.h5");
   const auto size = transform->GetDisplacementField()->GetLargestPossibleRegion().GetSize();
   EXPECT_LT(size[0] * size[1] * size[2], input_->t1.voxels.size());
 }
@@ -169,7 +169,7 @@ TEST_F(RegistrationFiles, AFolderThatIsNotThereIsAFaultThatNamesTheFile) {
 }
 
 TEST_F(RegistrationFiles, AFullDiskIsAFaultThatNamesTheFile) {
-  for (const char* name : {"preop_to_intraop.h5", "landmarks.csv"}) {
+  for (const char* name : {"from-preop_to-intraop_mode-points_xfm.h5", "landmarks.csv"}) {
     const ScratchFolder full;
     std::filesystem::create_symlink("/dev/full", full.path() / name);
     expect_fault(full.path(), *registration_, name);

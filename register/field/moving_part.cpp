@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "register/field/moving_part.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace brainshift::registration {
+
+namespace {
+
+/// Voxels low to high, both included.
+struct IndexBox {
+  Eigen::Array3i low, high;
+};
+
+IndexBox box_of_moving(const VectorImage& field) {
+  const ImageGeometry& g = field.geometry;
+  IndexBox box{g.size - 1, Eigen::Array3i::Zero()};
+  for (int k = 0; k < g.size.z(); ++k) {
+    for (int j = 0; j < g.size.y(); ++j) {
+      for (int i = 0; i < g.size.x(); ++i) {
+        if (field.at(i, j, k) != std::array<float, 3>{0, 0, 0}) {
+          box.low = box.low.min(Eigen::Array3i(i, j, k));
+          box.high = box.high.max(Eigen::Array3i(i, j, k));
+        }
+      }
+    }
+  }
+  box.low = (box.low.min(box.high) - 1).max(0);
+  box.high = (box.high + 1).min(g.size - 1);
+  return box;
+}
+
+VectorImage cut(const VectorImage& field, const IndexBox& box) {
+  VectorImage part{field.geometry, {}};
+  part.geometry.size = box.high - box.low + 1;
+  part.geometry.origin = field.geometry.to_world(box.low.cast<double>().matrix());
+  part.voxels.reserve(part.geometry.voxel_count());
+  for (int k = box.low.z(); k <= box.high.z(); ++k) {
+    for (int j = box.low.y(); j <= box.high.y(); ++j) {
+      const auto row = field.voxels.begin() + static_cast<std::ptrdiff_t>(field.geometry.offset(box.low.x(), j, k));
+      part.voxels.insert(part.voxels.end(), row, row + part.geometry.size.x());
+    }
+  }
+  return part;
+}
+
+}  // namespace
+
+VectorImage moving_part(const VectorImage& field) {
+  return cut(field, box_of_moving(field));
+}
+
+}  // namespace brainshift::registration

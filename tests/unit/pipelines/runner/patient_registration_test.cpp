@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/patient_registration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/solve/models.hpp"
+
+namespace brainshift::pipelines::patient_registration_test {
+
+using solve::CraniotomyLoad;
+using solve::Model;
+using solve::model_side;
+using solve::RigidMotion;
+
+constexpr double sigma = 0.3;
+
+/// A cube that is held below.
+Model held_cube() {
+  Model model = solve::box_model(test::box_cells(6, model_side));
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    if (model.cloud.positions(a, 2) < 1e-9) {
+      model.conditions.displacement.row(a).setZero();
+    }
+  }
+  return model;
+}
+
+std::vector<std::int32_t> upper_nodes(const Model& model) {
+  std::vector<std::int32_t> nodes;
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    if (model.cloud.positions(a, 2) > model_side - 1e-9) {
+      nodes.push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  return nodes;
+}
+
+/// What a tracker that is turned by 3° and off by 4 mm sees of the upper face, which sinks by `depth` in its middle.
+CraniotomyLoad seen_by_tracker(const Model& model, const RigidMotion& tracker, double depth) {
+  CraniotomyLoad load;
+  load.positions = model.cloud.positions(upper_nodes(model), Eigen::all);
+  Points moved = load.positions;
+  for (auto place : moved.rowwise()) {
+    const double away = (place.head<2>().array() - model_side / 2).matrix().norm();
+    place[2] -= depth * std::exp(-away * away / 200);
+  }
+  load.displacement = tracker(moved) - load.positions;
+  load.sigma = Points::Constant(load.positions.rows(), 3, sigma);
+  return load;
+}
+
+/// Each point is measured at a node.
+void impose(const CraniotomyLoad& load, Model& model) {
+  const std::vector<std::int32_t> nodes = upper_nodes(model);
+  solve::Measurement& measured = model.conditions.measured.emplace();
+  measured.spread.resize(model.cloud.positions.rows(), load.positions.rows());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto point = static_cast<Eigen::Index>(i);
+    measured.spread.insert(nodes[i], point) = 1;
+    model.conditions.displacement.row(nodes[i]) = load.displacement.row(point);
+  }
+  measured.sigma = load.sigma;
+  measured.inner = measured.inner_displacement = measured.inner_sigma = Points(0, 3);
+}
+
+RigidMotion a_tracker() {
+  RigidMotion tracker;
+  tracker.rotation = Eigen::AngleAxisd(3 * EIGEN_PI / 180, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  tracker.translation = {4, -1, 2};
+  return tracker;
+}
+
+/// Largest distance between what two motions make of the places, mm.
+double apart(const RigidMotion& a, const RigidMotion& b, const Points& places) {
+  return (a(places) - b(places)).rowwise().norm().maxCoeff();
+}
+
+TEST(PatientRegistration, FindsHowTheTrackerStandsWhereTheBrainIsAtRest) {
+  Model model = held_cube();
+  const RigidMotion tracker = a_tracker();
+  const CraniotomyLoad load = seen_by_tracker(model, tracker, 0);
+  const RigidMotion found = patient_registration(load, {}, impose, model);
+  EXPECT_LT(apart(found, tracker, load.positions), 0.01);
+}
+
+TEST(PatientRegistration, IsNearerThanABestFitWhereTheBrainSinks) {
+  Model model = held_cube();
+  const RigidMotion tracker = a_tracker();
+  const CraniotomyLoad load = seen_by_tracker(model, tracker, 5);
+  const RigidMotion fit = solve::fit_rigid(load.positions, load.positions + load.displacement, load.sigma);
+  const RigidMotion found = patient_registration(load, {}, impose, model);
+  EXPECT_LT(apart(found, tracker, load.positions), 0.7 * apart(fit, tracker, load.positions));
+  EXPECT_TRUE(model.conditions.measured->registration_unknown);
+}
+
+}  // namespace brainshift::pipelines::patient_registration_test
