@@ -73,7 +73,7 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
   return warnings;
 }
 
-Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<const std::int16_t> brain) {
+Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<const std::uint16_t> brain) {
   std::size_t all = 0, black = 0;
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
     if (std::ranges::find(brain, labels.voxels[i]) != brain.end()) {

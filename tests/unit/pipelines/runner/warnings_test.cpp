@@ -65,7 +65,7 @@ TEST(Warnings, TellOfLabelsWhereTheT1IsBlack) {
   labels.voxels = {0, 1, 1, 1, 1, 2, 2, 2, 2, 2};
   ScalarImage t1{labels.geometry, std::vector<float>(10, 5.0F)};
   t1.voxels[0] = 0;
-  const std::vector<std::int16_t> brain = {1, 2};
+  const std::vector<std::uint16_t> brain = {1, 2};
   EXPECT_TRUE(warnings_of(t1, labels, brain).empty());
   std::fill_n(t1.voxels.begin() + 1, 3, 0.0F);
   ASSERT_EQ(warnings_of(t1, labels, brain).size(), 1U);
