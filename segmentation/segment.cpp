@@ -30,9 +30,9 @@ void add_tumour(LabelMap& labels, const LabelMap& tumour_mask) {
   }
 }
 
-std::vector<std::int16_t> present_labels(const LabelMap& labels, const std::vector<std::int16_t>& wanted) {
-  std::vector<std::int16_t> present;
-  for (const std::int16_t label : wanted) {
+std::vector<std::uint16_t> present_labels(const LabelMap& labels, const std::vector<std::uint16_t>& wanted) {
+  std::vector<std::uint16_t> present;
+  for (const std::uint16_t label : wanted) {
     if (std::find(labels.voxels.begin(), labels.voxels.end(), label) != labels.voxels.end()) {
       present.push_back(label);
     }
@@ -40,7 +40,7 @@ std::vector<std::int16_t> present_labels(const LabelMap& labels, const std::vect
   return present;
 }
 
-void check_present(const LabelMap& labels, std::int16_t label) {
+void check_present(const LabelMap& labels, std::uint16_t label) {
   if (std::find(labels.voxels.begin(), labels.voxels.end(), label) == labels.voxels.end()) {
     throw std::invalid_argument("label " + std::to_string(label) +
                                 " is named but no voxel of the label map carries it; correct the label or the image");
@@ -96,24 +96,45 @@ std::vector<MeasuredSurface> extract_all(const std::vector<Body>& bodies, double
   return surfaces;
 }
 
-// What bounds the skull's inside: its label, or the fluid around the brain. Empty where the brain itself does.
-Mask cavity_of(const LabelMap& labels, const Mask& brain, const SegmentOptions& options) {
+// Of labels that a table told: what is labelled and not brain may bound the skull's inside.
+Mask cavity_in_labels(const LabelMap& labels, const Mask& brain, double reach, std::vector<std::string>& notes) {
+  constexpr std::uint16_t outer = default_label::skin;
+  if (std::find(labels.voxels.begin(), labels.voxels.end(), outer) == labels.voxels.end()) {
+    return {};
+  }
+  Mask space = bounded_space(labels, outer, brain, reach);
+  notes.emplace_back(space.voxels.empty()
+                         ? "no label is fluid or skull, and the labels around the brain bound no skull: the brain's "
+                           "own surface is taken for it; name the skull's label if there is one"
+                         : "no label is fluid or skull, so the skull's inside is taken to reach to the labels around "
+                           "the brain that are not brain");
+  return space;
+}
+
+// What bounds the skull's inside: its label, the fluid around the brain, or other labels there. Empty where the brain
+// itself does.
+Mask cavity_of(const LabelMap& labels, const Mask& brain, const SegmentOptions& options,
+               std::vector<std::string>& notes) {
   if (options.skull_label && (!options.fluid_label || encloses(labels, *options.skull_label, brain))) {
     return skull_cavity(labels, *options.skull_label, brain);
   }
+  if (!options.fluid_label) {
+    return {};
+  }
   constexpr double reach = 10;  // mm; fluid farther off is of the spine
-  return options.fluid_label ? fluid_space(labels, *options.fluid_label, brain, reach) : Mask{};
+  Mask space = fluid_space(labels, *options.fluid_label, brain, reach);
+  return space.voxels.empty() ? cavity_in_labels(labels, brain, reach, notes) : space;
 }
 
-std::vector<Body> bodies_of(const LabelMap& labels, const Mask& brain, const std::vector<std::int16_t>& tissues,
-                            const SegmentOptions& options) {
+std::vector<Body> bodies_of(const LabelMap& labels, const Mask& brain, const std::vector<std::uint16_t>& tissues,
+                            const SegmentOptions& options, std::vector<std::string>& notes) {
   std::vector<Body> bodies = {{"brain", brain}};
   if (options.tissue_surfaces) {
-    for (const std::int16_t label : tissues) {
+    for (const std::uint16_t label : tissues) {
       bodies.push_back({"tissue_" + std::to_string(label), mask_of(labels, std::array{label})});
     }
   }
-  if (Mask cavity = cavity_of(labels, brain, options); !cavity.voxels.empty()) {
+  if (Mask cavity = cavity_of(labels, brain, options, notes); !cavity.voxels.empty()) {
     bodies.push_back({"skull", std::move(cavity)});
   }
   return bodies;
@@ -132,9 +153,9 @@ void note_missed(Segmentation& result, const std::string& name, const SurfaceMea
   result.notes.push_back(text.str());
 }
 
-void make_surfaces(Segmentation& result, const Mask& brain, const std::vector<std::int16_t>& tissues,
+void make_surfaces(Segmentation& result, const Mask& brain, const std::vector<std::uint16_t>& tissues,
                    const SegmentOptions& options, const Progress& progress) {
-  const auto bodies = bodies_of(*result.labels, brain, tissues, options);
+  const auto bodies = bodies_of(*result.labels, brain, tissues, options, result.notes);
   auto surfaces = extract_all(bodies, options.edge_length, progress);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     result.measures[bodies[i].name] = surfaces[i].measures;
@@ -151,12 +172,12 @@ void make_surfaces(Segmentation& result, const Mask& brain, const std::vector<st
 
 // What closing and filling took in becomes the first of the brain's labels; loose pieces become background. Returns
 // where the former is 1.
-LabelMap fit_labels(LabelMap& labels, const Mask& tissue, const Mask& brain, std::int16_t filling) {
-  LabelMap closed{labels.geometry, std::vector<std::int16_t>(labels.voxels.size())};
+LabelMap fit_labels(LabelMap& labels, const Mask& tissue, const Mask& brain, std::uint16_t filling) {
+  LabelMap closed{labels.geometry, std::vector<std::uint16_t>(labels.voxels.size())};
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
     if (brain.voxels[i] != tissue.voxels[i]) {
-      closed.voxels[i] = static_cast<std::int16_t>(brain.voxels[i]);
-      labels.voxels[i] = brain.voxels[i] != 0 ? filling : std::int16_t{0};
+      closed.voxels[i] = static_cast<std::uint16_t>(brain.voxels[i]);
+      labels.voxels[i] = brain.voxels[i] != 0 ? filling : std::uint16_t{0};
     }
   }
   return closed;
@@ -191,7 +212,7 @@ Segmentation segment_labels(const SegmentInput& input, const SegmentOptions& opt
   if (input.tumour_mask) {
     add_tumour(*result.labels, *input.tumour_mask);
   }
-  for (const std::int16_t label : options.brain_labels) {
+  for (const std::uint16_t label : options.brain_labels) {
     check_present(*result.labels, label);
   }
   const Mask tissue = mask_of(*result.labels, options.brain_labels);
@@ -223,8 +244,8 @@ Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options
     add_tumour(*result.labels, *input.tumour_mask);
   }
   report(progress, 0.4, "surfaces");
-  const std::vector<std::int16_t> classes = {default_label::parenchyma, default_label::ventricles,
-                                             default_label::tumour};
+  const std::vector<std::uint16_t> classes = {default_label::parenchyma, default_label::ventricles,
+                                              default_label::tumour};
   make_surfaces(result, body.mask, present_labels(*result.labels, classes), options, progress);
   return result;
 }

@@ -26,10 +26,10 @@ void for_voxels(const LabelMap& labels, const Visit& visit) {
   }
 }
 
-std::int16_t neighbour(const LabelMap& labels, Eigen::Array3i voxel, int axis, int step) {
+std::uint16_t neighbour(const LabelMap& labels, Eigen::Array3i voxel, int axis, int step) {
   voxel[axis] += step;
   const bool inside = voxel[axis] >= 0 && voxel[axis] < labels.geometry.size[axis];
-  return inside ? labels.at(voxel.x(), voxel.y(), voxel.z()) : std::int16_t{0};
+  return inside ? labels.at(voxel.x(), voxel.y(), voxel.z()) : std::uint16_t{0};
 }
 
 Points to_points(const std::vector<Eigen::Vector3d>& list) {
@@ -63,7 +63,7 @@ TissueLookup::TissueLookup(const LabelMap* labels, std::span<const std::int32_t>
   }
   std::vector<Eigen::Vector3d> centres;
   std::vector<std::int32_t> rim_labels;
-  for_voxels(*labels_, [&](const Eigen::Array3i& voxel, std::int16_t label) {
+  for_voxels(*labels_, [&](const Eigen::Array3i& voxel, std::uint16_t label) {
     if (!contains(brain_labels_, label)) {
       return;
     }
@@ -99,7 +99,7 @@ std::int32_t TissueLookup::tissue_at(const Eigen::Vector3d& world) const {
 
 Points label_voxels(const LabelMap& labels, std::int32_t label) {
   std::vector<Eigen::Vector3d> centres;
-  for_voxels(labels, [&](const Eigen::Array3i& voxel, std::int16_t at) {
+  for_voxels(labels, [&](const Eigen::Array3i& voxel, std::uint16_t at) {
     if (at == label) {
       centres.push_back(centre(labels, voxel));
     }
@@ -109,9 +109,9 @@ Points label_voxels(const LabelMap& labels, std::int32_t label) {
 
 Points tissue_boundary(const LabelMap& labels, std::span<const std::int32_t> brain_labels) {
   std::vector<Eigen::Vector3d> faces;
-  for_voxels(labels, [&](const Eigen::Array3i& voxel, std::int16_t label) {
+  for_voxels(labels, [&](const Eigen::Array3i& voxel, std::uint16_t label) {
     for (int axis = 0; axis < 3; ++axis) {
-      const std::int16_t next = neighbour(labels, voxel, axis, 1);
+      const std::uint16_t next = neighbour(labels, voxel, axis, 1);
       if (next != label && contains(brain_labels, label) && contains(brain_labels, next)) {
         Eigen::Vector3d index = voxel.cast<double>().matrix();
         index[axis] += 0.5;

@@ -80,6 +80,10 @@ void add_files_at_hand(CLI::App& command, CLI::Option& make, FilesAtHand& files)
   for (const auto& [name, file, help] : images) {
     command.add_option(name, file, help)->type_name("FILE")->needs(&make);
   }
+  command
+      .add_option("--labels-are", files.labels_are, "freesurfer, brats or a table's file; else a table beside the map")
+      ->type_name("NAME")
+      ->needs(&make);
   command.add_option("--points", files.points, "markups or surfaces before and after, or craniotomy.csv")
       ->type_name("FILE")
       ->expected(1, 2)

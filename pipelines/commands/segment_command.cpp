@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "pipelines/commands/commands.hpp"
+#include "segmentation/image/segments.hpp"
 #include "segmentation/options/values.hpp"
 
 namespace brainshift::pipelines {
@@ -10,14 +11,9 @@ namespace {
 
 struct SegmentArguments {
   Scene scene;
-  std::vector<std::int16_t> brain_labels;
+  std::vector<std::uint16_t> brain_labels;
   std::filesystem::path out;
 };
-
-/// Whether the numbers are those of a table; else they are the ones that this program writes.
-bool known_numbers(const ImageInputs& image) {
-  return segmentation::is_freesurfer(segmentation::label_volumes(read_label_map(image.labels)));
-}
 
 void segment(const SegmentArguments& arguments, const Settings& settings) {
   SegmentJob job{arguments.scene.image, arguments.scene.segment};
@@ -30,7 +26,9 @@ void segment(const SegmentArguments& arguments, const Settings& settings) {
   if (!arguments.brain_labels.empty()) {
     job.options.brain_labels = arguments.brain_labels;
   }
-  job.reading.by_class = !image.labels.empty() && !own_numbers && (!image.labels_are.empty() || known_numbers(image));
+  // Segments whose names do not tell are refused as such: they are not this program's numbers.
+  job.reading.by_class =
+      !image.labels.empty() && !own_numbers && (classes_are_told(image) || !read_segments(image.labels).empty());
   job.options.skull_label = arguments.scene.image.skull_label;
   run_single_stage(StageId::segment, arguments.out, settings,
                    [&](const auto& folder, const Progress& progress) { return run_job(job, folder, progress); });

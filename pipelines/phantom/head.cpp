@@ -69,7 +69,7 @@ Head make_head(const Vector3d& centre, double scale, double csf_gap) {
                      .axes = Eigen::AngleAxisd(0.5, Vector3d(1, 1, 0).normalized()).toRotationMatrix()}};
 }
 
-std::int16_t tissue_at(const Head& head, const Vector3d& point) {
+std::uint16_t tissue_at(const Head& head, const Vector3d& point) {
   if (head.skin.level(point) > 1) {
     return 0;
   }
@@ -89,7 +89,7 @@ std::int16_t tissue_at(const Head& head, const Vector3d& point) {
   return in_ventricle ? tissue::ventricles : tissue::parenchyma;
 }
 
-double tissue_volume(const Head& head, std::int16_t label) {
+double tissue_volume(const Head& head, std::uint16_t label) {
   const double ventricles = head.ventricles[0].volume() + head.ventricles[1].volume();
   switch (label) {
     case tissue::parenchyma:

@@ -47,10 +47,10 @@ struct Head {
 Head make_head(const Eigen::Vector3d& centre, double scale, double csf_gap);
 
 /// Label at a point (numbers of segmentation::default_label), 0 outside the head.
-std::int16_t tissue_at(const Head& head, const Eigen::Vector3d& point);
+std::uint16_t tissue_at(const Head& head, const Eigen::Vector3d& point);
 
 /// Exact volume of a tissue, mm³.
-double tissue_volume(const Head& head, std::int16_t label);
+double tissue_volume(const Head& head, std::uint16_t label);
 
 /// What a T1-weighted image would show at a point: tissue contrast, folds, texture. A function of the place in the
 /// head alone, so that any image grid samples the same head.

@@ -84,7 +84,7 @@ Phantom make_phantom(const PhantomOptions& options) {
 }
 
 LabelMap sample_labels(const Phantom& phantom) {
-  LabelMap labels{.geometry = phantom.geometry, .voxels = std::vector<std::int16_t>(phantom.geometry.voxel_count())};
+  LabelMap labels{.geometry = phantom.geometry, .voxels = std::vector<std::uint16_t>(phantom.geometry.voxel_count())};
   for_each_voxel(phantom.geometry, [&](std::size_t offset, const Vector3d& index) {
     labels.voxels[offset] = tissue_at(phantom.head, phantom.geometry.to_world(index));
   });

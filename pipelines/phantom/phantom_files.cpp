@@ -51,7 +51,7 @@ json markups(const std::vector<Landmark>& landmarks) {
 }
 
 json answers(const Phantom& phantom) {
-  const std::map<std::string, std::int16_t> tissues = {
+  const std::map<std::string, std::uint16_t> tissues = {
       {"parenchyma", tissue::parenchyma}, {"ventricles", tissue::ventricles},
       {"tumour", tissue::tumour},         {"csf", tissue::csf},
       {"skull", tissue::skull},           {"skin", tissue::skin}};

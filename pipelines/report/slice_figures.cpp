@@ -72,11 +72,11 @@ Figure lettered(Sheet sheet, const std::string& title) {
   return {.name = sheet.name, .width = sheet.width, .height = plane.height, .svg = std::move(sheet.svg).str()};
 }
 
-// What closing took in, as a label of the picture.
-constexpr std::int16_t taken_in = -1;
+// What closing took in, as a label of the picture; no map holds it.
+constexpr std::int32_t taken_in = -1;
 
 // Far apart for labels that are near each other.
-Colour colour_of_label(std::int16_t label) {
+Colour colour_of_label(std::int32_t label) {
   constexpr Colour colours[] = {{150, 150, 150}, {240, 200, 90},  {80, 140, 255},  {230, 70, 70},
                                 {90, 220, 220},  {245, 245, 245}, {200, 140, 110}, {130, 210, 90}};
   return label == taken_in ? Colour{255, 60, 220} : colours[static_cast<std::size_t>(label) % std::size(colours)];
@@ -176,12 +176,12 @@ Figure labels_figure(const RunData& run, const View& view, const SlicePlane& pla
   Canvas canvas =
       run.t1 ? grey(view, plane, sample_slice(plane, *run.t1), 1) : Canvas(plane.width, plane.height, colour::black);
   const double share = run.t1 ? 0.35 : 0.75;
-  std::set<std::int16_t> shown;
+  std::set<std::int32_t> shown;
   for (int y = 0; y < plane.height; ++y) {
     for (int x = 0; x < plane.width; ++x) {
       const Vector3d place = plane.world({x + 0.5, y + 0.5});
       const bool closed = run.closed && label_at(*run.closed, place) != 0;
-      if (const std::int16_t label = closed ? taken_in : label_at(*run.labels, place); label != 0) {
+      if (const std::int32_t label = closed ? taken_in : label_at(*run.labels, place); label != 0) {
         canvas.at(x, y) = blend(canvas.at(x, y), colour_of_label(label), share);
         shown.insert(label);
       }
@@ -190,7 +190,7 @@ Figure labels_figure(const RunData& run, const View& view, const SlicePlane& pla
   Sheet sheet(plane, "labels", "Labels as they were understood", canvas, 0);
   sheet.svg.lines(cut_surface(plane, *run.brain), {.colour = preop_colour, .width = 1.2});
   double line = 40;
-  for (const std::int16_t label : shown) {
+  for (const std::int32_t label : shown) {
     const std::string name = label == taken_in ? "taken in" : "label " + std::to_string(label);
     sheet.svg.rectangle({10, line - 6}, {12, 12}, colour_of_label(label));
     sheet.svg.text({28, line}, name, {.fill = colour::white, .halo = true});

@@ -38,9 +38,9 @@ std::optional<LabelMap> mask_if(const fs::path& file) {
     return std::nullopt;
   }
   const ScalarImage image = read_image(file);
-  LabelMap mask{image.geometry, std::vector<std::int16_t>(image.voxels.size())};
+  LabelMap mask{image.geometry, std::vector<std::uint16_t>(image.voxels.size())};
   std::transform(image.voxels.begin(), image.voxels.end(), mask.voxels.begin(),
-                 [](float value) { return static_cast<std::int16_t>(value != 0); });
+                 [](float value) { return static_cast<std::uint16_t>(value != 0); });
   return mask;
 }
 
@@ -50,7 +50,7 @@ std::optional<LabelMap> tumour_if(const fs::path& file) {
   if (tumour) {
     const auto volumes = segmentation::label_volumes(*tumour);
     const bool brats = volumes.contains(2) && volumes.contains(1) + volumes.contains(3) + volumes.contains(4) > 0;
-    for (std::int16_t& voxel : tumour->voxels) {
+    for (std::uint16_t& voxel : tumour->voxels) {
       voxel = voxel != 0 && !(brats && voxel == 2) ? 1 : 0;
     }
   }
@@ -60,12 +60,12 @@ std::optional<LabelMap> tumour_if(const fs::path& file) {
 /// Takes a map to the reference's grid, and says so. `counted`: the labels that must lie within it, all when empty.
 void take_to_grid(std::optional<LabelMap>& map, const fs::path& file, const ImageGeometry& grid,
                   const fs::path& grid_file, std::vector<std::string>& notes,
-                  const std::vector<std::int16_t>& counted = {}) {
+                  const std::vector<std::uint16_t>& counted = {}) {
   if (!map || same_geometry(map->geometry, grid)) {
     return;
   }
   LabelMap inner = *map;
-  for (std::int16_t& voxel : inner.voxels) {
+  for (std::uint16_t& voxel : inner.voxels) {
     voxel = counted.empty() || std::find(counted.begin(), counted.end(), voxel) != counted.end() ? voxel : 0;
   }
   if (const double share = share_within(inner, grid); share < 0.5) {
@@ -92,7 +92,7 @@ void set_classes(const LabelMap& labels, bool tumour, segmentation::SegmentOptio
   namespace label = segmentation::default_label;
   const auto volumes = segmentation::label_volumes(labels);
   options.brain_labels.clear();
-  for (const std::int16_t number : {label::parenchyma, label::ventricles, label::tumour}) {
+  for (const std::uint16_t number : {label::parenchyma, label::ventricles, label::tumour}) {
     if (volumes.contains(number) || (tumour && number == label::tumour)) {
       options.brain_labels.push_back(number);
     }

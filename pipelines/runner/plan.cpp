@@ -79,8 +79,8 @@ std::vector<std::string> load_elements(const Scene& scene) {
   return names;
 }
 
-std::vector<std::int16_t> tissue_labels(const Scene& scene) {
-  std::vector<std::int16_t> labels;
+std::vector<std::uint16_t> tissue_labels(const Scene& scene) {
+  std::vector<std::uint16_t> labels;
   for (const Tissue& tissue : scene.tissues) {
     labels.push_back(tissue.label);
   }

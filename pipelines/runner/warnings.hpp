@@ -19,8 +19,9 @@ using Warnings = std::vector<std::string>;
 /// Of points that lie off the brain's surface, or that are too few or lie on a line. prescribed: what became of them.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed);
 
-/// Of labels that lie where a T1 of the same grid is black: it is of another head or frame.
-Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<const std::int16_t> brain);
+/// Of labels that lie where a T1 of the same grid is black, or whose boundary is none in it: it is of another head or
+/// frame.
+Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<const std::uint16_t> brain);
 
 /// Of a body that nothing but its measured load holds. displacement: what came out, (n × 3) mm.
 Warnings warnings_of(const solve::Model& model, const Points& displacement);

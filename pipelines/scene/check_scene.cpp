@@ -155,15 +155,15 @@ void check_region(const Scene& scene) {
   check_at(scene, "solve.region", [&] { solve::check_region(model, scene.solve); });
 }
 
-std::set<std::int16_t> labels_in(const LabelMap& map) {
+std::set<std::uint16_t> labels_in(const LabelMap& map) {
   std::vector<bool> seen(65536, false);
-  for (const std::int16_t label : map.voxels) {
-    seen[static_cast<std::uint16_t>(label)] = true;
+  for (const std::uint16_t label : map.voxels) {
+    seen[label] = true;
   }
-  std::set<std::int16_t> labels;
+  std::set<std::uint16_t> labels;
   for (std::size_t i = 1; i < seen.size(); ++i) {
     if (seen[i]) {
-      labels.insert(static_cast<std::int16_t>(i));
+      labels.insert(static_cast<std::uint16_t>(i));
     }
   }
   return labels;
@@ -171,9 +171,9 @@ std::set<std::int16_t> labels_in(const LabelMap& map) {
 
 /// The labels that the segment stage will give: of the map, with the numbers that tissues join, of the classes, or
 /// tissue 1 of a bare surface.
-std::set<std::int16_t> labels_to_come(const Scene& scene) {
+std::set<std::uint16_t> labels_to_come(const Scene& scene) {
   namespace label = segmentation::default_label;
-  std::set<std::int16_t> labels = {label::parenchyma};
+  std::set<std::uint16_t> labels = {label::parenchyma};
   if (!scene.image.labels.empty()) {
     labels = labels_in(read_labels(scene.image, label_reading(scene)).map);
   } else if (!scene.image.brain_mask.empty()) {
@@ -185,7 +185,7 @@ std::set<std::int16_t> labels_to_come(const Scene& scene) {
   return labels;
 }
 
-std::string listed(const std::set<std::int16_t>& labels) {
+std::string listed(const std::set<std::uint16_t>& labels) {
   return labels.empty() ? "none" : write_numbers(labels);
 }
 
@@ -217,11 +217,11 @@ void check_tissues(const Scene& scene) {
     check_classes(scene);
     return;
   }
-  const std::set<std::int16_t> labels = labels_to_come(scene);
+  const std::set<std::uint16_t> labels = labels_to_come(scene);
   const bool lists = std::any_of(scene.tissues.begin(), scene.tissues.end(),
                                  [](const Tissue& tissue) { return !tissue.labels.empty(); });
   const std::string source = scene.image.labels.empty() ? "the segmentation" : scene.image.labels.string();
-  std::set<std::int16_t> named(scene.image.other_labels.begin(), scene.image.other_labels.end());
+  std::set<std::uint16_t> named(scene.image.other_labels.begin(), scene.image.other_labels.end());
   for (const Tissue& tissue : scene.tissues) {
     if (!labels.contains(tissue.label)) {
       fail(scene, "tissues." + std::to_string(tissue.label),
@@ -230,7 +230,7 @@ void check_tissues(const Scene& scene) {
     }
     named.insert(tissue.label);
   }
-  for (const std::int16_t label : labels) {
+  for (const std::uint16_t label : labels) {
     if (!named.contains(label) && !lists) {
       fail(
           scene, "tissues",

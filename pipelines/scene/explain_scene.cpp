@@ -26,7 +26,7 @@ struct Cost {
   double pairs = 0;
 };
 
-bool is_brain(const Scene& scene, std::int16_t value, bool mask) {
+bool is_brain(const Scene& scene, std::uint16_t value, bool mask) {
   if (mask) {
     return value != 0;
   }
@@ -41,7 +41,7 @@ void measure_brain(const Scene& scene, Cost& cost) {
   }
   const LabelMap map = mask ? read_label_map(file) : read_labels(scene.image, label_reading(scene)).map;
   const auto count = std::count_if(map.voxels.begin(), map.voxels.end(),
-                                   [&](std::int16_t value) { return is_brain(scene, value, mask); });
+                                   [&](std::uint16_t value) { return is_brain(scene, value, mask); });
   cost.voxels = static_cast<double>(map.voxels.size());
   cost.volume = static_cast<double>(count) * map.geometry.voxel_volume();
 }

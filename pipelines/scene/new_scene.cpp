@@ -7,13 +7,16 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 
+#include "pipelines/scene/scene_labels.hpp"
 #include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/points_file.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/interface/options.hpp"
 #include "segmentation/labels/label_table.hpp"
+#include "segmentation/labels/segmentation_file.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::pipelines {
@@ -33,6 +36,27 @@ std::string in_millilitres(double volume) {
 bool is_skull_stripped(const ScalarImage& t1) {
   const auto zeros = std::count(t1.voxels.begin(), t1.voxels.end(), 0.0F);
   return 2 * static_cast<std::size_t>(zeros) > t1.voxels.size();
+}
+
+/// A table that lies beside a label map under the map's name: of BIDS, or of 3D Slicer. Empty without one.
+fs::path table_beside(const fs::path& labels) {
+  std::string stem = labels.string();
+  for (const char* ending : {".gz", ".nii", ".nrrd", ".mha", ".mgz", ".mgh"}) {
+    if (in_lower_case(stem).ends_with(ending)) {
+      stem.resize(stem.size() - std::string_view(ending).size());
+    }
+  }
+  for (const char* ending : {".tsv", ".ctbl", "_ColorTable.ctbl"}) {
+    std::error_code unknown;
+    if (fs::is_regular_file(stem + ending, unknown)) {
+      return stem + ending;
+    }
+  }
+  return {};
+}
+
+bool is_table_name(const std::string& text) {
+  return std::ranges::find(sg::label_table_names(), text) != sg::label_table_names().end();
 }
 
 class Writer {
@@ -57,6 +81,9 @@ class Writer {
     if (!files_.labels.empty() && !files_.brain_mask.empty()) {
       throw std::invalid_argument("give --labels or --brain-mask, not both: " + files_.labels.string() + " or " +
                                   files_.brain_mask.string());
+    }
+    if (files_.labels.empty() && !files_.labels_are.empty()) {
+      throw std::invalid_argument("--labels-are says what the numbers of a label map are; give the map by --labels");
     }
     mask_ = files_.brain_mask;
     if (!files_.t1.empty()) {
@@ -94,10 +121,37 @@ class Writer {
     }
   }
 
+  /// Of a map whose numbers a table tells, or whose segments have names.
+  void look_at_classes(const ImageInputs& image, const std::string& table) {
+    const auto volumes = sg::label_volumes(read_labels(image, {.by_class = true, .joined = {}}).map);
+    std::string classes;
+    for (const auto& [label, name] :
+         {std::pair(own::parenchyma, "parenchyma"), std::pair(own::ventricles, "ventricles"),
+          std::pair(own::tumour, "tumour"), std::pair(own::csf, "fluid"), std::pair(own::skull, "skull")}) {
+      if (const auto found = volumes.find(label); found != volumes.end()) {
+        classes += std::string(classes.empty() ? "" : ", ") + name + " " + in_millilitres(found->second);
+      }
+    }
+    take(files_.labels, "a label map " + table + ": " + classes);
+  }
+
   void look_at_labels() {
-    volumes_ = sg::label_volumes(read_label_map(files_.labels));
+    ImageInputs image;
+    image.labels = files_.labels;
+    image.labels_are = files_.labels_are.empty() ? table_beside(files_.labels).string() : files_.labels_are;
+    labels_are_ = image.labels_are;
+    if (!labels_are_.empty()) {
+      look_at_classes(image, "whose numbers are those of " + labels_are_);
+      return;
+    }
+    if (sg::names_tell(read_segments(files_.labels))) {
+      look_at_classes(image, "of 3D Slicer, by the names of its segments");
+      return;
+    }
+    volumes_ = sg::label_volumes(sg::read_by_numbers(files_.labels).map);
     if (sg::is_freesurfer(volumes_)) {
       take(files_.labels, "a label map in FreeSurfer's numbers (" + std::to_string(volumes_.size()) + " of them)");
+      labels_are_ = "freesurfer";
       return;
     }
     const bool small_numbers =
@@ -108,8 +162,8 @@ class Writer {
     if (!own_) {
       refuse(files_.labels, small_numbers ? "holds no brain, but maybe a tumour; give it as --tumour, and a label map "
                                             "of the brain or a brain mask"
-                                          : "its numbers are not FreeSurfer's; write a scene with labels_are= and a "
-                                            "table of them, or with a <tissue labels=...> for each tissue");
+                                          : "its numbers are not FreeSurfer's; give --labels-are with a table of "
+                                            "them, or write a scene with a <tissue labels=...> for each tissue");
     }
     take(files_.labels,
          "a label map with 1 parenchyma, 2 ventricles, 3 tumour, 4 fluid, 5 skull, 6 skin; correct the "
@@ -124,8 +178,10 @@ class Writer {
                                      {"tumour", files_.tumour}}) {
       push_file(name, file);
     }
-    if (!files_.labels.empty() && !own_) {
-      xml_.PushAttribute("labels_are", "freesurfer");
+    if (is_table_name(labels_are_)) {
+      xml_.PushAttribute("labels_are", labels_are_.c_str());
+    } else {
+      push_file("labels_are", labels_are_);
     }
     if (own_ && volumes_.contains(own::skull)) {
       xml_.PushAttribute("skull_label", int{own::skull});
@@ -211,6 +267,7 @@ class Writer {
   tinyxml2::XMLPrinter xml_;
   fs::path mask_;
   sg::LabelVolumes volumes_;
+  std::string labels_are_;
   bool own_ = false;  ///< the label map has the numbers of default_label
   std::vector<std::string> taken_;
 };

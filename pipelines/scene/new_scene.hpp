@@ -11,6 +11,7 @@ namespace brainshift::pipelines {
 struct FilesAtHand {
   std::filesystem::path t1;
   std::filesystem::path labels;
+  std::string labels_are;  ///< "freesurfer", "brats" or a table's file; empty: a table beside the map, or recognised
   std::filesystem::path brain_mask;
   std::filesystem::path tumour;
   std::vector<std::filesystem::path> points;  ///< craniotomy.csv; or markups or surfaces before and after

@@ -281,7 +281,7 @@ void complete_tissues(Scene& scene) {
     return;
   }
   struct Usual {
-    std::int16_t label;
+    std::uint16_t label;
     const char* name;
     const char* material;
   };

@@ -42,18 +42,18 @@ struct ImageInputs {
   std::filesystem::path tumour;  ///< a label map of the tumour, in the numbers of BraTS or a mask
   std::filesystem::path surface;
   /// labels of the label map that are not tissue of the brain; every other label must have a tissue
-  std::vector<std::int16_t> other_labels = {segmentation::default_label::csf, segmentation::default_label::skull,
-                                            segmentation::default_label::skin};
-  std::optional<std::int16_t> skull_label;
+  std::vector<std::uint16_t> other_labels = {segmentation::default_label::csf, segmentation::default_label::skull,
+                                             segmentation::default_label::skin};
+  std::optional<std::uint16_t> skull_label;
 };
 
 struct Tissue {
-  std::int16_t label = 0;
+  std::uint16_t label = 0;
   std::string name;
   std::string named_material;  ///< the constants were those of solve::named_material before others were set; or empty
   solve::Material material;
-  std::vector<std::int16_t> labels = {};  ///< numbers of the map that are this tissue, `label` the first; or empty
-  std::int16_t tissue_class = 0;  ///< of segmentation::default_label, where named by it: `label` is the same; or 0
+  std::vector<std::uint16_t> labels = {};  ///< numbers of the map that are this tissue, `label` the first; or empty
+  std::uint16_t tissue_class = 0;  ///< of segmentation::default_label, where named by it: `label` is the same; or 0
 };
 
 struct BeforeAfter {

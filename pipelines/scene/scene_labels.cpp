@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/labels/segmentation_file.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -31,17 +32,29 @@ sg::LabelTable table_of(const ImageInputs& image, const sg::LabelVolumes& volume
   if (!sg::is_freesurfer(volumes)) {
     refuse(image.labels, "its numbers (" + numbers_of(volumes) +
                              ") are not FreeSurfer's, and the scene has no <tissues>; say what they are, by "
-                             "labels_are=\"freesurfer\" or a table's file, or name a <tissue> for each");
+                             "labels_are=\"freesurfer\" or a table's file, by the names of 3D Slicer's segments, or "
+                             "name a <tissue> for each");
   }
   notes.push_back(file + ": the numbers are taken for FreeSurfer's; if they are others, say so by labels_are");
   return sg::freesurfer_table();
 }
 
-void check_not_negative(const ImageInputs& image, const sg::LabelVolumes& volumes) {
-  if (!volumes.empty() && volumes.begin()->first < 0) {
-    refuse(image.labels, "holds the label " + std::to_string(volumes.begin()->first) +
-                             "; no table has negative numbers: was it saved in another type? Save it as unsigned");
+// Where no number is fluid or skull, what is labelled and not brain may still say where the skull is: it stays in the
+// map, as skin.
+sg::LabelTable with_outer_labels(sg::LabelTable table, const sg::LabelVolumes& volumes) {
+  namespace label = sg::default_label;
+  const auto class_of = [&table](std::uint16_t number) {
+    const auto found = table.classes.find(number);
+    return found == table.classes.end() ? std::uint16_t{0} : found->second;
+  };
+  if (std::none_of(volumes.begin(), volumes.end(), [&](const auto& found) {
+        return class_of(found.first) == label::csf || class_of(found.first) == label::skull;
+      })) {
+    for (const auto& [number, volume] : volumes) {
+      table.classes[number] = class_of(number) == 0 ? label::skin : class_of(number);
+    }
   }
+  return table;
 }
 
 // Of FreeSurfer's numbers: a hemisphere that is missing.
@@ -60,18 +73,24 @@ void note_one_sided(const ImageInputs& image, const sg::LabelVolumes& volumes, s
   }
 }
 
-void check_classes(const ImageInputs& image, const sg::LabelTable& table, const LabelMap& map,
+// when: the classes are these, and what to do where they are not.
+void check_classes(const ImageInputs& image, const std::string& when, const LabelMap& map,
                    std::vector<std::string>& notes) {
   const auto volumes = sg::label_volumes(map);
   if (!volumes.contains(sg::default_label::parenchyma)) {
     refuse(
         image.labels,
-        "no voxel is brain, when its numbers are " + table.name + "; correct labels_are" +
+        "no voxel is brain, when its " + when +
             (volumes.contains(sg::default_label::tumour) ? ", or give this map as tumour= beside a brain_mask" : ""));
   }
   if (!volumes.contains(sg::default_label::ventricles)) {
     notes.push_back(image.labels.string() + ": has no ventricles, so the brain is parenchyma throughout");
   }
+}
+
+// Segments of 3D Slicer, whose names are taken unless the user says what the numbers are.
+bool are_named(const ImageInputs& image) {
+  return image.labels_are.empty() && sg::names_tell(read_segments(image.labels));
 }
 
 }  // namespace
@@ -82,31 +101,41 @@ LabelReading label_reading(const Scene& scene) {
       !scene.image.labels.empty() && std::none_of(scene.tissues.begin(), scene.tissues.end(),
                                                   [](const Tissue& tissue) { return tissue.tissue_class == 0; });
   for (const Tissue& tissue : scene.tissues) {
-    for (const std::int16_t number : tissue.labels) {
+    for (const std::uint16_t number : tissue.labels) {
       reading.joined[number] = tissue.label;
     }
   }
   return reading;
 }
 
+bool classes_are_told(const ImageInputs& image) {
+  return !image.labels_are.empty() || are_named(image) ||
+         sg::is_freesurfer(sg::label_volumes(sg::read_by_numbers(image.labels).map));
+}
+
 ReadLabels read_labels(const ImageInputs& image, const LabelReading& reading) {
-  ReadLabels result{read_label_map(image.labels), {}};
+  if (reading.by_class && are_named(image)) {
+    auto [map, notes] = sg::read_by_names(image.labels);
+    check_classes(image, "segments are what their names say; rename them in 3D Slicer", map, notes);
+    return {std::move(map), std::move(notes)};
+  }
+  auto [map, notes] = sg::read_by_numbers(image.labels);
+  ReadLabels result{std::move(map), std::move(notes)};
   if (!reading.by_class) {
     sg::renumber(result.map, reading.joined, sg::Unnamed::stay);
     return result;
   }
   const auto volumes = sg::label_volumes(result.map);
-  check_not_negative(image, volumes);
   const sg::LabelTable table = table_of(image, volumes, result.notes);
   if (const std::string unknown = unknown_labels(volumes, table); !unknown.empty()) {
-    result.notes.push_back(image.labels.string() + ": taken for not brain, as they are not " + table.name +
-                           " numbers of the brain: " + unknown);
+    result.notes.push_back(image.labels.string() + ": taken for not brain, as they are not among " + table.name + ": " +
+                           unknown);
   }
   if (table.name == sg::freesurfer_table().name) {
     note_one_sided(image, volumes, result.notes);
   }
-  sg::renumber(result.map, table.classes, sg::Unnamed::become_background);
-  check_classes(image, table, result.map, result.notes);
+  sg::renumber(result.map, with_outer_labels(table, volumes).classes, sg::Unnamed::become_background);
+  check_classes(image, "numbers are " + table.name + "; correct labels_are", result.map, result.notes);
   return result;
 }
 

@@ -80,11 +80,12 @@ Element image_element() {
       .options = {
           file_option<Scene>("t1", MEMBER(image.t1),
                              "T1-weighted MRI: .nii, .nii.gz, .nrrd, .mha, .mgz or a DICOM folder"),
-          file_option<Scene>("labels", MEMBER(image.labels), "label map; on another grid it is taken to the T1's"),
+          file_option<Scene>("labels", MEMBER(image.labels),
+                             "label map, or a .seg.nrrd of 3D Slicer; on another grid it is taken to the T1's"),
           named_file_option<Scene>("labels_are", MEMBER(image.labels_are), segmentation::label_table_names(),
                                    "whose numbers the label map has, where no <tissue> names them; a table's file is "
-                                   "like FreeSurferColorLUT.txt, BIDS _dseg.tsv or .ctbl; without it FreeSurfer's are "
-                                   "recognised"),
+                                   "like FreeSurferColorLUT.txt, BIDS _dseg.tsv, .ctbl or .seg.nrrd; without it the "
+                                   "names of a .seg.nrrd are taken and FreeSurfer's numbers recognised"),
           file_option<Scene>("brain_mask", MEMBER(image.brain_mask),
                              "non-zero is brain; its tissues are then classified from the T1"),
           file_option<Scene>("tumour_mask", MEMBER(image.tumour_mask), "non-zero is tumour, which becomes label 3"),
@@ -271,9 +272,9 @@ Option<Tissue> material_option() {
   return option;
 }
 
-detail::NamedValues<std::int16_t> tissue_classes() {
+detail::NamedValues<std::uint16_t> tissue_classes() {
   namespace label = segmentation::default_label;
-  return {{"none", std::int16_t{0}},
+  return {{"none", std::uint16_t{0}},
           {"parenchyma", label::parenchyma},
           {"ventricles", label::ventricles},
           {"tumour", label::tumour}};

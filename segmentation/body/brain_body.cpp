@@ -5,6 +5,7 @@
 #include <array>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace brainshift::segmentation {
 namespace {
@@ -38,26 +39,26 @@ void count_loose(const Mask& tissue, BrainBody& body) {
   body.loose_pieces = body.loose_volume > 0 ? components(loose).sizes.size() : 0;
 }
 
-// Faces of voxels between the brain and what is around it; those of them behind which fluid lies.
+// Faces of voxels between a body and what is around it; those of them behind which a label lies.
 struct Faces {
   std::size_t all = 0;
-  std::size_t to_fluid = 0;
+  std::size_t to_label = 0;
 };
 
-Faces count_faces(const LabelMap& labels, std::int16_t fluid, const Mask& brain) {
+Faces count_faces(const LabelMap& labels, std::uint16_t label, const Mask& body) {
   Faces faces;
-  const Eigen::Array3i size = brain.geometry.size;
+  const Eigen::Array3i size = body.geometry.size;
   const std::array<Eigen::Array3i, 3> steps = {Eigen::Array3i(1, 0, 0), Eigen::Array3i(0, 1, 0),
                                                Eigen::Array3i(0, 0, 1)};
   for (const Eigen::Array3i& step : steps) {
     for (int k = 0; k + step.z() < size.z(); ++k) {
       for (int j = 0; j + step.y() < size.y(); ++j) {
         for (int i = 0; i + step.x() < size.x(); ++i) {
-          const std::size_t here = brain.geometry.offset(i, j, k);
-          const std::size_t next = brain.geometry.offset(i + step.x(), j + step.y(), k + step.z());
-          if (brain.voxels[here] != brain.voxels[next]) {
+          const std::size_t here = body.geometry.offset(i, j, k);
+          const std::size_t next = body.geometry.offset(i + step.x(), j + step.y(), k + step.z());
+          if (body.voxels[here] != body.voxels[next]) {
             ++faces.all;
-            faces.to_fluid += labels.voxels[brain.voxels[here] != 0 ? next : here] == fluid ? 1 : 0;
+            faces.to_label += labels.voxels[body.voxels[here] != 0 ? next : here] == label ? 1 : 0;
           }
         }
       }
@@ -66,12 +67,8 @@ Faces count_faces(const LabelMap& labels, std::int16_t fluid, const Mask& brain)
   return faces;
 }
 
-// What can be reached from the brain without crossing the skull.
-Mask within(const LabelMap& labels, std::int16_t skull, const Mask& brain) {
-  Mask open = mask_of(labels, std::array{skull});
-  for (std::uint8_t& voxel : open.voxels) {
-    voxel = voxel == 0 ? 1 : 0;
-  }
+// The part of an open space that hangs together with the brain.
+Mask reached(Mask open, const Mask& brain) {
   const Components parts = components(open);
   const auto seed =
       static_cast<std::size_t>(std::find(brain.voxels.begin(), brain.voxels.end(), 1) - brain.voxels.begin());
@@ -79,6 +76,15 @@ Mask within(const LabelMap& labels, std::int16_t skull, const Mask& brain) {
     open.voxels[i] = parts.number[i] == parts.number[seed] && parts.number[i] != 0 ? 1 : 0;
   }
   return open;
+}
+
+// What can be reached from the brain without crossing the skull.
+Mask within(const LabelMap& labels, std::uint16_t skull, const Mask& brain) {
+  Mask open = mask_of(labels, std::array{skull});
+  for (std::uint8_t& voxel : open.voxels) {
+    voxel = voxel == 0 ? 1 : 0;
+  }
+  return reached(std::move(open), brain);
 }
 
 }  // namespace
@@ -109,11 +115,11 @@ BrainBody brain_body(const Mask& tissue, double closing) {
   return body;
 }
 
-bool encloses(const LabelMap& labels, std::int16_t skull, const Mask& brain) {
+bool encloses(const LabelMap& labels, std::uint16_t skull, const Mask& brain) {
   return !touches_border(within(labels, skull, brain));
 }
 
-Mask skull_cavity(const LabelMap& labels, std::int16_t skull, const Mask& brain) {
+Mask skull_cavity(const LabelMap& labels, std::uint16_t skull, const Mask& brain) {
   if (std::find(labels.voxels.begin(), labels.voxels.end(), skull) == labels.voxels.end()) {
     throw std::invalid_argument("label " + std::to_string(skull) +
                                 " is named but no voxel of the label map carries it; correct the label or the image");
@@ -126,9 +132,9 @@ Mask skull_cavity(const LabelMap& labels, std::int16_t skull, const Mask& brain)
   return open;
 }
 
-Mask fluid_space(const LabelMap& labels, std::int16_t fluid, const Mask& brain, double reach) {
+Mask fluid_space(const LabelMap& labels, std::uint16_t fluid, const Mask& brain, double reach) {
   const Faces faces = count_faces(labels, fluid, brain);
-  if (2 * faces.to_fluid < faces.all) {
+  if (2 * faces.to_label < faces.all) {
     return {};
   }
   Mask space = grown(brain, reach);
@@ -136,6 +142,18 @@ Mask fluid_space(const LabelMap& labels, std::int16_t fluid, const Mask& brain, 
     space.voxels[i] = brain.voxels[i] != 0 || (space.voxels[i] != 0 && labels.voxels[i] == fluid) ? 1 : 0;
   }
   return holes_filled(largest_component(closed(space, reach / 2)));
+}
+
+Mask bounded_space(const LabelMap& labels, std::uint16_t outer, const Mask& brain, double reach) {
+  constexpr double enough = 0.8;
+  Mask space = grown(brain, reach);
+  for (std::size_t i = 0; i < space.voxels.size(); ++i) {
+    space.voxels[i] = brain.voxels[i] != 0 || (space.voxels[i] != 0 && labels.voxels[i] != outer) ? 1 : 0;
+  }
+  space = holes_filled(reached(std::move(space), brain));
+  const Faces faces = count_faces(labels, outer, space);
+  const bool bounded = static_cast<double>(faces.to_label) >= enough * static_cast<double>(faces.all);
+  return bounded ? holes_filled(largest_component(closed(space, reach / 2))) : Mask{};
 }
 
 }  // namespace brainshift::segmentation

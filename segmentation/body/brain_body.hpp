@@ -25,14 +25,19 @@ BrainBody brain_body(const Mask& tissue, double closing);
 void check_across(double across, const std::string& advice);
 
 /// Whether the skull's label encloses the brain.
-bool encloses(const LabelMap& labels, std::int16_t skull, const Mask& brain);
+bool encloses(const LabelMap& labels, std::uint16_t skull, const Mask& brain);
 
 /// What lies within the skull's label: its own inner surface bounds it. Throws std::invalid_argument when no voxel
 /// carries it, or it does not enclose the brain.
-Mask skull_cavity(const LabelMap& labels, std::int16_t skull, const Mask& brain);
+Mask skull_cavity(const LabelMap& labels, std::uint16_t skull, const Mask& brain);
 
 /// The brain with the fluid around it, as far as `reach` (mm) from the brain. Empty (no voxels) where fluid touches
 /// less than half of the brain's surface: then it does not say where the skull is.
-Mask fluid_space(const LabelMap& labels, std::int16_t fluid, const Mask& brain, double reach);
+Mask fluid_space(const LabelMap& labels, std::uint16_t fluid, const Mask& brain, double reach);
+
+/// The space around the brain that a label outside it bounds: what can be reached from the brain without crossing the
+/// label, not farther than `reach` (mm). Empty (no voxels) where the label bounds less than 4/5 of that: then it has
+/// gaps, or is skin, farther off than a skull.
+Mask bounded_space(const LabelMap& labels, std::uint16_t outer, const Mask& brain, double reach);
 
 }  // namespace brainshift::segmentation

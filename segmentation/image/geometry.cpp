@@ -33,7 +33,7 @@ bool same_geometry(const ImageGeometry& a, const ImageGeometry& b) {
   return true;
 }
 
-std::int16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world) {
+std::uint16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world) {
   const ImageGeometry& geometry = labels.geometry;
   const Eigen::Vector3d index = geometry.to_index(world);
   Eigen::Array3i nearest;
@@ -48,7 +48,7 @@ std::int16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world) {
 }
 
 LabelMap on_grid(const LabelMap& labels, const ImageGeometry& grid) {
-  LabelMap result{grid, std::vector<std::int16_t>(grid.voxel_count())};
+  LabelMap result{grid, std::vector<std::uint16_t>(grid.voxel_count())};
   // World positions along a row differ by one step, and so do the map's indices.
   const auto at = [&](int i, int j, int k) {
     return labels.geometry.to_index(grid.to_world(Eigen::Array3i(i, j, k).cast<double>().matrix()));

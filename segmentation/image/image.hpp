@@ -49,11 +49,11 @@ struct Image {
 };
 
 using ScalarImage = Image<float>;
-using LabelMap = Image<std::int16_t>;             ///< 0 is background
+using LabelMap = Image<std::uint16_t>;            ///< 0 is background
 using VectorImage = Image<std::array<float, 3>>;  ///< displacements, mm, LPS
 
 /// The label at a world position: nearest voxel; a position on the outermost half voxel is inside; 0 outside the image.
-std::int16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world);
+std::uint16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world);
 
 /// The labels on another grid: the nearest at each of its voxels, 0 where the map does not reach.
 LabelMap on_grid(const LabelMap& labels, const ImageGeometry& grid);
@@ -66,13 +66,14 @@ std::string described(const ImageGeometry& geometry);
 
 /// Reads one 3-D scalar image: .nii, .nii.gz, .nrrd, .mha, .mgz, .mgh, or a folder with one DICOM series.
 /// Throws std::invalid_argument, naming the file, when it is missing, empty, truncated, no image, not 3-D, or (scalar)
-/// holds a value that is not finite, or (labels) one that is no whole number in the range of int16.
+/// holds a value that is not finite, or (labels) one that is no whole number from 0 to 65535.
 ScalarImage read_image(const std::filesystem::path& file);
 LabelMap read_label_map(const std::filesystem::path& file);
 VectorImage read_vector_image(const std::filesystem::path& file);
 
 /// Writes by the file's ending, compressed where the format can. A VectorImage is written as ITK's displacement fields
-/// are (vector pixel; intent code 1007 in NIfTI). Throws std::runtime_error, naming the file, when it cannot be written
+/// are (vector pixel; intent code 1007 in NIfTI), a LabelMap as int16 where its numbers allow, which every program
+/// reads, else as uint16. Throws std::runtime_error, naming the file, when it cannot be written
 /// whole.
 void write_image(const std::filesystem::path& file, const ScalarImage& image);
 void write_image(const std::filesystem::path& file, const LabelMap& image);

@@ -2,6 +2,8 @@
 #include "segmentation/image/image_header.hpp"
 
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <string>
 
 #include "segmentation/files/deflated.hpp"
@@ -31,8 +33,12 @@ void check_shape(const fs::path& file, const ImageHeader& header, std::uint64_t 
                      std::to_string(header.components));
   }
   if (values > static_cast<double>(most_values)) {
-    refuse(file, "the header promises " + size + " voxels, more than the " + std::to_string(most_values) +
-                     " values that are read; is the header damaged? Else resample the image");
+    constexpr double bytes_a_value = 30;  // of a whole head at the most, measured on heads of 256³
+    std::ostringstream memory;
+    memory << std::fixed << std::setprecision(0) << bytes_a_value * values / 1e9;
+    refuse(file, "the header promises " + size + " voxels, which would need some " + memory.str() +
+                     " GB of memory; not more than " + std::to_string(most_values) +
+                     " values are read: resample the image to coarser voxels, or repair the header if it is damaged");
   }
 }
 

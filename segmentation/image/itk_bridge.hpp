@@ -58,8 +58,8 @@ void set_geometry(itk::Image<Pixel, 3>& image, const ImageGeometry& geometry) {
   image.Allocate();
 }
 
-template <class Pixel>
-ImageGeometry geometry_of(const itk::Image<Pixel, 3>& image) {
+template <class ItkImageType>
+ImageGeometry geometry_of(const ItkImageType& image) {
   const auto& region = image.GetLargestPossibleRegion();
   ImageGeometry geometry;
   for (unsigned row = 0; row < 3; ++row) {
@@ -73,12 +73,12 @@ ImageGeometry geometry_of(const itk::Image<Pixel, 3>& image) {
   return geometry;
 }
 
-/// Our image as ITK's without a copy, for filters that only read it; it must outlive the result.
-template <class T>
-typename ItkImage<T>::Pointer seen_by_itk(const Image<T>& image) {
-  using Pixel = typename ItkPixel<T>::type;
+/// Our image as ITK's without a copy, for filters that only read it; it must outlive the result. Pixel: of the same
+/// bytes.
+template <class T, class Pixel = typename ItkPixel<T>::type>
+typename itk::Image<Pixel, 3>::Pointer seen_by_itk(const Image<T>& image) {
   static_assert(sizeof(Pixel) == sizeof(T));
-  auto result = ItkImage<T>::New();
+  auto result = itk::Image<Pixel, 3>::New();
   set_grid(*result, image.geometry);
   auto* const voxels = const_cast<T*>(image.voxels.data());  // ITK has no images of const voxels
   result->GetPixelContainer()->SetImportPointer(reinterpret_cast<Pixel*>(voxels), image.voxels.size(), false);

@@ -43,9 +43,9 @@ Eigen::Array3i shift_between(const ImageGeometry& whole, const ImageGeometry& pa
 
 }  // namespace
 
-Mask mask_of(const LabelMap& labels, std::span<const std::int16_t> wanted) {
+Mask mask_of(const LabelMap& labels, std::span<const std::uint16_t> wanted) {
   Mask mask{labels.geometry, std::vector<std::uint8_t>(labels.voxels.size())};
-  std::transform(labels.voxels.begin(), labels.voxels.end(), mask.voxels.begin(), [&](std::int16_t label) {
+  std::transform(labels.voxels.begin(), labels.voxels.end(), mask.voxels.begin(), [&](std::uint16_t label) {
     return static_cast<std::uint8_t>(std::find(wanted.begin(), wanted.end(), label) != wanted.end());
   });
   return mask;
@@ -54,7 +54,7 @@ Mask mask_of(const LabelMap& labels, std::span<const std::int16_t> wanted) {
 Mask mask_of(const LabelMap& labels) {
   Mask mask{labels.geometry, std::vector<std::uint8_t>(labels.voxels.size())};
   std::transform(labels.voxels.begin(), labels.voxels.end(), mask.voxels.begin(),
-                 [](std::int16_t label) { return static_cast<std::uint8_t>(label != 0); });
+                 [](std::uint16_t label) { return static_cast<std::uint8_t>(label != 0); });
   return mask;
 }
 

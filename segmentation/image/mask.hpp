@@ -12,7 +12,7 @@ namespace brainshift {
 using Mask = Image<std::uint8_t>;  ///< 1 inside, 0 outside
 
 /// The voxels that carry one of the labels.
-Mask mask_of(const LabelMap& labels, std::span<const std::int16_t> wanted);
+Mask mask_of(const LabelMap& labels, std::span<const std::uint16_t> wanted);
 
 /// The voxels that are not zero.
 Mask mask_of(const LabelMap& labels);

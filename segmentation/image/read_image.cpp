@@ -4,6 +4,7 @@
 #include <itkGDCMImageIO.h>
 #include <itkImageFileReader.h>
 #include <itkImageSeriesReader.h>
+#include <itkVectorImage.h>
 
 #include <cmath>
 #include <limits>
@@ -18,6 +19,7 @@
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
 #include "segmentation/image/image_series.hpp"
+#include "segmentation/image/segments.hpp"
 #include "segmentation/image/whole_file.hpp"
 #include "segmentation/options/values.hpp"
 
@@ -81,6 +83,19 @@ Pointer<Pixel> read_mgh(const fs::path& file, const ImageHeader& header) {
   return image;
 }
 
+template <class ItkImageType>
+typename ItkImageType::Pointer read_by_itk(const fs::path& file, ImageFormat format, const ImageHeader& header) {
+  const auto io = make_image_io(format);
+  io->SetFileName(file.string());
+  io->ReadImageInformation();
+  check_agreement(file, *io, header);
+  auto reader = itk::ImageFileReader<ItkImageType>::New();
+  reader->SetImageIO(io);
+  reader->SetFileName(file.string());
+  reader->Update();
+  return reader->GetOutput();
+}
+
 template <class Pixel>
 Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
   check_readable(file);
@@ -91,15 +106,7 @@ Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
       return read_mgh<Pixel>(file, header);
     }
   }
-  const auto io = make_image_io(format);
-  io->SetFileName(file.string());
-  io->ReadImageInformation();
-  check_agreement(file, *io, header);
-  auto reader = itk::ImageFileReader<itk::Image<Pixel, 3>>::New();
-  reader->SetImageIO(io);
-  reader->SetFileName(file.string());
-  reader->Update();
-  return reader->GetOutput();
+  return read_by_itk<itk::Image<Pixel, 3>>(file, format, header);
 }
 
 template <class Pixel>
@@ -172,6 +179,18 @@ void check_finite(const fs::path& file, const ImageGeometry& geometry, std::span
   }
 }
 
+std::uint16_t as_label(const fs::path& file, const Eigen::Array3i& size, std::size_t voxel, double value) {
+  constexpr double highest = std::numeric_limits<std::uint16_t>::max();
+  if (!(value >= 0 && value <= highest && value == std::floor(value))) {
+    refuse(file, voxel_name(size, voxel) + " holds " + write_number(value) +
+                     "; labels are whole numbers from 0 to 65535: " +
+                     (value > 0 && value < 1 ? "are these probabilities? Give the map of labels"
+                      : value < 0 ? "were they saved in another type? Save them as unsigned, or renumber them"
+                                  : "renumber or round them"));
+  }
+  return static_cast<std::uint16_t>(value);
+}
+
 }  // namespace
 
 ScalarImage read_image(const fs::path& file) {
@@ -185,19 +204,31 @@ LabelMap read_label_map(const fs::path& file) {
   LabelMap labels;
   labels.geometry = geometry_of(*values);
   labels.voxels.resize(labels.geometry.voxel_count());
-  constexpr double lowest = std::numeric_limits<std::int16_t>::min();
-  constexpr double highest = std::numeric_limits<std::int16_t>::max();
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
-    const double value = values->GetBufferPointer()[i];
-    if (!(value >= lowest && value <= highest && value == std::floor(value))) {
-      throw std::invalid_argument(
-          file.string() + ": " + voxel_name(labels.geometry.size, i) + " holds " + write_number(value) +
-          "; labels are whole numbers from -32768 to 32767" +
-          (value > 0 && value < 1 ? ": are these probabilities? Give the map of labels" : ": renumber or round them"));
-    }
-    labels.voxels[i] = static_cast<std::int16_t>(value);
+    labels.voxels[i] = as_label(file, labels.geometry.size, i, values->GetBufferPointer()[i]);
   }
   return labels;
+}
+
+std::vector<LabelMap> read_layers(const fs::path& file) {
+  const std::uint64_t count = read_nrrd_header(file).components;
+  if (count == 1) {
+    return {read_label_map(file)};
+  }
+  using Layers = itk::VectorImage<float, 3>;  // float holds 65536 and more as it is
+  const Layers::Pointer values = naming_faults(file, [&] {
+    const ImageHeader header = check_whole(file, ImageFormat::nrrd, count);
+    return read_by_itk<Layers>(file, ImageFormat::nrrd, header);
+  });
+  const ImageGeometry grid = geometry_of(*values);
+  check_read_geometry(file, grid);
+  std::vector<LabelMap> layers(count, LabelMap{grid, std::vector<std::uint16_t>(grid.voxel_count())});
+  for (std::size_t i = 0; i < grid.voxel_count(); ++i) {
+    for (std::size_t layer = 0; layer < count; ++layer) {
+      layers[layer].voxels[i] = as_label(file, grid.size, i, values->GetBufferPointer()[i * count + layer]);
+    }
+  }
+  return layers;
 }
 
 VectorImage read_vector_image(const fs::path& file) {
@@ -223,15 +254,7 @@ ImageSeries read_image_series(const fs::path& file) {
   using Itk4 = itk::Image<float, 4>;
   const Itk4::Pointer image = naming_faults(file, [&] {
     const ImageHeader header = check_whole_series(file);
-    const auto io = make_image_io(image_format(file));
-    io->SetFileName(file.string());
-    io->ReadImageInformation();
-    check_agreement(file, *io, header);
-    auto reader = itk::ImageFileReader<Itk4>::New();
-    reader->SetImageIO(io);
-    reader->SetFileName(file.string());
-    reader->Update();
-    return Itk4::Pointer(reader->GetOutput());
+    return read_by_itk<Itk4>(file, image_format(file), header);
   });
   ImageGeometry grid;
   const auto size = image->GetLargestPossibleRegion().GetSize();

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 
 #include "segmentation/image/gzip_file.hpp"
@@ -93,7 +95,12 @@ void write_image(const fs::path& file, const ScalarImage& image) {
   write_any(file, image);
 }
 void write_image(const fs::path& file, const LabelMap& image) {
-  write_any(file, image);
+  constexpr std::uint16_t highest = std::numeric_limits<std::int16_t>::max();
+  if (std::any_of(image.voxels.begin(), image.voxels.end(), [](std::uint16_t label) { return label > highest; })) {
+    write_any(file, image);
+  } else {
+    write_itk(file, *seen_by_itk<std::uint16_t, std::int16_t>(image));
+  }
 }
 void write_image(const fs::path& file, const VectorImage& image) {
   write_any(file, image);

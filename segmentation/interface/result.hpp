@@ -26,7 +26,7 @@ struct Segmentation {
   std::vector<ScalarImage> memberships;  ///< one a class, darkest first; empty unless classified
   Surface brain;                         ///< the union of the brain's tissues, holes filled, largest component
   Surface skull;  ///< inner surface of the skull, outward oriented like the others (the brain lies inside)
-  std::map<std::int16_t, Surface> tissues;          ///< one a brain label, where asked for
+  std::map<std::uint16_t, Surface> tissues;         ///< one a brain label, where asked for
   std::map<std::string, SurfaceMeasures> measures;  ///< "brain", "skull", "tissue_<label>"
   std::optional<BodyMeasures> body;                 ///< absent when a surface came in
   std::optional<LabelMap> closed;                   ///< 1 where closing and filling took in what no label called brain

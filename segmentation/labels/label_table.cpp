@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <span>
 #include <sstream>
 
@@ -13,15 +13,17 @@
 namespace brainshift::segmentation {
 namespace {
 
+constexpr std::size_t all_numbers = 65536;
+
 struct Numbers {
-  std::int16_t first;
-  std::int16_t last;
+  std::uint16_t first;
+  std::uint16_t last;
 };
 
-void add(LabelTable& table, std::span<const Numbers> ranges, std::int16_t tissue) {
+void add(LabelTable& table, std::span<const Numbers> ranges, std::uint16_t tissue) {
   for (const auto& [first, last] : ranges) {
     for (int number = first; number <= last; ++number) {
-      table.classes[static_cast<std::int16_t>(number)] = tissue;
+      table.classes[static_cast<std::uint16_t>(number)] = tissue;
     }
   }
 }
@@ -44,15 +46,10 @@ LabelTable make_freesurfer() {
 LabelTable make_brats() {
   LabelTable table{"those of BraTS", {}};
   for (const int number : {1, 3, 4}) {
-    table.classes[static_cast<std::int16_t>(number)] = default_label::tumour;
+    table.classes[static_cast<std::uint16_t>(number)] = default_label::tumour;
   }
   table.classes[2] = default_label::parenchyma;
   return table;
-}
-
-// Slot of a number in a list of all 65536.
-std::size_t slot(std::int16_t number) {
-  return static_cast<std::uint16_t>(number);
 }
 
 std::string in_millilitres(double volume) {
@@ -86,16 +83,15 @@ LabelTable find_label_table(const std::string& name_or_file) {
 }
 
 LabelVolumes label_volumes(const LabelMap& labels) {
-  std::vector<std::size_t> counts(65536);
-  for (const std::int16_t number : labels.voxels) {
-    ++counts[slot(number)];
+  std::vector<std::size_t> counts(all_numbers);
+  for (const std::uint16_t number : labels.voxels) {
+    ++counts[number];
   }
   LabelVolumes volumes;
-  for (int number = std::numeric_limits<std::int16_t>::min(); number <= std::numeric_limits<std::int16_t>::max();
-       ++number) {
-    const auto label = static_cast<std::int16_t>(number);
-    if (number != 0 && counts[slot(label)] > 0) {
-      volumes[label] = static_cast<double>(counts[slot(label)]) * labels.geometry.voxel_volume();
+  for (std::size_t number = 1; number < all_numbers; ++number) {
+    if (counts[number] > 0) {
+      volumes[static_cast<std::uint16_t>(number)] =
+          static_cast<double>(counts[number]) * labels.geometry.voxel_volume();
     }
   }
   return volumes;
@@ -107,7 +103,7 @@ bool is_freesurfer(const LabelVolumes& volumes) {
   constexpr Numbers left_out[] = {{1, 1}, {6, 6}, {9, 9}, {19, 23}, {32, 40}, {45, 45}, {48, 48}, {55, 56}, {61, 61}};
   constexpr int enough = 8;
   const auto found = std::count_if(structures.begin(), structures.end(),
-                                   [&](int number) { return volumes.contains(static_cast<std::int16_t>(number)); });
+                                   [&](int number) { return volumes.contains(static_cast<std::uint16_t>(number)); });
   const bool cortex = volumes.contains(3) || volumes.contains(42) ||
                       std::any_of(volumes.begin(), volumes.end(), [](const auto& v) { return v.first >= 1000; });
   return found >= enough && cortex && std::none_of(std::begin(left_out), std::end(left_out), [&](const Numbers& gap) {
@@ -116,23 +112,21 @@ bool is_freesurfer(const LabelVolumes& volumes) {
          });
 }
 
-void renumber(LabelMap& labels, const std::map<std::int16_t, std::int16_t>& numbers, Unnamed unnamed) {
-  std::vector<std::int16_t> becomes(65536);
+void renumber(LabelMap& labels, const std::map<std::uint16_t, std::uint16_t>& numbers, Unnamed unnamed) {
+  std::vector<std::uint16_t> becomes(all_numbers);
   if (unnamed == Unnamed::stay) {
-    for (std::size_t i = 0; i < becomes.size(); ++i) {
-      becomes[i] = static_cast<std::int16_t>(static_cast<std::uint16_t>(i));
-    }
+    std::iota(becomes.begin(), becomes.end(), std::uint16_t{0});
   }
   for (const auto& [from, to] : numbers) {
-    becomes[slot(from)] = to;
+    becomes[from] = to;
   }
-  for (std::int16_t& voxel : labels.voxels) {
-    voxel = becomes[slot(voxel)];
+  for (std::uint16_t& voxel : labels.voxels) {
+    voxel = becomes[voxel];
   }
 }
 
 std::string unknown_labels(const LabelVolumes& volumes, const LabelTable& table) {
-  std::vector<std::pair<double, std::int16_t>> unknown;
+  std::vector<std::pair<double, std::uint16_t>> unknown;
   for (const auto& [number, volume] : volumes) {
     if (!table.classes.contains(number)) {
       unknown.emplace_back(-volume, number);

@@ -14,7 +14,7 @@ namespace brainshift::segmentation {
 /// What the numbers of a label map stand for: a class of default_label, or 0 for what is not brain.
 struct LabelTable {
   std::string name;  ///< as a sentence calls it: "FreeSurfer's"
-  std::map<std::int16_t, std::int16_t> classes;
+  std::map<std::uint16_t, std::uint16_t> classes;
 };
 
 /// Of FreeSurfer's aseg and aparc+aseg, which FastSurfer and SynthSeg write, too.
@@ -26,19 +26,23 @@ const LabelTable& brats_table();
 /// Names that find_label_table() takes in place of a file.
 const std::vector<std::string>& label_table_names();
 
-/// Of a file: lines `number name ...` (FreeSurferColorLUT.txt, 3D Slicer's .ctbl), or tab-separated columns `index` and
-/// `name` (BIDS _dseg.tsv). The class follows from the words in the name: ventricle, CSF, skull, tumour, background and
-/// so on; any other name is parenchyma. Throws std::invalid_argument, naming file and line, when it is no such table.
+/// Of a file: lines `number name ...` (FreeSurferColorLUT.txt, 3D Slicer's .ctbl), tab-separated columns `index` and
+/// `name` (BIDS _dseg.tsv), or the segments of a .seg.nrrd. The class follows from the words in the name: ventricle,
+/// CSF, skull, tumour, background and so on; any other name is parenchyma. Throws std::invalid_argument, naming file
+/// and line, when it is no such table.
 LabelTable read_label_table(const std::filesystem::path& file);
 
-/// The class that the words in a tissue's name tell.
-std::int16_t class_of_name(const std::string& name);
+/// The class that the words in a tissue's name tell, in upper or lower case; parenchyma where they tell none.
+std::uint16_t class_of_name(const std::string& name);
+
+/// Whether a name says anything: "Segment_1", as 3D Slicer names what nobody named, does not.
+bool name_tells_class(const std::string& name);
 
 /// By name ("freesurfer", "brats") or from a file.
 LabelTable find_label_table(const std::string& name_or_file);
 
 /// Volume of each number of a label map but 0, mm³.
-using LabelVolumes = std::map<std::int16_t, double>;
+using LabelVolumes = std::map<std::uint16_t, double>;
 LabelVolumes label_volumes(const LabelMap& labels);
 
 /// Whether the numbers are FreeSurfer's beyond doubt: many of its structures, none of the numbers that it leaves out.
@@ -46,7 +50,7 @@ bool is_freesurfer(const LabelVolumes& volumes);
 
 /// The map with other numbers; a number without an entry stays, or becomes 0.
 enum class Unnamed { stay, become_background };
-void renumber(LabelMap& labels, const std::map<std::int16_t, std::int16_t>& numbers, Unnamed unnamed);
+void renumber(LabelMap& labels, const std::map<std::uint16_t, std::uint16_t>& numbers, Unnamed unnamed);
 
 /// "136 (1.4 ml), 137 (0.2 ml)" of the numbers that a table lacks, the largest first; empty where it has them all.
 std::string unknown_labels(const LabelVolumes& volumes, const LabelTable& table);

@@ -9,6 +9,7 @@
 #include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/text_lines.hpp"
+#include "segmentation/image/segments.hpp"
 #include "segmentation/interface/options.hpp"
 #include "segmentation/labels/label_table.hpp"
 #include "segmentation/options/values.hpp"
@@ -27,6 +28,9 @@ std::vector<std::string> words_of(const std::string& name) {
     } else if (!words.back().empty()) {
       words.emplace_back();
     }
+  }
+  if (words.back().empty()) {
+    words.pop_back();
   }
   return words;
 }
@@ -85,18 +89,34 @@ void add_row(LabelTable& table, const Row& row, const fs::path& file, std::size_
   if (*number < 0 || *number > static_cast<int>(label_numbers.high)) {
     return;  // a list of colours names numbers that no label map of ours holds
   }
-  table.classes[static_cast<std::int16_t>(*number)] = class_of_name(row.name);
+  table.classes[static_cast<std::uint16_t>(*number)] = class_of_name(row.name);
+}
+
+LabelTable table_of_segments(const fs::path& file) {
+  LabelTable table{"those of " + file.string(), {}};
+  for (const Segment& segment : read_segments(file)) {
+    const std::uint16_t tissue = class_of_name(segment.name);
+    if (const auto known = table.classes.emplace(segment.label, tissue); known.first->second != tissue) {
+      refuse(file, "its segments give the number " + std::to_string(segment.label) +
+                       " to different tissues, in layers that overlap; name it as the label map, not as a table");
+    }
+  }
+  if (table.classes.empty()) {
+    refuse(file, "its header names no segment, as 3D Slicer's .seg.nrrd does; give another table");
+  }
+  return table;
 }
 
 }  // namespace
 
-std::int16_t class_of_name(const std::string& name) {
+std::uint16_t class_of_name(const std::string& name) {
   struct Word {
     std::string_view word;
-    std::int16_t tissue;
+    std::uint16_t tissue;
   };
   // The first that fits counts.
-  constexpr auto words = std::to_array<Word>({{"background", 0},
+  constexpr auto words = std::to_array<Word>({{"stripped", default_label::parenchyma},  // "skull-stripped brain"
+                                              {"background", 0},
                                               {"unknown", 0},
                                               {"exterior", 0},
                                               {"air", 0},
@@ -104,13 +124,18 @@ std::int16_t class_of_name(const std::string& name) {
                                               {"scalp", 0},
                                               {"eye", 0},
                                               {"eyes", 0},
+                                              {"face", 0},
+                                              {"mandible", 0},
                                               {"dura", 0},
                                               {"muscle", 0},
                                               {"fat", 0},
                                               {"skull", default_label::skull},
                                               {"bone", default_label::skull},
+                                              {"cranium", default_label::skull},
+                                              {"calvarium", default_label::skull},
                                               {"ventricle", default_label::ventricles},
                                               {"ventricles", default_label::ventricles},
+                                              {"ventricular", default_label::ventricles},
                                               {"vent", default_label::ventricles},
                                               {"choroid", default_label::ventricles},
                                               {"csf", default_label::csf},
@@ -120,10 +145,18 @@ std::int16_t class_of_name(const std::string& name) {
                                               {"tumour", default_label::tumour},
                                               {"glioma", default_label::tumour},
                                               {"metastasis", default_label::tumour},
+                                              {"meningioma", default_label::tumour},
+                                              {"glioblastoma", default_label::tumour},
+                                              {"gbm", default_label::tumour},
+                                              {"gtv", default_label::tumour},
+                                              {"mass", default_label::tumour},
                                               {"enhancing", default_label::tumour},
                                               {"necrosis", default_label::tumour},
                                               {"extracerebral", 0}});
   const auto in_name = words_of(name);
+  if (in_name == std::vector<std::string>{"head"}) {  // not that of the hippocampus
+    return 0;
+  }
   for (const Word& known : words) {
     if (std::find(in_name.begin(), in_name.end(), known.word) != in_name.end()) {
       return known.tissue;
@@ -132,8 +165,16 @@ std::int16_t class_of_name(const std::string& name) {
   return default_label::parenchyma;
 }
 
+bool name_tells_class(const std::string& name) {
+  const auto words = words_of(name);
+  return !words.empty() && words.front() != "segment";
+}
+
 LabelTable read_label_table(const fs::path& file) {
   check_readable(file);
+  if (ending_of(file) == ".nrrd") {
+    return table_of_segments(file);
+  }
   const auto lines = read_lines(file);
   const auto columns = columns_of(lines.front());
   LabelTable table{"those of " + file.string(), {}};

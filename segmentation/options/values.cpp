@@ -24,8 +24,8 @@ std::vector<std::string> split_words(std::string_view text) {
   return words;
 }
 
-std::optional<std::vector<std::int16_t>> read_ranges(std::string_view text) {
-  std::vector<std::int16_t> labels;
+std::optional<std::vector<std::uint16_t>> read_ranges(std::string_view text) {
+  std::vector<std::uint16_t> labels;
   for (const std::string& word : split_words(text)) {
     const std::size_t dash = word.find('-');
     const auto first = read_number<int>(std::string_view(word).substr(0, dash));
@@ -34,7 +34,7 @@ std::optional<std::vector<std::int16_t>> read_ranges(std::string_view text) {
       return std::nullopt;
     }
     for (int label = *first; label <= *last; ++label) {
-      labels.push_back(static_cast<std::int16_t>(label));
+      labels.push_back(static_cast<std::uint16_t>(label));
     }
   }
   return labels;

@@ -24,7 +24,7 @@ struct Range {
 inline constexpr Range any_number{};
 inline constexpr Range above_zero{.low = 0, .low_allowed = false};
 inline constexpr Range not_negative{.low = 0};
-inline constexpr Range label_numbers{.low = 1, .high = 32767};  ///< of tissues in label maps
+inline constexpr Range label_numbers{.low = 1, .high = 65535};  ///< of tissues in label maps
 
 /// "a number > 0", "a whole number from 1 to 8": the kind, then the range.
 std::string allowed_numbers(const std::string& kind, const Range& range);
@@ -66,7 +66,7 @@ std::optional<std::vector<T>> read_numbers(std::string_view text) {
 }
 
 /// Labels and ranges of them, "2 3 10-13", one behind the other; empty where one is none of label_numbers.
-std::optional<std::vector<std::int16_t>> read_ranges(std::string_view text);
+std::optional<std::vector<std::uint16_t>> read_ranges(std::string_view text);
 
 /// Pairs of numbers separated by semicolons, "a,b; a,b"; none in an empty text. Empty on failure.
 std::optional<std::vector<std::pair<double, double>>> read_number_pairs(std::string_view text);

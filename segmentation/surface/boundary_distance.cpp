@@ -48,15 +48,16 @@ double squared_distance_within(const Mask& mask, const Eigen::Array3d& index, in
   return nearest;
 }
 
+// A surface that lies farther off is none of the mask's: how far does not matter, and to look for it takes minutes.
 double distance_to_boundary(const Mask& mask, const Eigen::Vector3d& point) {
   const Eigen::Array3d index = mask.geometry.to_index(point).array();
   const double spacing = mask.geometry.spacing.minCoeff();
-  const int farthest = mask.geometry.size.maxCoeff();
+  constexpr int farthest = 8;
   for (int reach = 2;; reach *= 2) {
     const double distance = std::sqrt(squared_distance_within(mask, index, reach));
     const double certain = (reach - 0.5) * spacing;  // what lies outside the box looked at is farther than this
-    if (distance <= certain || reach > farthest) {
-      return distance;
+    if (distance <= certain || reach == farthest) {
+      return std::min(distance, certain);
     }
   }
 }

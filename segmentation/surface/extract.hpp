@@ -15,7 +15,8 @@ Surface iso_surface(const Mask& mask, double sigma);
 /// Moves the vertices along their normals, all by one distance, until the surface encloses the volume (mm³).
 void fit_volume(Surface& surface, double wanted);
 
-/// 95th percentile over the surface's area of the distance to the faces between voxels inside the mask and outside, mm.
+/// 95th percentile over the surface's area of the distance to the faces between voxels inside the mask and outside, mm;
+/// not more than 7.5 voxels, as it is not looked for farther.
 double boundary_distance_95(const Surface& surface, const Mask& mask);
 
 struct MeasuredSurface {

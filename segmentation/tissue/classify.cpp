@@ -57,7 +57,7 @@ Classification classify(const ScalarImage& t1, const Mask& brain, const SegmentO
   Classification result;
   result.memberships = membership_images(t1, brain, centres);
   const Mask ventricles = find_ventricles(darkest_class(result.memberships, brain), brain, options.ventricle_depth);
-  result.labels = LabelMap{t1.geometry, std::vector<std::int16_t>(t1.voxels.size())};
+  result.labels = LabelMap{t1.geometry, std::vector<std::uint16_t>(t1.voxels.size())};
   for (std::size_t i = 0; i < brain.voxels.size(); ++i) {
     if (brain.voxels[i] != 0) {
       result.labels.voxels[i] = ventricles.voxels[i] != 0 ? default_label::ventricles : default_label::parenchyma;

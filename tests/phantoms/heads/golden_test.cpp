@@ -62,7 +62,7 @@ TEST(Golden, TheShiftDiesAwayWithTheDistanceFromTheOpening) {
 }
 
 // Mean volume ratio of a tissue, from the Jacobian image.
-double volume_ratio(const ScalarImage& jacobian, const LabelMap& labels, std::int16_t label) {
+double volume_ratio(const ScalarImage& jacobian, const LabelMap& labels, std::uint16_t label) {
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {

@@ -20,8 +20,8 @@ namespace {
 using Eigen::Vector3d;
 namespace tissue = segmentation::default_label;
 
-constexpr std::int16_t all_tissues[] = {tissue::parenchyma, tissue::ventricles, tissue::tumour,
-                                        tissue::csf,        tissue::skull,      tissue::skin};
+constexpr std::uint16_t all_tissues[] = {tissue::parenchyma, tissue::ventricles, tissue::tumour,
+                                         tissue::csf,        tissue::skull,      tissue::skin};
 
 // Counting voxel centres misses a volume by chance at its surface: by about 0.3 voxel times the root of the number of
 // voxels that the surface crosses. Five times that; the surface is at most that of four balls of the brain's volume.
@@ -34,7 +34,7 @@ TEST(Phantom, LabelVolumesAreTheStatedOnes) {
   for (const PhantomOptions& options : {PhantomOptions{}, PhantomOptions{.size = 64, .spacing = 3, .csf_gap = 3}}) {
     const Phantom phantom = make_phantom(options);
     const LabelMap labels = sample_labels(phantom);
-    for (const std::int16_t label : all_tissues) {
+    for (const std::uint16_t label : all_tissues) {
       const auto voxels = static_cast<double>(std::ranges::count(labels.voxels, label));
       EXPECT_NEAR(voxels * labels.geometry.voxel_volume(), tissue_volume(phantom.head, label),
                   counting_error(phantom.head.brain.volume(), options.spacing))

@@ -76,7 +76,7 @@ LabelMap ball_labels(const Eigen::Vector3d& centre, double inner, double outer) 
     for (int j = 0; j < size; ++j) {
       for (int i = 0; i < size; ++i) {
         const double distance = (labels.geometry.to_world(Eigen::Vector3d(i, j, k)) - centre).norm();
-        labels.at(i, j, k) = static_cast<std::int16_t>(distance < inner ? 3 : distance < outer ? 1 : 0);
+        labels.at(i, j, k) = static_cast<std::uint16_t>(distance < inner ? 3 : distance < outer ? 1 : 0);
       }
     }
   }

@@ -121,9 +121,9 @@ inline ScalarImage image(const ImageGeometry& g, const std::function<double(cons
 }
 
 inline LabelMap label_map(const ImageGeometry& g, const std::function<int(const Eigen::Vector3d&)>& value) {
-  LabelMap result{g, std::vector<std::int16_t>(g.voxel_count())};
+  LabelMap result{g, std::vector<std::uint16_t>(g.voxel_count())};
   for_each_voxel(
-      g, [&](const Eigen::Vector3d& x, std::size_t v) { result.voxels[v] = static_cast<std::int16_t>(value(x)); });
+      g, [&](const Eigen::Vector3d& x, std::size_t v) { result.voxels[v] = static_cast<std::uint16_t>(value(x)); });
   return result;
 }
 

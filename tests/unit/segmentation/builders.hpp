@@ -50,8 +50,8 @@ Image<T> image_by(const ImageGeometry& geometry, const Set& set) {
 }
 
 inline LabelMap ball(const ImageGeometry& geometry, const Eigen::Vector3d& centre, double radius) {
-  return image_by<std::int16_t>(geometry, [&](const Eigen::Vector3d& world) {
-    return static_cast<std::int16_t>((world - centre).norm() <= radius ? 1 : 0);
+  return image_by<std::uint16_t>(geometry, [&](const Eigen::Vector3d& world) {
+    return static_cast<std::uint16_t>((world - centre).norm() <= radius ? 1 : 0);
   });
 }
 

@@ -42,7 +42,7 @@ inline Head head(const Eigen::Matrix3d& direction) {
   result.labels = result.mask;
   const LabelMap ventricle = ball(geometry, centre, ventricle_radius);
   for (std::size_t i = 0; i < ventricle.voxels.size(); ++i) {
-    result.labels.voxels[i] = static_cast<std::int16_t>(result.labels.voxels[i] + ventricle.voxels[i]);
+    result.labels.voxels[i] = static_cast<std::uint16_t>(result.labels.voxels[i] + ventricle.voxels[i]);
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <tuple>
 
 #include "tests/unit/segmentation/builders.hpp"
 #include "tests/unit/segmentation/drawn_head.hpp"
@@ -13,7 +14,7 @@ namespace brainshift::test::segment_test {
 using namespace drawn_head;
 using namespace segmentation;
 
-double dice(const LabelMap& a, const LabelMap& b, std::int16_t label) {
+double dice(const LabelMap& a, const LabelMap& b, std::uint16_t label) {
   double both = 0;
   double sum = 0;
   for (std::size_t i = 0; i < a.voxels.size(); ++i) {
@@ -76,7 +77,7 @@ TEST(Segment, HolesAreFilledAndLooseBitsLeftOut) {
   const double whole = static_cast<double>(count(mask_of(labels)));
   const LabelMap hole = ball(labels.geometry, centre, 4.0);
   for (std::size_t i = 0; i < hole.voxels.size(); ++i) {
-    labels.voxels[i] = static_cast<std::int16_t>(hole.voxels[i] != 0 ? 0 : labels.voxels[i]);
+    labels.voxels[i] = static_cast<std::uint16_t>(hole.voxels[i] != 0 ? 0 : labels.voxels[i]);
   }
   labels.at(3, 3, 3) = 1;
   SegmentInput input;
@@ -147,6 +148,26 @@ TEST(Segment, WhatClosingTakesInIsParenchymaAndTheFluidBoundsTheSkull) {
   EXPECT_GT(result.body->volume, result.body->tissue_volume);
   const auto radii = (result.skull.vertices.rowwise() - centre.transpose()).rowwise().norm();
   EXPECT_NEAR(radii.mean(), brain_radius + 3, 0.5);
+}
+
+TEST(Segment, WithoutFluidTheLabelsAroundTheBrainBoundTheSkullWhereTheyCan) {
+  for (const auto& [gap, radius, said] : {std::tuple(3.0, brain_radius + 3, "reach to the labels around"),
+                                          {20.0, brain_radius, "own surface is taken"}}) {
+    Head drawn = head(oblique());
+    const LabelMap inner = ball(drawn.mask.geometry, centre, brain_radius + gap);
+    for (std::size_t i = 0; i < inner.voxels.size(); ++i) {
+      drawn.labels.voxels[i] = inner.voxels[i] == 0 ? default_label::skin : drawn.labels.voxels[i];
+    }
+    SegmentInput input;
+    input.labels = drawn.labels;
+    SegmentOptions options = two_labels();
+    options.fluid_label = default_label::csf;
+    const Segmentation result = segment(input, options);
+    const auto radii = (result.skull.vertices.rowwise() - centre.transpose()).rowwise().norm();
+    EXPECT_NEAR(radii.mean(), radius, 0.5);
+    ASSERT_FALSE(result.notes.empty());
+    EXPECT_NE(result.notes.back().find(said), std::string::npos) << result.notes.back();
+  }
 }
 
 TEST(Segment, ALargeLoosePieceIsNamed) {

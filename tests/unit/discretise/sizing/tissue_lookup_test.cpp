@@ -18,7 +18,7 @@ constexpr std::array<std::int32_t, 2> brain = {1, 3};
 const Vector3d centre(30, -20, 10);
 
 /// A row of voxels along x with these labels, the first at the origin.
-LabelMap row_of(const std::vector<std::int16_t>& labels) {
+LabelMap row_of(const std::vector<std::uint16_t>& labels) {
   LabelMap map;
   map.geometry.size = {static_cast<int>(labels.size()), 1, 1};
   map.geometry.spacing = {2, 1, 1};

@@ -89,7 +89,7 @@ TEST(Head, EveryTissueHasTheVolumeThatItSays) {
   for_places(50, edge, [&](const Vector3d& place) {
     volume[static_cast<std::size_t>(tissue_at(head, place))] += edge * edge * edge;
   });
-  for (const std::int16_t label :
+  for (const std::uint16_t label :
        {tissue::parenchyma, tissue::ventricles, tissue::tumour, tissue::csf, tissue::skull, tissue::skin}) {
     const double exact = tissue_volume(head, label);
     EXPECT_NEAR(volume[static_cast<std::size_t>(label)], exact, 0.02 * exact) << label;

@@ -38,7 +38,7 @@ TEST(Phantom, GrowsWithItsImage) {
 
 TEST(Phantom, HasItsLandmarksInTheBrain) {
   for (const auto& [name, position] : make_phantom(small).landmarks) {
-    const std::int16_t label = tissue_at(make_phantom(small).head, position);
+    const std::uint16_t label = tissue_at(make_phantom(small).head, position);
     EXPECT_TRUE(label == tissue::parenchyma || label == tissue::ventricles || label == tissue::tumour) << name;
     EXPECT_EQ(label == tissue::ventricles, name.ends_with("ventricle")) << name;
     EXPECT_EQ(label == tissue::tumour, name == "tumour") << name;
@@ -55,7 +55,7 @@ TEST(Phantom, ItsLabelsHoldTheVolumesThatAreKnown) {
   const Phantom phantom = make_phantom({.size = 64, .spacing = 3, .csf_gap = 4});
   const LabelMap labels = sample_labels(phantom);
   EXPECT_TRUE(same_geometry(labels.geometry, phantom.geometry));
-  for (const std::int16_t label : {tissue::parenchyma, tissue::tumour, tissue::skull, tissue::skin}) {
+  for (const std::uint16_t label : {tissue::parenchyma, tissue::tumour, tissue::skull, tissue::skin}) {
     const double voxels = static_cast<double>(std::ranges::count(labels.voxels, label));
     const double exact = tissue_volume(phantom.head, label);
     EXPECT_NEAR(voxels * 27, exact, 0.05 * exact) << label;

@@ -26,13 +26,13 @@ void for_places(const Visit& visit) {
 
 TEST(T1Intensity, TellsTheTissuesApartAsAScannerDoes) {
   const Head head = make_head(centre, 1, 3);
-  std::map<std::int16_t, std::pair<double, int>> sums;
+  std::map<std::uint16_t, std::pair<double, int>> sums;
   for_places([&](const Vector3d& place) {
     auto& [sum, count] = sums[tissue_at(head, place)];
     sum += t1_intensity(head, place, 1);
     ++count;
   });
-  const auto mean = [&](std::int16_t label) { return sums.at(label).first / sums.at(label).second; };
+  const auto mean = [&](std::uint16_t label) { return sums.at(label).first / sums.at(label).second; };
   EXPECT_LT(mean(0), 0.25 * mean(tissue::skull));
   EXPECT_LT(mean(tissue::skull), mean(tissue::csf));
   EXPECT_NEAR(mean(tissue::csf), mean(tissue::ventricles), 40) << "both are fluid";

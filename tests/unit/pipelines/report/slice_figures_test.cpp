@@ -50,15 +50,15 @@ TEST(SliceFigures, ThePlaneUnderTheOpeningDoesNotCutIt) {
 TEST(SliceFigures, TheLabelsHaveAColourEachAndWhatWasTakenInOneOfItsOwn) {
   RunData run = small_run();
   const View view = make_view(run);
-  run.labels = LabelMap{run.t1->geometry, std::vector<std::int16_t>(run.t1->voxels.size(), 1)};
+  run.labels = LabelMap{run.t1->geometry, std::vector<std::uint16_t>(run.t1->voxels.size(), 1)};
   const Figure one = labels_figure(run, view, view.planes[1]);
   EXPECT_EQ(one.name, "coronal_labels");
   EXPECT_EQ(strokes(one, before_colour), 1U);
   EXPECT_NE(one.svg.find("label 1"), std::string::npos);
   EXPECT_EQ(one.svg.find("taken in"), std::string::npos);
-  std::fill_n(run.labels->voxels.begin(), run.labels->voxels.size() / 2, std::int16_t{2});
-  run.closed = LabelMap{run.t1->geometry, std::vector<std::int16_t>(run.t1->voxels.size())};
-  std::fill_n(run.closed->voxels.begin(), run.closed->voxels.size() / 4, std::int16_t{1});
+  std::fill_n(run.labels->voxels.begin(), run.labels->voxels.size() / 2, std::uint16_t{2});
+  run.closed = LabelMap{run.t1->geometry, std::vector<std::uint16_t>(run.t1->voxels.size())};
+  std::fill_n(run.closed->voxels.begin(), run.closed->voxels.size() / 4, std::uint16_t{1});
   run.t1.reset();
   const Figure both = labels_figure(run, view, view.planes[1]);
   for (const char* name : {"label 1", "label 2", "taken in"}) {

@@ -71,7 +71,7 @@ TEST_F(JobsTest, ALoadIsReadFromWhereItIsMeasured) {
 }
 
 TEST_F(JobsTest, ASegmentationTakesLabelsOfAnyGridToTheImages) {
-  LabelMap labels{image().geometry, std::vector<std::int16_t>(image().voxels.size(), 0)};
+  LabelMap labels{image().geometry, std::vector<std::uint16_t>(image().voxels.size(), 0)};
   for (int k = 4; k < 16; ++k) {
     for (int j = 4; j < 16; ++j) {
       for (int i = 4; i < 16; ++i) {
@@ -110,13 +110,13 @@ TEST_F(JobsTest, ASegmentationTakesLabelsOfAnyGridToTheImages) {
 }
 
 TEST_F(JobsTest, AMaskMayBeAnImageAndATumourAMapOfBrats) {
-  LabelMap tumour{image().geometry, std::vector<std::int16_t>(image().voxels.size(), 0)};
+  LabelMap tumour{image().geometry, std::vector<std::uint16_t>(image().voxels.size(), 0)};
   ScalarImage stripped{image().geometry, std::vector<float>(image().voxels.size(), 0)};
   for (int k = 3; k < 17; ++k) {
     for (int j = 3; j < 17; ++j) {
       for (int i = 3; i < 17; ++i) {
         stripped.at(i, j, k) = 0.5F + static_cast<float>(i % 3);
-        tumour.at(i, j, k) = i < 8 ? std::int16_t{4} : i < 12 ? std::int16_t{2} : std::int16_t{0};
+        tumour.at(i, j, k) = i < 8 ? std::uint16_t{4} : i < 12 ? std::uint16_t{2} : std::uint16_t{0};
       }
     }
   }

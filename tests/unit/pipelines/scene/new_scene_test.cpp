@@ -6,13 +6,14 @@
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
 #include "tests/unit/pipelines/scene_file.hpp"
+#include "tests/unit/segmentation/slicer_file.hpp"
 
 namespace brainshift::pipelines::new_scene_test {
 
 class MakeScene : public SceneFile {
  protected:
   /// A row of voxels of 50 ml; FreeSurfer's numbers one behind the other or what is given.
-  std::filesystem::path labels(const std::string& name, const std::vector<std::int16_t>& numbers) const {
+  std::filesystem::path labels(const std::string& name, const std::vector<std::uint16_t>& numbers) const {
     LabelMap map;
     map.geometry.size = {static_cast<int>(numbers.size()), 1, 1};
     map.geometry.spacing = {50, 100, 100};
@@ -41,11 +42,12 @@ class MakeScene : public SceneFile {
   }
 };
 
-const std::vector<std::int16_t> freesurfer = {2, 3, 4, 7, 8, 10, 11, 12, 13, 16, 17, 18, 24, 41, 42, 43};
+const std::vector<std::uint16_t> freesurfer = {2, 3, 4, 7, 8, 10, 11, 12, 13, 16, 17, 18, 24, 41, 42, 43};
 
 TEST_F(MakeScene, OfFreeSurfersMapAndPointsPassesItsOwnCheck) {
   const NewScene made = new_scene({.t1 = t1(10),
                                    .labels = labels("a--seg.mgz.nii.gz", freesurfer),
+                                   .labels_are = {},
                                    .brain_mask = {},
                                    .tumour = {},
                                    .points = {write_load()}});
@@ -61,6 +63,7 @@ TEST_F(MakeScene, OfFreeSurfersMapAndPointsPassesItsOwnCheck) {
 TEST_F(MakeScene, OfOwnNumbersNamesTheTissuesAndTheSkull) {
   const NewScene made = new_scene({.t1 = {},
                                    .labels = labels("own.nii.gz", {0, 1, 1, 1, 1, 1, 1, 1, 2, 5, 0}),
+                                   .labels_are = {},
                                    .brain_mask = {},
                                    .tumour = {},
                                    .points = {write_load()}});
@@ -70,31 +73,75 @@ TEST_F(MakeScene, OfOwnNumbersNamesTheTissuesAndTheSkull) {
   EXPECT_EQ(scene.image.skull_label, 5);
 }
 
+TEST_F(MakeScene, OfAMapWithATableNamesTheTable) {
+  const auto map = labels("sub-1_dseg.nii.gz", {0, 40000, 40000, 40000, 7, 0});
+  std::ofstream(folder_ / "own.txt") << "40000 Brain\n7 Ventricle\n";
+  FilesAtHand files;
+  files.labels = map;
+  files.points = {write_load()};
+  files.labels_are = (folder_ / "own.txt").string();
+  const NewScene named = new_scene(files);
+  EXPECT_EQ(fault_of(named), "");
+  EXPECT_EQ(parse(named.text).image.labels_are, files.labels_are);
+  expect_parts(named.taken[0], {"sub-1_dseg.nii.gz", "own.txt", "parenchyma 150 ml, ventricles 50 ml"});
+  for (const char* beside : {"sub-1_dseg_ColorTable.ctbl", "sub-1_dseg.ctbl", "sub-1_dseg.tsv"}) {
+    std::ofstream(folder_ / beside) << (std::string(beside).ends_with("tsv")
+                                            ? "index\tname\n40000\tBrain\n7\tVentricle\n"
+                                            : "40000 Brain 1 2 3 0\n7 Ventricle 1 2 3 0\n");
+    files.labels_are.clear();
+    const NewScene found = new_scene(files);
+    EXPECT_EQ(fault_of(found), "");
+    EXPECT_EQ(parse(found.text).image.labels_are, (folder_ / beside).string());
+  }
+  files.labels_are = "brats";
+  expect_parts(refusal(files), {"sub-1_dseg.nii.gz", "no voxel is brain"});
+  files.labels.clear();
+  expect_parts(refusal(files), {"--labels-are", "--labels"});
+}
+
+TEST_F(MakeScene, OfSegmentsOf3DSlicerGoesByTheirNames) {
+  FilesAtHand files;
+  files.labels = test::write_slicer_file(
+      folder_ / "a.seg.nrrd", test::slicer_segment(0, "Brain", 1, 0) + test::slicer_segment(1, "Tumour", 1, 1),
+      {{1, 1, 0}, {0, 1, 0}});
+  files.points = {write_load()};
+  const NewScene made = new_scene(files);
+  EXPECT_EQ(fault_of(made), "");
+  EXPECT_EQ(parse(made.text).image.labels_are, "");
+  expect_parts(made.taken[0], {"a.seg.nrrd", "3D Slicer", "parenchyma 10 ml, tumour 10 ml"});
+}
+
 TEST_F(MakeScene, TakesASkullStrippedT1ForItsOwnMask) {
-  const NewScene made =
-      new_scene({.t1 = t1(100), .labels = {}, .brain_mask = {}, .tumour = {}, .points = {write_load()}});
+  const NewScene made = new_scene(
+      {.t1 = t1(100), .labels = {}, .labels_are = {}, .brain_mask = {}, .tumour = {}, .points = {write_load()}});
   const Scene scene = parse(made.text);
   EXPECT_EQ(scene.image.brain_mask, scene.image.t1);
 }
 
 TEST_F(MakeScene, SaysWhatIsMissing) {
-  expect_parts(refusal({.t1 = t1(10), .labels = {}, .brain_mask = {}, .tumour = {}, .points = {}}),
+  expect_parts(refusal({.t1 = t1(10), .labels = {}, .labels_are = {}, .brain_mask = {}, .tumour = {}, .points = {}}),
                {"t1 & more", "--labels", "--brain-mask"});
-  expect_parts(
-      refusal({.t1 = {}, .labels = labels("f.nii.gz", freesurfer), .brain_mask = {}, .tumour = {}, .points = {}}),
-      {"nothing would move", "--points"});
+  expect_parts(refusal({.t1 = {},
+                        .labels = labels("f.nii.gz", freesurfer),
+                        .labels_are = {},
+                        .brain_mask = {},
+                        .tumour = {},
+                        .points = {}}),
+               {"nothing would move", "--points"});
   expect_parts(refusal({.t1 = {},
                         .labels = labels("brats.nii.gz", {0, 1, 2, 4}),
+                        .labels_are = {},
                         .brain_mask = {},
                         .tumour = {},
                         .points = {write_load()}}),
                {"brats.nii.gz", "--tumour"});
   expect_parts(refusal({.t1 = {},
                         .labels = labels("other.nii.gz", {0, 100, 2, 4}),
+                        .labels_are = {},
                         .brain_mask = {},
                         .tumour = {},
                         .points = {write_load()}}),
-               {"other.nii.gz", "labels_are"});
+               {"other.nii.gz", "--labels-are"});
 }
 
 }  // namespace brainshift::pipelines::new_scene_test

@@ -21,7 +21,7 @@ TEST_F(SceneFile, ValuesArriveWhereTheyBelong) {
   <stage name="register" interpolation="bspline"/>
 </scene>)");
   EXPECT_EQ(scene.image.t1, folder_ / "t1.nii") << "files are relative to the scene's";
-  EXPECT_EQ(scene.image.other_labels, (std::vector<std::int16_t>{4, 7}));
+  EXPECT_EQ(scene.image.other_labels, (std::vector<std::uint16_t>{4, 7}));
   EXPECT_EQ(scene.image.skull_label, 5);
   EXPECT_EQ(scene.tissues.at(0).material.density, 900);
   EXPECT_EQ(scene.load->opening.margin, 3);
@@ -116,7 +116,7 @@ TEST_F(SceneFile, TissuesHaveALabelSeveralOrAClass) {
   const Scene listed = parse("<scene><tissues><tissue labels=\"3 10-12\" density=\"900\"/></tissues></scene>",
                              {"tissues.3.youngs_modulus=50"});
   EXPECT_EQ(listed.tissues.at(0).label, 3);
-  EXPECT_EQ(listed.tissues.at(0).labels, (std::vector<std::int16_t>{3, 10, 11, 12}));
+  EXPECT_EQ(listed.tissues.at(0).labels, (std::vector<std::uint16_t>{3, 10, 11, 12}));
   EXPECT_EQ(listed.tissues.at(0).material.youngs_modulus, 50);
   EXPECT_EQ(listed.source.lines.at("tissues.3.density"), 1);
 
@@ -193,7 +193,7 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
       {"<cuts>here</cuts>", {at + "2", "text 'here'"}},
       {"<cuts/>\n<cuts/>", {at + "3", "twice"}},
       {"<resection/>", {at + "2", "needs the attribute 'labels'"}},
-      {"<resection labels=\"two\"/>", {at + "2", "labels", "'two'", "whole numbers from 1 to 32767"}},
+      {"<resection labels=\"two\"/>", {at + "2", "labels", "'two'", "whole numbers from 1 to 65535"}},
       {"<resection labels=\"2\" pressure=\"high\"/>", {at + "2", "pressure", "'high'", "Pa"}},
       {"<segment edge_length=\"3\"/>", {at + "2", "segment"}},
       {"<image>", {at, "XML"}},

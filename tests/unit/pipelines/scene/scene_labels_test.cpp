@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/pipelines/scene_file.hpp"
+#include "tests/unit/segmentation/slicer_file.hpp"
 
 namespace brainshift::pipelines::scene_labels_test {
 
@@ -36,7 +37,7 @@ class SceneLabels : public SceneFile {
 
 TEST_F(SceneLabels, FreeSurfersNumbersAreRecognisedSaidAndReadByClass) {
   const auto read = read_labels(image_of(freesurfer_labels()), {.by_class = true, .joined = {}});
-  EXPECT_EQ(read.map.voxels, (std::vector<std::int16_t>{1, 1, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 4, 1, 1, 2, 0, 0, 0, 0}));
+  EXPECT_EQ(read.map.voxels, (std::vector<std::uint16_t>{1, 1, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 4, 1, 1, 2, 0, 0, 0, 0}));
   ASSERT_EQ(read.notes.size(), 2U);
   expect_parts(read.notes[0], {"labels.nii.gz", "taken for FreeSurfer's", "labels_are"});
   expect_parts(read.notes[1], {"136 (0 ml)", "507 (0 ml)", "not brain"});
@@ -56,7 +57,7 @@ TEST_F(SceneLabels, OtherNumbersNeedATable) {
       read_labels(image_of(block_labels(), (folder_ / "own.txt").string()), {.by_class = true, .joined = {}});
   EXPECT_EQ(own.map.at(1, 1, 1), 1);
   EXPECT_EQ(own.map.at(2, 1, 1), 2);
-  EXPECT_EQ(own.map.at(1, 2, 1), 0);
+  EXPECT_EQ(own.map.at(1, 2, 1), 6) << "no number is fluid or skull, so the skin stays";
   EXPECT_TRUE(own.notes.empty());
 }
 
@@ -68,7 +69,7 @@ TEST_F(SceneLabels, WhatIsNoLabelMapIsRefusedWithASentence) {
   for (const Case& bad : {Case{0.25F, {"holds 0.25", "probabilities"}},
                           {3.5F, {"holds 3.5", "round"}},
                           {70000.0F, {"holds 70000", "renumber"}},
-                          {-7.0F, {"the label -7", "negative"}}}) {
+                          {-7.0F, {"holds -7", "unsigned"}}}) {
     const LabelMap good = freesurfer_labels();
     ScalarImage image{good.geometry, {good.voxels.begin(), good.voxels.end()}};
     image.voxels[3] = bad.value;
@@ -87,10 +88,30 @@ TEST_F(SceneLabels, WhatIsNoLabelMapIsRefusedWithASentence) {
   }
 }
 
+TEST_F(SceneLabels, SegmentsOf3DSlicerAreReadByTheirNamesAndBeforeThemWhatTheUserSays) {
+  ImageInputs image;
+  image.labels = test::write_slicer_file(
+      folder_ / "a.seg.nrrd", test::slicer_segment(0, "Brain", 1, 0) + test::slicer_segment(1, "Ventricles", 1, 1),
+      {{1, 1, 0}, {0, 1, 0}});
+  EXPECT_TRUE(classes_are_told(image));
+  const auto read = read_labels(image, {.by_class = true, .joined = {}});
+  EXPECT_EQ(read.map.voxels, (std::vector<std::uint16_t>{1, 2, 0}));
+  ASSERT_EQ(read.notes.size(), 2U);
+  expect_parts(read.notes[1], {"'Ventricles' lies over 'Brain' in 10 ml"});
+  image.labels_are = "brats";
+  expect_parts(fault_of(image), {"a.seg.nrrd", "both have the number 1"});
+  image.labels_are = "";
+  test::write_slicer_file(image.labels, test::slicer_segment(0, "Segment_1", 1, 0), {{1, 0}});
+  EXPECT_FALSE(classes_are_told(image));
+  expect_parts(fault_of(image), {"a.seg.nrrd", "not FreeSurfer's"});
+  test::write_slicer_file(image.labels, test::slicer_segment(0, "Skull", 1, 0), {{1, 0}});
+  expect_parts(fault_of(image), {"no voxel is brain", "rename"});
+}
+
 TEST_F(SceneLabels, AHemisphereThatIsMissingIsTold) {
   LabelMap map = freesurfer_labels();
-  for (std::int16_t& label : map.voxels) {
-    label = label == 41 || label == 42 ? std::int16_t{0} : label;
+  for (std::uint16_t& label : map.voxels) {
+    label = label == 41 || label == 42 ? std::uint16_t{0} : label;
   }
   const auto notes = read_labels(image_of(map, "freesurfer"), {.by_class = true, .joined = {}}).notes;
   ASSERT_EQ(notes.size(), 2U);
@@ -100,10 +121,17 @@ TEST_F(SceneLabels, AHemisphereThatIsMissingIsTold) {
 TEST_F(SceneLabels, AMapWithoutVentriclesIsReadAndSaidSo) {
   LabelMap map = block_labels();
   map.voxels.assign(64, 2);
-  std::fill_n(map.voxels.begin(), 32, std::int16_t{41});
+  std::fill_n(map.voxels.begin(), 32, std::uint16_t{41});
   const auto read = read_labels(image_of(map, "freesurfer"), {.by_class = true, .joined = {}});
   ASSERT_EQ(read.notes.size(), 1U);
   expect_parts(read.notes[0], {"no ventricles"});
+}
+
+TEST_F(SceneLabels, WithoutFluidAndSkullTheOtherLabelsStayForTheSkullToBeTakenFrom) {
+  LabelMap map = freesurfer_labels();
+  std::replace(map.voxels.begin(), map.voxels.end(), std::uint16_t{24}, std::uint16_t{0});
+  const auto read = read_labels(image_of(map, "freesurfer"), {.by_class = true, .joined = {}});
+  EXPECT_EQ(read.map.voxels, (std::vector<std::uint16_t>{1, 1, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 2, 6, 6, 0, 0}));
 }
 
 TEST_F(SceneLabels, NumbersThatATissueListsAreJoined) {

@@ -14,10 +14,10 @@ const ImageGeometry grid = grid_around(middle, 80, Eigen::Vector3d::Ones(), obli
 
 // A ball of 25 mm with a slit of 4 mm down to its middle.
 LabelMap slit_ball() {
-  return image_by<std::int16_t>(grid, [](const Eigen::Vector3d& world) {
+  return image_by<std::uint16_t>(grid, [](const Eigen::Vector3d& world) {
     const Eigen::Vector3d x = world - middle;
     const bool slit = std::abs(x.x()) <= 2 && x.z() > 0;
-    return static_cast<std::int16_t>(x.norm() <= 25 && !slit ? 1 : 0);
+    return static_cast<std::uint16_t>(x.norm() <= 25 && !slit ? 1 : 0);
   });
 }
 
@@ -52,10 +52,10 @@ TEST(BrainBody, LoosePiecesAreDroppedAndTheirVolumeToldExceptOnesThatClosingJoin
 
 // Tissue within 20 mm, fluid to 26 mm and in a canal downward.
 LabelMap in_fluid() {
-  return image_by<std::int16_t>(grid, [](const Eigen::Vector3d& world) {
+  return image_by<std::uint16_t>(grid, [](const Eigen::Vector3d& world) {
     const Eigen::Vector3d x = world - middle;
     const bool canal = x.head<2>().norm() <= 3 && x.z() < -20;
-    return static_cast<std::int16_t>(x.norm() <= 20 ? 1 : x.norm() <= 26 || canal ? 4 : 0);
+    return static_cast<std::uint16_t>(x.norm() <= 20 ? 1 : x.norm() <= 26 || canal ? 4 : 0);
   });
 }
 
@@ -75,17 +75,42 @@ TEST(FluidSpace, IsEmptyWhereLittleFluidTouchesTheBrain) {
   EXPECT_TRUE(fluid_space(labels, 4, brain, 10).voxels.empty());
 }
 
+// A brain of 20 mm within a shell from `inner` mm on, open where x.z() is below `open`.
+LabelMap in_shell(double inner, double open) {
+  return image_by<std::uint16_t>(grid, [&](const Eigen::Vector3d& world) {
+    const Eigen::Vector3d x = world - middle;
+    return static_cast<std::uint16_t>(x.norm() <= 20 ? 1 : x.norm() > inner && x.z() > open ? 6 : 0);
+  });
+}
+
+TEST(BoundedSpace, ReachesToTheLabelEvenWhereThatHasAGap) {
+  const Mask brain = mask_of(ball(grid, middle, 20));
+  const double ball_of_24 = static_cast<double>(count(mask_of(ball(grid, middle, 24))));
+  for (const double open : {-100.0, -21.0}) {
+    const Mask space = bounded_space(in_shell(24, open), 6, brain, 10);
+    ASSERT_FALSE(space.voxels.empty()) << open;
+    EXPECT_NEAR(static_cast<double>(count(space)), ball_of_24, 0.15 * ball_of_24) << open;
+    EXPECT_FALSE(touches_border(space));
+  }
+}
+
+TEST(BoundedSpace, IsEmptyWhereTheLabelIsFarOffOrHalfOpen) {
+  const Mask brain = mask_of(ball(grid, middle, 20));
+  EXPECT_TRUE(bounded_space(in_shell(32, -100), 6, brain, 10).voxels.empty());
+  EXPECT_TRUE(bounded_space(in_shell(24, 0), 6, brain, 10).voxels.empty());
+}
+
 TEST(SkullCavity, MustEncloseTheBrain) {
   const Mask brain = mask_of(ball(grid, middle, 20));
-  LabelMap labels = image_by<std::int16_t>(grid, [](const Eigen::Vector3d& world) {
+  LabelMap labels = image_by<std::uint16_t>(grid, [](const Eigen::Vector3d& world) {
     const double r = (world - middle).norm();
-    return static_cast<std::int16_t>(r <= 20 ? 1 : r > 26 && r <= 29 ? 5 : 0);
+    return static_cast<std::uint16_t>(r <= 20 ? 1 : r > 26 && r <= 29 ? 5 : 0);
   });
   EXPECT_TRUE(encloses(labels, 5, brain));
   const double ball_of_26 = static_cast<double>(count(mask_of(ball(grid, middle, 26))));
   EXPECT_EQ(static_cast<double>(count(skull_cavity(labels, 5, brain))), ball_of_26);
-  for (std::int16_t& voxel : labels.voxels) {
-    voxel = voxel == 5 && &voxel - labels.voxels.data() < 256000 ? std::int16_t{0} : voxel;
+  for (std::uint16_t& voxel : labels.voxels) {
+    voxel = voxel == 5 && &voxel - labels.voxels.data() < 256000 ? std::uint16_t{0} : voxel;
   }
   EXPECT_FALSE(encloses(labels, 5, brain));
   EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { skull_cavity(labels, 5, brain); }, {"does not enclose"}));

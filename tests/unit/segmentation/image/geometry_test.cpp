@@ -53,7 +53,7 @@ TEST(ImageGeometry, AThousandthOfAVoxelDecidesWhatIsTheSamePlace) {
 
 TEST(ImageGeometry, APointOnTheOutermostHalfVoxelHasALabel) {
   auto geometry = grid_around(Eigen::Vector3d::Zero(), 3, {2.0, 2.0, 2.0}, oblique_left_handed());
-  LabelMap labels{geometry, std::vector<std::int16_t>(geometry.voxel_count(), 7)};
+  LabelMap labels{geometry, std::vector<std::uint16_t>(geometry.voxel_count(), 7)};
   labels.at(2, 0, 1) = 9;
   EXPECT_EQ(label_at(labels, geometry.to_world({2.499, -0.499, 1.0})), 9);
   EXPECT_EQ(label_at(labels, geometry.to_world({1.6, 0.4, 1.4})), 9);
@@ -68,7 +68,7 @@ TEST(Geometry, LabelsOnAnotherGridAreTheNearest) {
   const LabelMap labels = ball(fine, {2, 2, 2}, 14);
   const LabelMap moved = on_grid(labels, coarse);
   const LabelMap expected =
-      image_by<std::int16_t>(coarse, [&](const Eigen::Vector3d& x) { return label_at(labels, x); });
+      image_by<std::uint16_t>(coarse, [&](const Eigen::Vector3d& x) { return label_at(labels, x); });
   EXPECT_EQ(moved.voxels, expected.voxels);
   EXPECT_TRUE(same_geometry(moved.geometry, coarse));
   EXPECT_EQ(on_grid(labels, fine).voxels, labels.voxels);

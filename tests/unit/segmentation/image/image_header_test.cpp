@@ -185,7 +185,9 @@ TEST(ImageHeader, ThatPromisesMoreThanTheFileHoldsIsRefusedBeforeAnythingIsAlloc
                       {"truncated", "512000000"}));
   EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text(""), "3 4 5", "800 800 800")), {"truncated"}));
   EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text("", "gzip"), "3 4 5", "800 800 800")), {"truncated"}));
-  EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text(""), "3 4 5", "90000 90000 90000")), {"more than"}));
+  EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text(""), "3 4 5", "90000 90000 90000")), {"GB of memory"}));
+  EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text(""), "3 4 5", "1000 1000 1000")),
+                      {"1000 x 1000 x 1000 voxels", "some 30 GB of memory", "resample"}));
   EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text(""), "3 4 5", "3 4 99999999999999999999")), {"sizes"}));
 }
 

@@ -48,6 +48,15 @@ TEST_P(EveryFormat, GivesBackLabels) {
   EXPECT_EQ(read_label_map(folder / GetParam()).voxels, labels.voxels);
 }
 
+TEST_P(EveryFormat, GivesBackTheLargestLabels) {
+  const ScratchFolder folder;
+  LabelMap labels = ball(wavy_image().geometry, {40.0, -70.0, 15.0}, 9.0);
+  labels.at(1, 2, 3) = 32768;
+  labels.at(3, 2, 1) = 65535;
+  write_image(folder / GetParam(), labels);
+  EXPECT_EQ(read_label_map(folder / GetParam()).voxels, labels.voxels);
+}
+
 TEST_P(EveryFormat, GivesBackVectorsInLps) {
   const ScratchFolder folder;
   const auto field = image_by<std::array<float, 3>>(wavy_image().geometry, [](const Eigen::Vector3d& x) {
@@ -126,7 +135,7 @@ TEST(ImageIo, ALabelThatIsNoWholeNumberIsNamed) {
   const ScratchFolder folder;
   ScalarImage image = wavy_image();
   std::fill(image.voxels.begin(), image.voxels.end(), 1.0F);
-  for (const float bad : {1.5F, 40000.0F, std::numeric_limits<float>::quiet_NaN()}) {
+  for (const float bad : {1.5F, 65536.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
     image.at(1, 0, 2) = bad;
     write_image(folder / "l.nii", image);
     EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_label_map(folder / "l.nii"); }, {"voxel (1, 0, 2)"}));

@@ -74,7 +74,7 @@ TEST(WholeFile, OfEveryFormatIsAccepted) {
   for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.mha"}) {
     write_image(folder / name, counted<float>());
     EXPECT_EQ(fault(folder / name), "");
-    write_image(folder / name, counted<std::int16_t>());
+    write_image(folder / name, counted<std::uint16_t>());
     EXPECT_EQ(fault(folder / name), "");
     write_image(folder / name, vectors);
     EXPECT_EQ(fault(folder / name, 3), "");
@@ -84,7 +84,7 @@ TEST(WholeFile, OfEveryFormatIsAccepted) {
 TEST(WholeFile, ThatLacksOneByteIsRefusedWithWhatItPromisesAndHolds) {
   const ScratchFolder folder;
   for (const char* name : {"a.nii", "a.mha"}) {
-    write_plain(folder / name, counted<std::int16_t>());
+    write_plain(folder / name, counted<std::uint16_t>());
     EXPECT_EQ(fault(folder / name), "");
     resize_file(folder / name, file_size(folder / name) - 1);
     expect_parts(fault(folder / name), {(folder / name).string(), "truncated", "promises 250 bytes", "holds 249"});

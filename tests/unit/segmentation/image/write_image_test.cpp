@@ -32,6 +32,22 @@ TEST(ImageIo, NiftiOfOursIsReadByItkAtTheSamePlace) {
   EXPECT_TRUE(same_geometry(geometry_of(*reader->GetOutput()), image.geometry));
 }
 
+// int16 is what every program reads.
+TEST(ImageIo, LabelsAreOf16BitsWithASignUntilTheirNumbersNeedIt) {
+  const ScratchFolder folder;
+  LabelMap labels = ball(wavy_image().geometry, {40.0, -70.0, 15.0}, 9.0);
+  for (const auto& [largest, type] :
+       {std::pair<std::uint16_t, itk::IOComponentEnum>(32767, itk::IOComponentEnum::SHORT),
+        {32768, itk::IOComponentEnum::USHORT}}) {
+    labels.at(1, 2, 3) = largest;
+    write_image(folder / "l.nii.gz", labels);
+    const auto io = itk::NiftiImageIO::New();
+    io->SetFileName((folder / "l.nii.gz").string());
+    io->ReadImageInformation();
+    EXPECT_EQ(io->GetComponentType(), type) << largest;
+  }
+}
+
 TEST(ImageIo, AFieldCarriesNiftisVectorIntentAndItkReadsItAsVectors) {
   const ScratchFolder folder;
   VectorImage field{wavy_image().geometry, {}};

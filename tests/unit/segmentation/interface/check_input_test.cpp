@@ -27,7 +27,7 @@ TEST(Segment, InputThatDoesNotFitIsRefusedInASentence) {
   SegmentInput empty;
   empty.t1 = drawn.t1;
   empty.brain_mask = drawn.mask;
-  std::fill(empty.brain_mask->voxels.begin(), empty.brain_mask->voxels.end(), std::int16_t{0});
+  std::fill(empty.brain_mask->voxels.begin(), empty.brain_mask->voxels.end(), std::uint16_t{0});
   EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(empty, two_labels()); }, {"empty"}));
 
   SegmentInput cut = empty;

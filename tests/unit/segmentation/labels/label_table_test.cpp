@@ -12,23 +12,23 @@ using namespace segmentation;
 LabelVolumes volumes_of(std::initializer_list<int> numbers) {
   LabelVolumes volumes;
   for (const int number : numbers) {
-    volumes[static_cast<std::int16_t>(number)] = 1000;
+    volumes[static_cast<std::uint16_t>(number)] = 1000;
   }
   return volumes;
 }
 
 TEST(LabelTable, FreeSurfersNumbersHaveTheirClasses) {
   const auto& classes = freesurfer_table().classes;
-  for (const short number :
-       std::initializer_list<short>{2, 3, 8, 16, 41, 85, 255, 1035, 2035, 3000, 5002, 11100, 12175}) {
+  for (const std::uint16_t number :
+       std::initializer_list<std::uint16_t>{2, 3, 8, 16, 41, 85, 255, 1035, 2035, 3000, 5002, 11100, 12175}) {
     EXPECT_EQ(classes.at(number), default_label::parenchyma) << number;
   }
-  for (const short number : std::initializer_list<short>{4, 5, 14, 15, 31, 43, 44, 63, 72, 213, 221}) {
+  for (const std::uint16_t number : std::initializer_list<std::uint16_t>{4, 5, 14, 15, 31, 43, 44, 63, 72, 213, 221}) {
     EXPECT_EQ(classes.at(number), default_label::ventricles) << number;
   }
   EXPECT_EQ(classes.at(24), default_label::csf);
   EXPECT_EQ(classes.at(165), default_label::skull);
-  for (const short number : std::initializer_list<short>{1, 6, 258, 507, 2036}) {
+  for (const std::uint16_t number : std::initializer_list<std::uint16_t>{1, 6, 258, 507, 2036}) {
     EXPECT_FALSE(classes.contains(number)) << number;
   }
 }
@@ -44,17 +44,17 @@ TEST(LabelTable, FreeSurfersNumbersAreRecognisedAndNoOthers) {
 }
 
 TEST(LabelTable, VolumesCountEveryNumberButZero) {
-  LabelMap map{{.size = {2, 2, 1}, .spacing = {1, 2, 3}}, {0, 7, -3, 7}};
-  EXPECT_EQ(label_volumes(map), (LabelVolumes{{-3, 6.0}, {7, 12.0}}));
+  LabelMap map{{.size = {2, 2, 1}, .spacing = {1, 2, 3}}, {0, 7, 65535, 7}};
+  EXPECT_EQ(label_volumes(map), (LabelVolumes{{7, 12.0}, {65535, 6.0}}));
 }
 
 TEST(LabelTable, NumbersWithoutAnEntryStayOrBecomeBackground) {
-  LabelMap map{{.size = {3, 1, 1}}, {2, 41, 9}};
+  LabelMap map{{.size = {3, 1, 1}}, {2, 40000, 65535}};
   LabelMap other = map;
-  renumber(map, {{2, 1}, {41, 1}}, Unnamed::stay);
-  EXPECT_EQ(map.voxels, (std::vector<std::int16_t>{1, 1, 9}));
-  renumber(other, {{2, 1}, {41, 1}}, Unnamed::become_background);
-  EXPECT_EQ(other.voxels, (std::vector<std::int16_t>{1, 1, 0}));
+  renumber(map, {{2, 1}, {40000, 1}}, Unnamed::stay);
+  EXPECT_EQ(map.voxels, (std::vector<std::uint16_t>{1, 1, 65535}));
+  renumber(other, {{2, 1}, {40000, 1}}, Unnamed::become_background);
+  EXPECT_EQ(other.voxels, (std::vector<std::uint16_t>{1, 1, 0}));
 }
 
 TEST(LabelTable, UnknownNumbersAreListedTheLargestFirst) {
@@ -64,7 +64,8 @@ TEST(LabelTable, UnknownNumbersAreListedTheLargestFirst) {
 }
 
 TEST(LabelTable, BratsHasTumourAndOedema) {
-  EXPECT_EQ(find_label_table("brats").classes, (std::map<std::int16_t, std::int16_t>{{1, 3}, {2, 1}, {3, 3}, {4, 3}}));
+  EXPECT_EQ(find_label_table("brats").classes,
+            (std::map<std::uint16_t, std::uint16_t>{{1, 3}, {2, 1}, {3, 3}, {4, 3}}));
   EXPECT_EQ(find_label_table("freesurfer").classes, freesurfer_table().classes);
 }
 

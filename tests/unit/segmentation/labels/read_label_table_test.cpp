@@ -7,6 +7,7 @@
 #include "segmentation/labels/label_table.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/segmentation/builders.hpp"
+#include "tests/unit/segmentation/slicer_file.hpp"
 
 namespace brainshift::test::read_label_table_test {
 
@@ -26,13 +27,25 @@ TEST_F(TableFile, ColourTablesOfFreeSurferAndSlicerAreRead) {
                                             "# colours\n0 Unknown 0 0 0 0\n\n  4 Left-Lateral-Ventricle 120 18 134 0\n"
                                             "28 Left-VentralDC 1 2 3 0\n24 CSF 60 60 60 0\n165 Skull 120 120 120 0\n"
                                             "99000 too-large 1 2 3 0\n"));
-  EXPECT_EQ(table.classes, (std::map<std::int16_t, std::int16_t>{{0, 0}, {4, 2}, {24, 4}, {28, 1}, {165, 5}}));
+  EXPECT_EQ(table.classes, (std::map<std::uint16_t, std::uint16_t>{{0, 0}, {4, 2}, {24, 4}, {28, 1}, {165, 5}}));
 }
 
 TEST_F(TableFile, ColumnsOfBidsAreReadInAnyOrder) {
   const auto table = read_label_table(write(
       "a_dseg.tsv", "name\tindex\tcolor\nGrey matter\t1\t#fff\nThird ventricle\t7\t#000\nWhole tumour\t9\t#0f0\n"));
-  EXPECT_EQ(table.classes, (std::map<std::int16_t, std::int16_t>{{1, 1}, {7, 2}, {9, 3}}));
+  EXPECT_EQ(table.classes, (std::map<std::uint16_t, std::uint16_t>{{1, 1}, {7, 2}, {9, 3}}));
+}
+
+TEST_F(TableFile, SegmentsOf3DSlicerAreATable) {
+  const auto file = write_slicer_file(scratch_.path() / "a.seg.nrrd",
+                                      slicer_segment(0, "Brain", 4, 0) + slicer_segment(1, "CSF", 40000, 0), {{4}});
+  EXPECT_EQ(read_label_table(file).classes, (std::map<std::uint16_t, std::uint16_t>{{4, 1}, {40000, 4}}));
+  const std::string brain = slicer_segment(0, "Brain", 1, 0);
+  for (const auto& [keys, said] : {std::pair<std::string, std::string>("", "names no segment"),
+                                   {brain + slicer_segment(1, "Tumour", 1, 1), "the number 1 to different tissues"}}) {
+    const auto bad = write_slicer_file(scratch_.path() / "b.seg.nrrd", keys, {{1}, {1}});
+    EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_label_table(bad); }, {"b.seg.nrrd", said}));
+  }
 }
 
 TEST_F(TableFile, WhatIsNoTableIsRefusedWithItsLine) {
@@ -52,6 +65,9 @@ TEST(ClassOfName, FollowsItsWords) {
   EXPECT_EQ(class_of_name("Left-Cerebral-Exterior"), 0);
   EXPECT_EQ(class_of_name("ctx-lh-precuneus"), default_label::parenchyma);
   EXPECT_EQ(class_of_name("Tumor core"), default_label::tumour);
+  EXPECT_EQ(class_of_name("skull-stripped brain"), default_label::parenchyma);
+  EXPECT_EQ(class_of_name("HEAD"), 0);
+  EXPECT_EQ(class_of_name("hippocampal head"), default_label::parenchyma);
 }
 
 }  // namespace brainshift::test::read_label_table_test

@@ -12,7 +12,7 @@ struct Paint {
   std::optional<int> coats = {};
   Shade shade = Shade::light;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  std::vector<std::int16_t> labels = {1};
+  std::vector<std::uint16_t> labels = {1};
   std::vector<std::pair<double, double>> stripes = {};
 };
 
@@ -46,7 +46,7 @@ TEST(Option, TheCheckOfAStructSaysWhatReadingItsTextSays) {
   EXPECT_EQ(complaint({.shade = Shade::unnamed}), "shade is '2', but must be light | dark");
   EXPECT_EQ(complaint({.place = {0, nan, 0}}), "place is '0 nan 0', but must be three numbers (mm)");
   EXPECT_EQ(complaint({.labels = {1, 0}}),
-            "labels is '1 0', but must be whole numbers from 1 to 32767, separated by blanks");
+            "labels is '1 0', but must be whole numbers from 1 to 65535, separated by blanks");
   EXPECT_EQ(complaint({.stripes = {{1, nan}}}), "stripes is '1,nan', but must be pairs from,to (mm)");
   const Option<Paint> litres = *find_option(paint_options(), "litres");
   Paint paint;

@@ -47,8 +47,8 @@ TEST(Values, ListsAreSeparatedByBlanksOrCommasPairsBySemicolons) {
 }
 
 TEST(Values, RangesOfLabelsAreWrittenOut) {
-  EXPECT_EQ(read_ranges("2 3, 10-13"), (std::vector<std::int16_t>{2, 3, 10, 11, 12, 13}));
-  EXPECT_EQ(read_ranges(""), std::vector<std::int16_t>{});
+  EXPECT_EQ(read_ranges("2 3, 10-13"), (std::vector<std::uint16_t>{2, 3, 10, 11, 12, 13}));
+  EXPECT_EQ(read_ranges(""), std::vector<std::uint16_t>{});
   for (const char* bad : {"0", "-2", "3-", "5-4", "1-99999", "two", "1.5"}) {
     EXPECT_FALSE(read_ranges(bad)) << bad;
   }

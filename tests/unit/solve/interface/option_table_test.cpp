@@ -66,8 +66,8 @@ TEST(ResectionOptions, NeedLabelsThatTissuesMayHaveAndAnyPressure) {
   const auto fault_of = [](const Resection& resection) {
     return refusal([&] { check_table(resection_options(), resection); });
   };
-  EXPECT_EQ(fault_of({.labels = {1, 32767}, .pressure = -50}), "");
-  expect_parts(fault_of({.labels = {0}}), {"labels is '0'", "whole numbers from 1 to 32767"});
+  EXPECT_EQ(fault_of({.labels = {1, 65535}, .pressure = -50}), "");
+  expect_parts(fault_of({.labels = {0}}), {"labels is '0'", "whole numbers from 1 to 65535"});
   EXPECT_EQ(fault_of({.labels = {3}, .pressure = INFINITY}), "pressure is 'inf', but must be a number (Pa)");
   EXPECT_TRUE(find_option(resection_options(), "labels")->required);
 }
