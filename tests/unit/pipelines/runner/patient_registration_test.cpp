@@ -37,7 +37,7 @@ std::vector<std::int32_t> upper_nodes(const Model& model) {
   return nodes;
 }
 
-/// What a tracker that is turned by 3° and off by 4 mm sees of the upper face, which sinks by `depth` in its middle.
+/// What a tracker that is turned by 0.05 and off by 4 mm sees of the upper face, which sinks by `depth` in its middle.
 CraniotomyLoad seen_by_tracker(const Model& model, const RigidMotion& tracker, double depth) {
   CraniotomyLoad load;
   load.positions = model.cloud.positions(upper_nodes(model), Eigen::all);
@@ -67,7 +67,7 @@ void impose(const CraniotomyLoad& load, Model& model) {
 
 RigidMotion a_tracker() {
   RigidMotion tracker;
-  tracker.rotation = Eigen::AngleAxisd(3 * EIGEN_PI / 180, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  tracker.rotation = Eigen::AngleAxisd(0.05, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   tracker.translation = {4, -1, 2};
   return tracker;
 }
