@@ -11,6 +11,7 @@
 #include "register/field/brain_zones.hpp"
 #include "register/interface/option_table.hpp"
 #include "segmentation/interface/option_table.hpp"
+#include "segmentation/labels/label_table.hpp"
 #include "solve/interface/option_table.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/material/check_material.hpp"
@@ -156,15 +157,9 @@ void check_region(const Scene& scene) {
 }
 
 std::set<std::uint16_t> labels_in(const LabelMap& map) {
-  std::vector<bool> seen(65536, false);
-  for (const std::uint16_t label : map.voxels) {
-    seen[label] = true;
-  }
   std::set<std::uint16_t> labels;
-  for (std::size_t i = 1; i < seen.size(); ++i) {
-    if (seen[i]) {
-      labels.insert(static_cast<std::uint16_t>(i));
-    }
+  for (const auto& [label, volume] : segmentation::label_volumes(map)) {
+    labels.insert(label);
   }
   return labels;
 }

@@ -26,6 +26,9 @@ class OutStream {
     stream_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(count));
   }
 
+  /// All that is left to be read there.
+  void write(std::istream& from) { stream_ << from.rdbuf(); }
+
   /// Throws std::runtime_error when not all could be written.
   void finish() {
     stream_.close();

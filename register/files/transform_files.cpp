@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/files/transform_files.hpp"
 
-#include <fstream>
-#include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "register/field/moving_part.hpp"
+#include "register/files/out_stream.hpp"
 #include "register/files/write_slicer_field.hpp"
 #include "register/files/write_transform.hpp"
 
@@ -13,7 +13,7 @@ namespace brainshift::registration {
 
 namespace {
 
-constexpr const char* image_note = R"json({
+constexpr std::string_view image_note = R"json({
   "From": "preop",
   "To": "intraop",
   "Mode": "image",
@@ -31,11 +31,11 @@ constexpr const char* image_note = R"json({
     "3D Slicer": "load the .h5 or the .nrrd, put the data under it",
     "ANTs": "antsApplyTransforms -d 3 -i t1.nii.gz -r t1.nii.gz -t from-preop_to-intraop_mode-image_xfm.h5 -o OUT",
     "SimpleITK": "Resample(t1, t1, ReadTransform('from-preop_to-intraop_mode-image_xfm.h5'))"
-}
+  }
 }
 )json";
 
-constexpr const char* point_note = R"json({
+constexpr std::string_view point_note = R"json({
   "From": "preop",
   "To": "intraop",
   "Mode": "points",
@@ -51,17 +51,14 @@ constexpr const char* point_note = R"json({
     "brainshift": "brainshift warp RUN FILE --out DIR",
     "ANTs": "antsApplyTransformsToPoints -d 3 -i points.csv -t from-preop_to-intraop_mode-points_xfm.h5 -o OUT",
     "SimpleITK": "ReadTransform('from-preop_to-intraop_mode-points_xfm.h5').TransformPoint(p)"
-}
+  }
 }
 )json";
 
-void write_note(const std::filesystem::path& file, const char* note) {
-  std::ofstream out(file);
-  out << note;
-  out.close();
-  if (!out) {
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
-  }
+void write_note(const std::filesystem::path& file, std::string_view note) {
+  OutStream out(file);
+  out.write(note.data(), note.size());
+  out.finish();
 }
 
 }  // namespace

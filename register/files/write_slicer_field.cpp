@@ -5,8 +5,9 @@
 #include <fstream>
 #include <iomanip>
 #include <sstream>
-#include <stdexcept>
+#include <string>
 
+#include "register/files/out_stream.hpp"
 #include "segmentation/image/gzip_file.hpp"
 
 namespace brainshift::registration {
@@ -48,30 +49,20 @@ struct Parts {
   Parts& operator=(const Parts&) = delete;
 };
 
-bool write_bytes(const fs::path& file, const VectorImage& field) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(field.voxels.data()),
-            static_cast<std::streamsize>(field.voxels.size() * sizeof(field.voxels[0])));
-  out.close();
-  return out.good();
-}
-
 }  // namespace
 
 void write_slicer_field(const fs::path& file, const VectorImage& resampling) {
   const Parts parts(file);
-  bool whole = write_bytes(parts.plain, resampling);
-  if (whole) {
-    write_gzip(parts.packed, parts.plain);
-    std::ifstream in(parts.packed, std::ios::binary);
-    std::ofstream out(file, std::ios::binary);
-    out << header(resampling.geometry) << in.rdbuf();
-    out.close();
-    whole = in.good() && out.good();
-  }
-  if (!whole) {
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
-  }
+  OutStream plain(parts.plain);
+  plain.write(resampling.voxels.data(), resampling.voxels.size() * sizeof(resampling.voxels[0]));
+  plain.finish();
+  write_gzip(parts.packed, parts.plain);
+  const std::string head = header(resampling.geometry);
+  std::ifstream packed(parts.packed, std::ios::binary);
+  OutStream out(file);
+  out.write(head.data(), head.size());
+  out.write(packed);
+  out.finish();
 }
 
 }  // namespace brainshift::registration

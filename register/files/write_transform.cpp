@@ -4,14 +4,12 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
 #include <new>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "register/files/out_stream.hpp"
 #include "register/files/write_transform.hpp"
 
 namespace brainshift::registration {
@@ -135,12 +133,9 @@ std::vector<char> hdf5_file(const VectorImage& field) {
 void write_transform(const std::filesystem::path& file, const VectorImage& field) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is thrown, not printed
   const std::vector<char> bytes = hdf5_file(field);
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) {
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
-  }
+  OutStream out(file);
+  out.write(bytes.data(), bytes.size());
+  out.finish();
 }
 
 }  // namespace brainshift::registration

@@ -52,13 +52,13 @@ LabelTable make_brats() {
   return table;
 }
 
+}  // namespace
+
 std::string in_millilitres(double volume) {
   std::ostringstream text;
   text << std::round(volume / 100) / 10 << " ml";
   return text.str();
 }
-
-}  // namespace
 
 const LabelTable& freesurfer_table() {
   static const LabelTable table = make_freesurfer();

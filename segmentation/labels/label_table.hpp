@@ -41,6 +41,9 @@ bool name_tells_class(const std::string& name);
 /// By name ("freesurfer", "brats") or from a file.
 LabelTable find_label_table(const std::string& name_or_file);
 
+/// "12.7 ml" of a volume in mm³.
+std::string in_millilitres(double volume);
+
 /// Volume of each number of a label map but 0, mm³.
 using LabelVolumes = std::map<std::uint16_t, double>;
 LabelVolumes label_volumes(const LabelMap& labels);

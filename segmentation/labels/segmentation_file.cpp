@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <sstream>
 
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/interface/options.hpp"
@@ -46,12 +44,6 @@ std::vector<KnownNumbers> known_numbers(std::span<const Segment> segments, std::
   return known;
 }
 
-std::string in_millilitres(std::size_t voxels, const ImageGeometry& grid) {
-  std::ostringstream text;
-  text << std::round(static_cast<double>(voxels) * grid.voxel_volume() / 100) / 10 << " ml";
-  return text.str();
-}
-
 std::string overlap_note(const fs::path& file, const Overlaps& overlaps, std::span<const Segment> segments,
                          const ImageGeometry& grid) {
   constexpr std::size_t most = 12;
@@ -63,7 +55,7 @@ std::string overlap_note(const fs::path& file, const Overlaps& overlaps, std::sp
       break;
     }
     text += " '" + segments[pair.first].name + "' lies over '" + segments[pair.second].name + "' in " +
-            in_millilitres(voxels, grid) + ";";
+            in_millilitres(static_cast<double>(voxels) * grid.voxel_volume()) + ";";
   }
   return text + " tumour lies over ventricles, fluid, brain and skull, in this order, else the later segment";
 }
@@ -111,7 +103,8 @@ Overlaid overlaid(const fs::path& file, std::span<const Segment> segments, bool 
   }
   for (const auto& [number, voxels] : unnamed) {
     result.notes.push_back(file.string() + ": no segment has the number " + std::to_string(number) + "; its " +
-                           in_millilitres(voxels, result.map.geometry) + " are left out");
+                           in_millilitres(static_cast<double>(voxels) * result.map.geometry.voxel_volume()) +
+                           " are left out");
   }
   return result;
 }
