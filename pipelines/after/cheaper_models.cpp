@@ -43,6 +43,16 @@ void add_parts_of_the_model(const Model& model, const SolveOptions& options, std
   if (!model.gravity.isZero()) {
     found.push_back({"gravity", "left out", "", [](Model& m, SolveOptions&) { m.gravity.setZero(); }});
   }
+  if (model.fluid) {
+    found.push_back({"drained fluid", "left out", "", [](Model& m, SolveOptions&) { m.fluid.reset(); }});
+  }
+  if (any_material(model, [](const solve::Material& m) { return m.swelling != 0; })) {
+    found.push_back({"swelling", "left out", "", [](Model& m, SolveOptions&) {
+                       for (auto& [label, material] : m.materials) {
+                         material.swelling = 0;
+                       }
+                     }});
+  }
   if (model.materials.size() > 1) {
     const std::int32_t label = largest_tissue(model);
     found.push_back({"materials of their own", "all tissues as tissue " + std::to_string(label), "",

@@ -152,6 +152,7 @@ void solve(const SolveArguments& arguments, const Settings& settings) {
   job.options = scene.solve;
   job.loading = scene.loading;
   job.load = load_of(arguments);
+  job.gravity = scene.gravity;
   job.cuts = scene.cuts;
   job.resection = scene.resection;
   for (const std::string& text : arguments.materials) {
@@ -228,6 +229,10 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
                            "max_steps",
                            "snapshot_every"}) {
     add_scene_option(*command, arguments->scene, "solve", name);
+  }
+  add_scene_option(*command, arguments->scene, "gravity", "direction", "--gravity-direction");
+  for (const char* name : {"fluid_level", "drained", "fluid_point", "fluid_density", "image_direction"}) {
+    add_scene_option(*command, arguments->scene, "gravity", name);
   }
   for (const char* name : {"margin", "depth", "farthest"}) {
     add_scene_option(*command, arguments->scene, "load", name);

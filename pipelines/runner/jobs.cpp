@@ -304,6 +304,9 @@ SolveInput read_input(const SolveJob& job) {
   model.materials = job.materials;
   model.plane = job.plane;
   model.gravity = job.loading.gravity;
+  if (job.gravity) {
+    model.fluid = drained_fluid(*job.gravity, model.cloud.positions);
+  }
   model.curve = load_curve(job.loading);
   model.rupture = job.rupture;
   model.resection = job.resection;
@@ -349,6 +352,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
   StageReport said = report_of(result, input.options.dynamics);
   write_measured(input, result, out, said);
   warn(warnings_of(result.measures), said);
+  warn(warnings_of_weight(input.model), said);
   if (input.load && !has_inner_points(input.model)) {
     warn(warnings_of(*input.load, input.model.cloud, input.model.conditions.displacement), said);
     warn(warnings_of(input.model, result.solution.displacement), said);

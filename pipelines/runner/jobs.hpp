@@ -40,6 +40,7 @@ struct SolveJob {
   solve::SolveOptions options;
   Loading loading;
   solve::Plane plane = solve::Plane::none;
+  std::optional<Gravity> gravity = {};
   std::optional<Cuts> cuts = {};
   std::vector<solve::Cut> cut_paths = {};  ///< of a plane problem, those that are in no file
   std::optional<solve::Rupture> rupture = {};

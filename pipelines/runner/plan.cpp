@@ -137,7 +137,7 @@ bool asks_for_landmarks(const Scene& scene) {
 StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
   const SolveJob job = solve_job(scene, folder);
   std::vector<std::string> elements = load_elements(scene);
-  elements.insert(elements.end(), {"contact", "tissues", "cuts", "resection", "solve"});
+  elements.insert(elements.end(), {"contact", "tissues", "gravity", "cuts", "resection", "solve"});
   if (asks_for_landmarks(scene)) {
     elements.emplace_back("landmarks");
   }
@@ -279,6 +279,7 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
                .materials = {},
                .options = scene.solve,
                .loading = scene.loading,
+               .gravity = scene.gravity,
                .cuts = scene.cuts,
                .resection = scene.resection};
   if (scene.contact) {

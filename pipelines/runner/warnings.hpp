@@ -26,6 +26,9 @@ Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<co
 /// Of a body that nothing but its measured load holds. displacement: what came out, (n × 3) mm.
 Warnings warnings_of(const solve::Model& model, const Points& displacement);
 
+/// Of a head that is weighed as if it did not float.
+Warnings warnings_of_weight(const solve::Model& model);
+
 /// Of strong compression with few integration points.
 Warnings warnings_of(const solve::SolveMeasures& measures);
 

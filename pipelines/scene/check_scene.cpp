@@ -86,11 +86,25 @@ void check_image(const Scene& scene) {
   }
 }
 
+/// Of a scene without <load>.
+void need_something_to_move(const Scene& scene) {
+  const bool swells = std::any_of(scene.tissues.begin(), scene.tissues.end(),
+                                  [](const Tissue& tissue) { return tissue.material.swelling != 0; });
+  if (!scene.gravity && scene.loading.gravity.isZero() && !swells) {
+    fail(scene, "load",
+         "the scene has no <load>: nothing would move; name one, as <load><craniotomy file=\"...\"/></load>");
+  }
+  if (!scene.contact) {
+    fail(scene, "load",
+         "the scene has neither <load> nor <contact>: nothing would hold the brain against " +
+             std::string(swells ? "its swelling" : "gravity") + "; add <contact/>");
+  }
+}
+
 void check_load(const Scene& scene) {
   if (!scene.load) {
     if (is_ours(scene, StageId::discretise)) {
-      fail(scene, "load",
-           "the scene has no <load>: nothing would move; name one, as <load><craniotomy file=\"...\"/></load>");
+      need_something_to_move(scene);
     }
     return;
   }
@@ -151,6 +165,9 @@ void check_options(const Scene& scene) {
 void check_region(const Scene& scene) {
   solve::Model model;
   model.gravity = scene.loading.gravity;
+  if (scene.gravity) {
+    model.fluid.emplace();
+  }
   model.resection = scene.resection;
   model.cuts.resize(scene.cuts ? 1 : 0);
   check_at(scene, "solve.region", [&] { solve::check_region(model, scene.solve); });
@@ -276,6 +293,12 @@ void check_solve_options(const Scene& scene) {
                  " is given, but dynamics is relaxation, which has no time; leave it out, or set "
                  "dynamics to transient");
       }
+    }
+  }
+  if (scene.gravity) {
+    check_at(scene, "gravity", [&] { check_gravity(*scene.gravity); });
+    if (!loading.gravity.isZero()) {
+      fail(scene, "solve.gravity", "there are both <gravity> and solve.gravity, the whole weight; give one of them");
     }
   }
   if (scene.solve.region > 0) {

@@ -113,6 +113,9 @@ void explain_material(const Tissue& tissue, bool in_time, std::ostringstream& te
     text << ", E " << write_number(material.youngs_modulus) << " Pa";
   }
   text << ", nu " << write_number(material.poisson_ratio);
+  if (material.swelling != 0) {
+    text << ", grows by " << 100 * material.swelling << " % of its volume";
+  }
   if (!material.prony.empty()) {
     text << ", relaxes to mu " << solve::shear_modulus(solve::long_term(material)) << " Pa"
          << (in_time ? "" : ", with which the steady state is found");
@@ -133,6 +136,23 @@ void explain_cuts(const Scene& scene, std::ostringstream& text) {
          << "\n";
   }
   text << "  faces of cuts: " << (scene.cuts->contact ? "in contact" : "may pass through each other") << "\n";
+}
+
+std::string explained_gravity(const Scene& scene) {
+  const auto said = [&](const char* element, const char* name) {
+    return find_option(find_element(element)->options, name)->get(scene);
+  };
+  if (!scene.gravity) {
+    return scene.loading.gravity.isZero() ? "not active" : said("solve", "gravity") + " m/s2, the whole weight";
+  }
+  std::string text =
+      "along " + said("gravity", "direction") + ", fluid of " + said("gravity", "fluid_density") + " kg/m3 ";
+  if (scene.gravity->drained) {
+    return text + "drained by " + said("gravity", "drained") + " % of the brain's height";
+  }
+  return text + "down to " +
+         (scene.gravity->fluid_point ? "the point " + said("gravity", "fluid_point")
+                                     : said("gravity", "fluid_level") + " mm along it");
 }
 
 void explain_physics(const Scene& scene, std::ostringstream& text) {
@@ -161,7 +181,7 @@ void explain_physics(const Scene& scene, std::ostringstream& text) {
   }
   text << "\n  load's curve: "
        << (scene.loading.curve.empty() ? "3-4-5" : said("curve") + ", joined " + said("curve_join"))
-       << "\n  gravity: " << (scene.loading.gravity.isZero() ? "not active" : said("gravity") + " m/s2") << "\n";
+       << "\n  gravity: " << explained_gravity(scene) << "\n";
   if (scene.cuts) {
     explain_cuts(scene, text);
   }

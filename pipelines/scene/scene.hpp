@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "discretise/discretise.hpp"
+#include "pipelines/scene/gravity.hpp"
 #include "pipelines/scene/tradeoff_lists.hpp"
 #include "register/registration.hpp"
 #include "segmentation/segment.hpp"
@@ -131,6 +132,7 @@ struct Scene {
   std::vector<Tissue> tissues;
   std::optional<Load> load;
   std::optional<Contact> contact;
+  std::optional<Gravity> gravity;
   std::optional<Cuts> cuts;
   std::optional<solve::Resection> resection;
   std::optional<std::filesystem::path> landmarks;

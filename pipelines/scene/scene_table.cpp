@@ -148,6 +148,47 @@ Element cuts_element() {
                                     "whether the faces of cuts are kept from passing through each other")});
 }
 
+/// A vector of <gravity> that may be absent.
+Option<Scene> gravity_vector(std::string name, std::optional<Eigen::Vector3d> Gravity::*member, std::string unit,
+                             std::string help) {
+  const auto read = [member](Scene& scene, const std::string& words) {
+    const auto values = read_numbers<double>(words);
+    const bool three = values && values->size() == 3;
+    if (three) {
+      (*scene.gravity).*member = Eigen::Vector3d((*values)[0], (*values)[1], (*values)[2]);
+    }
+    return three || words.empty();
+  };
+  const auto given = [member](const Scene& scene) -> const auto& {
+    return (*scene.gravity).*member;
+  };
+  return {.name = std::move(name),
+          .allowed = "three numbers, or nothing",
+          .unit = std::move(unit),
+          .help = std::move(help),
+          .read = read,
+          .holds = [given](const Scene& scene) { return !given(scene) || given(scene)->allFinite(); },
+          .get = [given](const Scene& scene) { return given(scene) ? write_numbers(*given(scene)) : std::string(); }};
+}
+
+Element gravity_element() {
+  return part(
+      "gravity", "The fluid round the brain drains: tissue above its level loses its buoyancy.", &Scene::gravity,
+      {required(vector_option<Scene>("direction", MEMBER(gravity->direction), "LPS",
+                                     "in which things fall: 0,0,-1 when the patient sits, 0,1,0 on the back")),
+       number_option<Scene>("fluid_level", MEMBER(gravity->fluid_level), any_number, "mm",
+                            "of the fluid's surface along the direction, from the world's origin; one of fluid_level, "
+                            "drained and fluid_point says the level"),
+       number_option<Scene>("drained", MEMBER(gravity->drained), {.low = 0, .high = 100}, "%",
+                            "of the brain's height that lies above the fluid"),
+       gravity_vector("fluid_point", &Gravity::fluid_point, "mm, LPS", "a point on the fluid's surface"),
+       number_option<Scene>("fluid_density", MEMBER(gravity->fluid_density), {.low = 0, .high = 2000}, "kg/m3",
+                            "of cerebrospinal fluid or what it was replaced by"),
+       gravity_vector("image_direction", &Gravity::image_direction, "LPS",
+                      "in which things fell when the image was taken, where the patient was turned since: tissues then "
+                      "need their own densities (brain 1040); absent: the same direction")});
+}
+
 Element resection_element() {
   return part("resection", "Tissue that is taken out; the rest relaxes.", &Scene::resection,
               of_whole<Scene>(solve::resection_options(), MEMBER(resection.value())));
@@ -179,9 +220,10 @@ OptionTable<Scene> loading_options() {
       choice_option<Scene>("curve_join", MEMBER(loading.curve_join),
                            {{"smooth", solve::LoadCurve::Join::smooth}, {"straight", solve::LoadCurve::Join::straight}},
                            "of the curve's rows: by 3-4-5 polynomials or straight lines"),
-      vector_option<Scene>(
-          "gravity", MEMBER(loading.gravity), "m/s2, LPS",
-          "on a patient who sits 0,0,-9.81, who lies on the back 0,9.81,0; it comes with the load's curve")};
+      vector_option<Scene>("gravity", MEMBER(loading.gravity), "m/s2, LPS",
+                           "the whole weight of the tissues, as of a body in air that was imaged without weight; for a "
+                           "head, which floats "
+                           "in the image, take <gravity> with a fluid level")};
 }
 
 Element solve_element() {
@@ -234,6 +276,7 @@ std::vector<Element> make_elements() {
   elements.push_back(part("contact", "The brain slides in the rigid skull, without friction.", &Scene::contact,
                           {file_option<Scene>("skull", MEMBER(contact->skull),
                                               "surface of the skull's inside; empty: the segment stage's")}));
+  elements.push_back(gravity_element());
   elements.push_back(cuts_element());
   elements.push_back(resection_element());
   elements.push_back(

@@ -25,7 +25,8 @@ constexpr double loaded_share = 0.033;  // of the surface nodes
 // precision from tests/benchmark/run.sh. That of the essential conditions and the division of the 9 ms are not
 // measured, but guessed.
 constexpr double pair_time = 3.2, pair_time_single = 2.0, point_time = 16, node_time = 60;
-constexpr double contact_time = 500, viscous_time = 93, external_time = 1, condition_time = 300;
+constexpr double contact_time = 500, viscous_time = 93, external_time = 1, condition_time = 300, swelling_time = 3;
+constexpr double levels_in_time = 32;  // of a fluid that drains in a transient run: solve/body/lay_out.cpp
 
 /// Nodes on the surface of a ball of as many, a brain's folds having none of their own.
 double surface_nodes(double nodes) {
@@ -48,6 +49,13 @@ const Tissue* relaxing(const Scene& scene) {
     }
   }
   return nullptr;
+}
+
+/// The first tissue that swells; null: none.
+const Tissue* swelling(const Scene& scene) {
+  const auto found = std::find_if(scene.tissues.begin(), scene.tissues.end(),
+                                  [](const Tissue& tissue) { return tissue.material.swelling != 0; });
+  return found == scene.tissues.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -77,8 +85,14 @@ std::vector<PartCost> solve_costs(const Scene& scene, const SolveSize& size) {
     costs.push_back({"relaxation of the materials", "tissues." + std::to_string(tissue->label),
                      size.points * (8 + 48 * (1 + terms)), size.points * viscous_time * (1 + terms) / 3});
   }
-  if (!scene.loading.gravity.isZero()) {
-    costs.push_back({"gravity", "solve.gravity", size.nodes * 32, size.nodes * external_time});
+  if (!scene.loading.gravity.isZero() || scene.gravity) {
+    const double levels = scene.gravity && scene.solve.dynamics == solve::Dynamics::transient ? levels_in_time : 1;
+    costs.push_back(
+        {"gravity", scene.gravity ? "gravity" : "solve.gravity", levels * size.nodes * 32, size.nodes * external_time});
+  }
+  if (const Tissue* tissue = swelling(scene)) {
+    costs.push_back({"swelling", "tissues." + std::to_string(tissue->label),
+                     8.0 * static_cast<double>(scene.tissues.size()), size.points * swelling_time});
   }
   return costs;
 }

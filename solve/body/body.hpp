@@ -9,6 +9,7 @@
 #include "solve/arrays/nodal_vectors.hpp"
 #include "solve/boundary/contact.hpp"
 #include "solve/boundary/essential_conditions.hpp"
+#include "solve/boundary/external_force.hpp"
 #include "solve/boundary/face_contact.hpp"
 #include "solve/force/point_blocks.hpp"
 #include "solve/force/point_laws.hpp"
@@ -39,7 +40,7 @@ struct Body {
   EssentialConditions essential;
   std::optional<Contact> contact;
   std::optional<FaceContact> face_contact;
-  NodalVectors external;  ///< forces on the parameters under the full load, µN; empty: none
+  ExternalForce external;
 
   std::size_t nodes() const { return original.size(); }
 };

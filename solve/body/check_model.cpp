@@ -2,6 +2,7 @@
 #include "solve/body/check_model.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -19,7 +20,7 @@ namespace {
 
 /// Rigid motions that the conditions leave free make the steady state undefined. A plane has three, x, y and the turn
 /// about z, else there are six.
-void check_held(const OrderedCloud& cloud, Plane plane, bool contact) {
+void check_held(const OrderedCloud& cloud, Plane plane, bool contact, bool pushed) {
   std::vector<Eigen::Matrix<double, 1, 6>> rows;
   const Eigen::RowVector3d centre = cloud.positions.colwise().mean();
   const double size = (cloud.positions.rowwise() - centre).cwiseAbs().maxCoeff();
@@ -41,8 +42,14 @@ void check_held(const OrderedCloud& cloud, Plane plane, bool contact) {
     row << Eigen::Matrix3d::Identity(), Eigen::Matrix3d{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
     rows.insert(rows.end(), {row.row(0), row.row(1), row.row(2)});
   }
+  if (rows.empty() && contact && pushed) {
+    return;  // the skull holds it
+  }
   if (rows.empty()) {
-    throw std::invalid_argument("nothing is prescribed: no node is loaded or held; give a load");
+    throw std::invalid_argument(
+        pushed ? "nothing holds the body: no displacement is prescribed, and there is no skull to stop it; hold "
+                 "three nodes that are not in line, or add contact"
+               : "nothing is prescribed: no node is loaded or held; give a load");
   }
   Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
   for (const auto& row : rows) {
@@ -108,7 +115,11 @@ void check_model(const Model& model) {
 }
 
 void check_held(const OrderedCloud& cloud, const Model& model) {
-  check_held(cloud, model.plane, model.skull.has_value());
+  const bool swells = std::any_of(model.materials.begin(), model.materials.end(),
+                                  [](const auto& material) { return material.second.swelling != 0; });
+  const bool pushed =
+      swells || model.fluid || model.body_force || !model.gravity.isZero() || cloud.conditions.force.rows() > 0;
+  check_held(cloud, model.plane, model.skull.has_value(), pushed);
 }
 
 void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, const Model& model) {
@@ -120,7 +131,9 @@ void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, co
   for (const auto& [root, members] : nodes) {
     OrderedCloud alone;
     alone.positions = cloud.positions(members, Eigen::all);
-    alone.conditions.displacement = cloud.conditions.displacement(members, Eigen::all);
+    if (cloud.conditions.displacement.rows() > 0) {
+      alone.conditions.displacement = cloud.conditions.displacement(members, Eigen::all);
+    }
     try {
       check_held(alone, model);
     } catch (const std::invalid_argument& error) {

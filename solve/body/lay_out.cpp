@@ -2,9 +2,11 @@
 #include "solve/body/lay_out.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "solve/boundary/external_force.hpp"
+#include "solve/boundary/fluid_force.hpp"
 #include "solve/force/stiffness_bound.hpp"
 #include "solve/shape/too_few_nodes.hpp"
 
@@ -23,8 +25,8 @@ void check_supported(const PointBlocks& blocks, const OrderedCloud& cloud) {
   }
 }
 
-/// Forces on the parameters under the full load, µN; empty when nothing pushes.
-NodalVectors external_force(const Model& model, const BodyParts& parts) {
+/// Forces on the parameters under the full load, µN, without the fluid's; empty when nothing pushes.
+NodalVectors full_force(const Model& model, const BodyParts& parts) {
   const bool gravity = !model.gravity.isZero();
   const Points& at_nodes = parts.cloud.conditions.force;
   if (at_nodes.rows() == 0 && !gravity && !model.body_force) {
@@ -48,11 +50,45 @@ NodalVectors external_force(const Model& model, const BodyParts& parts) {
   return force;
 }
 
+/// In a transient run the fluid's level sinks with the load's curve, from the top of the body on; to rest only where it
+/// ends counts.
+ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamics dynamics) {
+  NodalVectors force = full_force(model, parts);
+  if (!model.fluid) {
+    return ExternalForce(std::move(force));
+  }
+  force.resize(4 * parts.cloud.size(), 0.0);
+  constexpr int levels_in_time = 32;
+  const int levels = dynamics == Dynamics::transient ? levels_in_time : 1;
+  const double top = highest(model.fluid->gravity, parts.cloud.positions);
+  std::vector<NodalVectors> at_levels;
+  for (int k = 1; k <= levels; ++k) {
+    const double fraction = static_cast<double>(k) / levels;
+    DrainedFluid fluid = *model.fluid;
+    const bool covered =
+        fluid.level <= top;  // points on the surface may stand out, as the cubes that they are taken for
+    fluid.level = covered ? -std::numeric_limits<double>::infinity() : top + fraction * (fluid.level - top);
+    fluid.gravity_of_image = fluid.gravity + fraction * (fluid.gravity_of_image - fluid.gravity);
+    NodalVectors& total = at_levels.emplace_back(force);
+    for (double& f : total) {
+      f *= fraction;
+    }
+    add_fluid_force(fluid, model.materials, parts.points, parts.point_rows, total);
+  }
+  return ExternalForce(std::move(at_levels));
+}
+
 /// The laws as stepping needs them: at rest relaxed materials have relaxed.
 PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics) {
   PointLaws laws;
   for (const Material& m : table.material) {
     laws.elastic.push_back(elastic_law(dynamics == Dynamics::relaxation ? long_term(m) : m));
+  }
+  for (const Material& m : table.material) {
+    laws.swelling.push_back(m.swelling);
+  }
+  if (std::all_of(laws.swelling.begin(), laws.swelling.end(), [](double s) { return s == 0; })) {
+    laws.swelling.clear();
   }
   laws.plane_stress = plane == Plane::stress;
   laws.in_time = dynamics == Dynamics::transient;
@@ -125,7 +161,7 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
       .essential = essential_conditions(options, parts),
       .contact = {},
       .face_contact = {},
-      .external = external_force(model, parts),
+      .external = external_force(model, parts, options.dynamics),
   };
   if (in_time) {
     body.mass = physical_mass(body.points, parts.materials.density);

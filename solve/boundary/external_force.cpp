@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/boundary/external_force.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace brainshift::solve {
 
 namespace {
@@ -15,6 +19,69 @@ void spread(const Eigen::Vector3d& force, const ShapeRows& rows, std::size_t row
 }
 
 }  // namespace
+
+ExternalForce::ExternalForce(NodalVectors full) {
+  if (!full.empty()) {
+    at_.push_back(std::move(full));
+  }
+}
+
+ExternalForce::ExternalForce(std::vector<NodalVectors> at_fractions) : at_(std::move(at_fractions)) {}
+
+namespace {
+
+/// Weights of two neighbouring entries of a table over (0, 1] in equal steps, whose entry before the first is nothing.
+struct Between {
+  std::size_t upper;  ///< entry; the lower is the one before it
+  double share;       ///< of the upper; the lower has the rest
+
+  Between(double fraction, std::size_t entries) {
+    const double place = fraction * static_cast<double>(entries);
+    upper = static_cast<std::size_t>(std::clamp(std::floor(place), 0.0, static_cast<double>(entries - 1)));
+    share = place - static_cast<double>(upper);
+  }
+};
+
+}  // namespace
+
+void ExternalForce::subtract(double fraction, NodalVectors& force) const {
+  if (empty()) {
+    return;
+  }
+  const Between between(fraction, at_.size());
+  const NodalVectors& upper = at_[between.upper];
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    force[i] -= between.share * upper[i];
+  }
+  if (between.upper > 0) {
+    const NodalVectors& lower = at_[between.upper - 1];
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      force[i] -= (1 - between.share) * lower[i];
+    }
+  }
+}
+
+double ExternalForce::work(double from, double to, const NodalVectors& start, const NodalVectors& end) const {
+  if (empty()) {
+    return 0;
+  }
+  std::vector<double> share(at_.size(), 0.0);  // of each entry in the mean force
+  for (const double fraction : {from, to}) {
+    const Between between(fraction, at_.size());
+    share[between.upper] += between.share / 2;
+    if (between.upper > 0) {
+      share[between.upper - 1] += (1 - between.share) / 2;
+    }
+  }
+  double work = 0;
+  for (std::size_t k = 0; k < at_.size(); ++k) {
+    if (share[k] != 0) {
+      work += share[k] * sum_over_nodes(at_[k].size() / 4,
+                                        [&](std::size_t a) { return at(at_[k], a).dot(at(end, a) - at(start, a)); });
+    }
+  }
+  return work;
+}
 
 void add_nodal_force(const Points& force, const ShapeRows& nodal_rows, NodalVectors& total) {
   for (std::size_t a = 0; a < nodal_rows.size(); ++a) {

@@ -78,12 +78,31 @@ void Motion::weigh(std::span<const double> mass, double alpha) {
   }
 }
 
+void Motion::find_force(const PointLaws& laws) {
+  scratch.swell(laws, fraction_);
+  internal_force(body.points, laws, now, scratch, force);
+}
+
+/// What swelling does to the strain energy at a displacement that stands still: of the fraction's changes before and
+/// after the last force each half, as the trapezoidal rule has it.
+void Motion::add_swelling_work(const PointLaws& laws, double next_fraction) {
+  if (laws.swelling.empty() || (fraction_ == fraction_before_ && next_fraction == fraction_)) {
+    return;
+  }
+  const auto energy_at = [&](double fraction) {
+    scratch.swell(laws, fraction);
+    return point_state(body.points, laws, scratch).strain_energy;
+  };
+  const double from = energy_at(fraction_before_), to = energy_at(next_fraction), here = energy_at(fraction_);
+  external_work_ += (swelling_work_ + here - from) / 2;
+  swelling_work_ = to - here;
+}
+
 void Motion::step(const PointLaws& laws, std::span<const double> mass, double alpha, double beta, double end,
                   double fraction) {
-  internal_force(body.points, laws, now, scratch, force);
-  for (std::size_t i = 0; i < body.external.size(); ++i) {
-    force[i] -= fraction_ * body.external[i];
-  }
+  find_force(laws);
+  add_swelling_work(laws, fraction);
+  body.external.subtract(fraction_, force);
   const auto nodes = static_cast<std::int64_t>(body.nodes());
 #pragma omp parallel for schedule(static)
   for (std::int64_t i = 0; i < nodes; ++i) {
@@ -114,11 +133,7 @@ void Motion::add_energies(std::span<const double> mass, double alpha, double bet
   const double rate = body.essential.multiplier_work() / alpha;
   external_work_ += (fraction_ - fraction_before_) * (rate + work_rate_) / 2 + force_work_;
   work_rate_ = rate;
-  if (!body.external.empty()) {
-    force_work_ = (fraction + fraction_) / 2 * sum_over_nodes(body.nodes(), [this](std::size_t a) {
-                    return at(body.external, a).dot(at(next, a) - at(now, a));
-                  });
-  }
+  force_work_ = body.external.work(fraction_, fraction, now, next);
   dissipated_ += lost_work_ / 2;
   lost_work_ = 0;
   if (beta < 1) {
@@ -145,7 +160,7 @@ void Motion::start_from(const NodalVectors& parameters, const PointLaws& laws) {
   time = 1;
   body.essential.apply(fraction_, now);
   before = next = now;
-  internal_force(body.points, laws, now, scratch, force);
+  find_force(laws);
   external_work_ = point_state(body.points, laws, scratch).strain_energy;
 }
 
@@ -275,7 +290,7 @@ void Motion::go_on_with(ChangedBody changed, const PointLaws& laws) {
 }
 
 double Motion::energy(const PointLaws& laws, std::span<const double> mass) {
-  internal_force(body.points, laws, now, scratch, force);
+  find_force(laws);
   const double motion = sum_over_nodes(
       body.nodes(), [this, mass](std::size_t a) { return mass[a] * (at(now, a) - at(before, a)).squaredNorm(); });
   return point_state(body.points, laws, scratch).strain_energy + motion * (1 + beta_) / (4 * alpha_);

@@ -59,6 +59,9 @@ class Motion {
   double time = 0;
 
  private:
+  /// f_int at `now`, of tissues swollen by the fraction of the load there.
+  void find_force(const PointLaws& laws);
+  void add_swelling_work(const PointLaws& laws, double next_fraction);
   void go_on_with(ChangedBody changed, const PointLaws& laws);
   LastSteps last_steps() const { return {now, before, next}; }
   void note_broken_point(double smallest_jacobian);
@@ -74,8 +77,9 @@ class Motion {
   double fraction_ = 0;          // of the load, at `now`
   double fraction_before_ = 0;
   double work_rate_ = 0;
-  double force_work_ = 0;  // of the forces over the last step
-  double lost_work_ = 0;   // in damping and contact, from the middle of the step before to that of the last
+  double force_work_ = 0;     // of the forces over the last step
+  double swelling_work_ = 0;  // of swelling over the last step, at its start
+  double lost_work_ = 0;      // in damping and contact, from the middle of the step before to that of the last
   double external_work_ = 0;
   double dissipated_ = 0;
   double largest_energy_ = 0;    // mJ

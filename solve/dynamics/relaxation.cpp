@@ -29,6 +29,15 @@ double critical_beta(double lowest_eigenvalue) {
   return root * root;
 }
 
+/// By how much swelling stiffens the body in the end: a tissue that has grown by a stretch s has s times its tangent.
+double stiffening(const PointLaws& laws) {
+  double most = 0;
+  for (const double swelling : laws.swelling) {
+    most = std::max(most, swelling);
+  }
+  return std::cbrt(1 + most);
+}
+
 class Relaxation {
  public:
   /// cautious: masses from the bound, which holds whatever the state; else from the largest eigenvalue as measured.
@@ -43,6 +52,7 @@ class Relaxation {
     if (!cautious) {
       mass_scale_ = bound_tightness(points(), laws(), mass_, mass_);
     }
+    mass_scale_ *= stiffening(laws());
     for (double& m : mass_) {
       m *= mass_margin * mass_scale_;
     }

@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace brainshift::solve {
 
@@ -36,6 +37,7 @@ ForceScratch::ForceScratch(const PointBlocks& points, const PointLaws& laws)
   if (laws.plane_stress) {
     thickness.assign(points.points(), 1.0);
   }
+  growth.assign(laws.swelling.size(), 1.0);
   if (!laws.prony.empty()) {
     std::size_t size = 0;
     viscous_begin.reserve(points.points());
@@ -47,6 +49,12 @@ ForceScratch::ForceScratch(const PointBlocks& points, const PointLaws& laws)
       }
     }
     viscous_state.assign(size, 0.0);
+  }
+}
+
+void ForceScratch::swell(const PointLaws& laws, double fraction) {
+  for (std::size_t row = 0; row < growth.size(); ++row) {
+    growth[row] = std::cbrt(1 + fraction * laws.swelling[row]);
   }
 }
 

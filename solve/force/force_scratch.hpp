@@ -61,10 +61,18 @@ struct ForceScratch {
   std::vector<double> jacobian;                 ///< transient: J of each point
   std::vector<JacobianRange> block_jacobian;    ///< one a block
   std::vector<double> thickness;                ///< plane stress: F_33 of each point, where the next search starts
+  std::vector<double> growth = {};              ///< with swelling: stretch at rest, one a row of the laws; see swell()
   std::vector<std::size_t> viscous_begin = {};  ///< transient with Prony terms: offset of each point's state
   std::vector<double> viscous_state = {};
 
   ForceScratch(const PointBlocks& points, const PointLaws& laws);
+
+  /// Lets the tissues swell by a fraction of what the laws say: the next internal_force() and all that reads the
+  /// gradients of the last one see it.
+  void swell(const PointLaws& laws, double fraction);
+
+  /// Stretch at rest of a row of the laws: 1 without swelling.
+  double growth_of(std::int32_t row) const { return growth.empty() ? 1 : growth[static_cast<std::size_t>(row)]; }
 
   /// Takes over what the points of another remember; from: the number there of each point here.
   void remember(const ForceScratch& other, std::span<const std::int32_t> from);

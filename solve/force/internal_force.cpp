@@ -33,6 +33,16 @@ void gather(const PointBlocks& points, const Block& block, const NodalVectors& p
   }
 }
 
+void scale(std::vector<TensorLanes>& tensors, std::size_t points, double factor) {
+  for (std::size_t g = 0; g < groups_of(points); ++g) {
+    for (auto& entry : tensors[g].entry) {
+      for (double& value : entry) {
+        value *= factor;
+      }
+    }
+  }
+}
+
 template <class Scalar>
 void block_force(const PointBlocks& points, const Block& block, const PointLaws& laws, const NodalVectors& parameters,
                  ForceScratch& scratch, Batch& room) {
@@ -50,8 +60,15 @@ void block_force(const PointBlocks& points, const Block& block, const PointLaws&
     left = left.subspan(batch.patches.size());
     const PairRows<Scalar> rows = points.rows<Scalar>();
     kernels.of<Scalar>().gradients(rows, batch.first(), batch.last(), displacement, room.gradient.data());
+    const double growth = scratch.growth_of(batch.patches.front().material);
+    if (growth != 1) {
+      scale(room.gradient, batch.size(), 1 / growth);
+    }
     std::visit([&](const auto& law) { batch_stress(batch, law, laws, kernels, scratch); },
                laws.elastic[static_cast<std::size_t>(batch.patches.front().material)]);
+    if (growth != 1) {
+      scale(room.stress, batch.size(), growth * growth);
+    }
     kernels.of<Scalar>().spread(rows, batch.first(), batch.last(), room.stress.data(), force);
     follow_jacobian(batch, scratch.jacobian, range);
   }
@@ -138,6 +155,7 @@ std::vector<Eigen::Matrix3d> gradients_of(const PointBlocks& points, const Patch
     gradients.push_back(points.precision() == Precision::single_precision
                             ? gradient_at<float>(points, p, slot_node, scratch.parameters)
                             : gradient_at<double>(points, p, slot_node, scratch.parameters));
+    gradients.back() /= scratch.growth_of(patch.material);
     if (!scratch.thickness.empty()) {
       gradients.back()(2, 2) = scratch.thickness[static_cast<std::size_t>(p)];
     }

@@ -8,13 +8,15 @@
 
 namespace brainshift::solve {
 
-/// F at each point of a patch, at the parameters of the last internal_force().
+/// The elastic F_e at each point of a patch, at the parameters of the last internal_force(): where a tissue swells F is
+/// F_e times ForceScratch::growth_of() its row, else F_e.
 std::vector<Eigen::Matrix3d> gradients_of(const PointBlocks& points, const Patch& patch, const ForceScratch& scratch);
 
 /// f_int,a = Σ_I w P B_a (µN) at parameters û (mm); P the first Piola–Kirchhoff stress. Its volumetric part is K θ̄
 /// ∂θ/∂F with the law's dilatation θ projected onto the patch's pressure modes, θ̄ = Σ_k ψ_k Σ_I w ψ_k θ, which is the
-/// variation of Σ_I w K/2 θ̄²: no volumetric locking. All threads; the result does not depend on their number. Where
-/// laws.prony is not empty each call is a time step of the viscous states.
+/// variation of Σ_I w K/2 θ̄²: no volumetric locking. A tissue that swells by a stretch s, F = s F_e, has the energy
+/// s³ W(F_e) and the stress s² P(F_e) (Rodriguez, Hoger & McCulloch 1994). All threads; the result does not depend on
+/// their number. Where laws.prony is not empty each call is a time step of the viscous states.
 void internal_force(const PointBlocks& points, const PointLaws& laws, const NodalVectors& parameters,
                     ForceScratch& scratch, NodalVectors& force);
 

@@ -13,6 +13,7 @@ namespace brainshift::solve {
 struct PointLaws {
   std::vector<ElasticLaw> elastic;
   std::vector<PronyStep> prony = {};  ///< one a row in a transient run where some material relaxes, else empty
+  std::vector<double> swelling = {};  ///< one a row, Material::swelling; empty: none
   bool plane_stress = false;          ///< F_33 follows from P_33 = 0; patches are then single points
   bool in_time = false;               ///< a transient run: it follows how fast J falls at each point
 };

@@ -16,13 +16,14 @@ void add_patch(const PointBlocks& points, const Patch& patch, const ElasticLaw& 
                PointState& state) {
   const std::vector<Eigen::Matrix3d> gradients = gradients_of(points, patch, scratch);
   const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, gradients);
+  const double growth = scratch.growth_of(patch.material), volume_at_rest = growth * growth * growth;
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const Deformation d(gradients[static_cast<std::size_t>(p - patch.first_point)]);
     const double volumetric = point_energy(law, dilatations.dot(points.modes_of(p)), law.dilatation(d));
     const double volume = points.volume[static_cast<std::size_t>(p)];
-    state.strain_energy += volume * (law.isochoric_energy(d) + volumetric);
-    state.smallest_jacobian = lesser(state.smallest_jacobian, d.jacobian);
-    const Eigen::Vector3d stretches = principal_stretches(d.gradient);
+    state.strain_energy += volume * volume_at_rest * (law.isochoric_energy(d) + volumetric);
+    state.smallest_jacobian = lesser(state.smallest_jacobian, volume_at_rest * d.jacobian);
+    const Eigen::Vector3d stretches = growth * principal_stretches(d.gradient);
     state.largest_stretch = std::max(state.largest_stretch, stretches.maxCoeff());
     state.compressed_share += stretches.minCoeff() < crease_stretch ? volume : 0;
   }

@@ -48,7 +48,7 @@ struct BlockSums {
 };
 
 template <class ElasticLaw>
-void add_shape_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law,
+void add_shape_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, double growth,
                      std::span<const Eigen::Matrix3d> gradients, BlockSums& sums) {
   ElasticLaw alone = law;  // as its patch leaves it to the point
   const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, gradients);
@@ -59,8 +59,8 @@ void add_shape_bound(const PointBlocks& points, const Patch& patch, const Elasti
     const double tangent =
         largest_tangent(alone, gradient, point_pressure(law, dilatations.dot(points.modes_of(p)), dilatation));
     const auto b = derivatives(points, p);
-    const double scale =
-        points.volume[static_cast<std::size_t>(p)] * std::max(tangent, 2 * law.shear_modulus) * weighted_norm(b);
+    const double scale = growth * points.volume[static_cast<std::size_t>(p)] *
+                         std::max(tangent, 2 * law.shear_modulus) * weighted_norm(b);
     Eigen::Index a = 0;
     for (const std::uint16_t slot : points.slots_of(p)) {
       sums.bound[slot] += scale * b.col(a++).norm();
@@ -69,7 +69,7 @@ void add_shape_bound(const PointBlocks& points, const Patch& patch, const Elasti
 }
 
 template <class ElasticLaw>
-void add_volume_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law,
+void add_volume_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, double growth,
                       std::span<const Eigen::Matrix3d> gradients, BlockSums& sums) {
   sums.touched.clear();
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
@@ -92,7 +92,7 @@ void add_volume_bound(const PointBlocks& points, const Patch& patch, const Elast
     total += sums.mode[slot].colwise().norm();
   }
   for (const std::uint16_t slot : sums.touched) {
-    sums.bound[slot] += law.bulk_modulus * total.dot(sums.mode[slot].colwise().norm());
+    sums.bound[slot] += growth * law.bulk_modulus * total.dot(sums.mode[slot].colwise().norm());
     sums.mode[slot].setZero();
   }
 }
@@ -117,10 +117,11 @@ std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& 
     for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
       const Patch& patch = points.patches[static_cast<std::size_t>(k)];
       const std::vector<Eigen::Matrix3d> gradients = gradients_of(points, patch, scratch);
+      const double growth = scratch.growth_of(patch.material);
       std::visit(
           [&](const auto& law) {
-            add_shape_bound(points, patch, law, gradients, sums);
-            add_volume_bound(points, patch, law, gradients, sums);
+            add_shape_bound(points, patch, law, growth, gradients, sums);
+            add_volume_bound(points, patch, law, growth, gradients, sums);
           },
           laws.elastic[static_cast<std::size_t>(patch.material)]);
     }

@@ -22,6 +22,16 @@ namespace brainshift::solve {
 /// Force per undeformed volume at an undeformed place (mm) and label, N/mm³.
 using BodyForce = std::function<Eigen::Vector3d(const Eigen::Vector3d& position, std::int32_t label)>;
 
+/// The fluid that held the body when it was imaged, drained to a level. The image shows a state of rest, so only the
+/// change of the load acts: tissue above the level has lost its buoyancy, and a patient who was turned weighs another
+/// way. Where the tissue lies is taken from the undeformed body.
+struct DrainedFluid {
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();           ///< m/s², now
+  Eigen::Vector3d gravity_of_image = Eigen::Vector3d::Zero();  ///< m/s², when the image was taken
+  double level = 0;                                            ///< mm along gravity: what lies less far is above it
+  double density = 1007;                                       ///< kg/m³
+};
+
 /// Three dimensions, or a plane problem on nodes and cells with z = 0; forces are then per mm of thickness.
 enum class Plane : std::uint8_t { none, strain, stress };
 
@@ -36,6 +46,7 @@ struct Model {
   std::optional<Surface> skull;                ///< rigid, frictionless contact from inside; absent: none
   Plane plane = Plane::none;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s²
+  std::optional<DrainedFluid> fluid = {};             ///< what its draining changes; absent: nothing
   BodyForce body_force = {};                          ///< N/mm³ undeformed; empty: none
   std::vector<Cut> cuts = {};
   bool face_contact = false;  ///< of cuts: their faces do not pass through each other

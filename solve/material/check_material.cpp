@@ -77,6 +77,7 @@ void check_material(const std::string& name, const Material& material) {
   }
   check_constant(name, material, "poisson_ratio");
   check_constant(name, material, "density");
+  check_constant(name, material, "swelling");
   check_prony(name, material);
 }
 

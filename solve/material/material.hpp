@@ -26,6 +26,13 @@ struct PronyTerm {
   double time;   ///< τ_i > 0, s
 };
 
+/// Whether a tissue is a room of fluid, and what becomes of it when the fluid of the body drains to a level.
+enum class Room : std::uint8_t {
+  none,     ///< solid: above the level it loses its buoyancy
+  drained,  ///< it drains with the level: the fluid leaves its wall
+  full,     ///< closed: the fluid goes on pressing on its wall as in the image
+};
+
 struct OwnElasticity;
 
 /// A tissue as the user describes it. material_options.cpp says what each constant may be, check_material what they
@@ -34,6 +41,8 @@ struct Material {
   double youngs_modulus = 3000;  ///< E at rest, Pa; the laws ogden and own say their shear modulus instead
   double poisson_ratio = 0.49;   ///< ν at rest
   double density = 1000;         ///< kg/m³
+  double swelling = 0;           ///< share of its volume by which it grows when nothing holds it, under the full load
+  Room room = Room::none;        ///< in a body whose fluid drains
   Law law = Law::neo_hookean;
   std::vector<OgdenTerm> ogden = {};              ///< of the law ogden only
   std::vector<PronyTerm> prony = {};              ///< how the isochoric part relaxes; none: it does not

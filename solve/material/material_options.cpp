@@ -33,7 +33,14 @@ const OptionTable<Material>& material_options() {
       pairs_option<Material>("ogden", &Material::ogden, "pairs mu,alpha separated by semicolons, or nothing",
                              "Pa and 1", "terms of the law ogden, as 842,-4.7"),
       pairs_option<Material>("prony", &Material::prony, "pairs share,time separated by semicolons, or nothing",
-                             "1 and s", "how the isochoric stress relaxes, as 0.450,0.50; 0.365,50")};
+                             "1 and s", "how the isochoric stress relaxes, as 0.450,0.50; 0.365,50"),
+      number_option<Material>("swelling", &Material::swelling, {.low = -0.9, .high = 10}, "",
+                              "share of its volume by which the tissue grows (oedema) or shrinks (below 0) when "
+                              "nothing holds it; it comes with the load's curve"),
+      choice_option<Material>("room", &Material::room,
+                              {{"none", Room::none}, {"drained", Room::drained}, {"full", Room::full}},
+                              "of a scene with <gravity>: whether the tissue is a room of fluid that drains with the "
+                              "level, or stays full and goes on pressing on its wall; none: it is solid")};
   return table;
 }
 

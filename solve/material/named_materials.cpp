@@ -14,7 +14,7 @@ const std::map<std::string, Material, std::less<>>& table() {
       {"brain_ogden", {.law = Law::ogden, .ogden = {{842, -4.7}}}},
       {"brain_viscoelastic", {.law = Law::ogden, .ogden = {{842, -4.7}}, .prony = {{0.450, 0.50}, {0.365, 50}}}},
       {"tumour", {.youngs_modulus = 9000, .poisson_ratio = 0.49}},
-      {"ventricle", {.youngs_modulus = 10, .poisson_ratio = 0.1}},
+      {"ventricle", {.youngs_modulus = 10, .poisson_ratio = 0.1, .room = Room::drained}},
   };
   return materials;
 }

@@ -156,7 +156,7 @@ SolveResult solve_whole(const Model& model, SolveOptions options, double seconds
 void check_region(const Model& model, const SolveOptions& options) {
   const std::pair<bool, const char*> refused[] = {
       {options.dynamics == Dynamics::transient, "transient dynamics: waves run through the whole body"},
-      {!model.gravity.isZero(), "gravity: it moves the whole body"},
+      {!model.gravity.isZero() || model.fluid, "gravity: it moves the whole body"},
       {model.conditions.force.rows() > 0 || model.body_force, "forces: take prescribed displacements alone"},
       {options.integration_tolerance > 0, "adaptive integration"},
       {!model.cuts.empty() || model.rupture, "cuts or rupture"},

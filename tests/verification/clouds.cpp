@@ -176,6 +176,23 @@ NodeCloud rectangle_cloud(double width, double height, double least_distance, un
   return darts.cloud(true);
 }
 
+NodeCloud half_ball_cloud(double radius, double least_distance, unsigned seed) {
+  Darts darts(least_distance, seed);
+  const auto on_ball = [&](double r) {
+    const double up = darts.uniform();
+    return on_circle(r * std::sqrt(1 - up * up), darts.uniform(), r * up);
+  };
+  darts.along(2 * pi * radius, true, [&](double turns) { return on_circle(radius, turns, 0); });
+  darts.fill([&] { return on_circle(radius * std::sqrt(darts.uniform()), darts.uniform(), 0); }, true);
+  darts.fill([&] { return on_ball(radius); }, true);
+  const double off = from_boundary * least_distance;
+  for (int in_vain = 0; in_vain < 3000;) {
+    const Eigen::Vector3d x = on_ball((radius - off) * std::cbrt(darts.uniform()));
+    in_vain = x.z() > off && darts.put(x, false) ? 0 : in_vain + 1;
+  }
+  return darts.cloud();
+}
+
 NodeCloud hollow_ball_cloud(double inner, double outer, double least_distance, unsigned seed) {
   Darts darts(least_distance, seed);
   const auto direction = [&] {
@@ -235,6 +252,35 @@ Surface cylinder_surface(double radius, double height) {
     surface.triangles.row(4 * i + 1) << i, sides + next, sides + i;
     surface.triangles.row(4 * i + 2) << next, i, 2 * sides;
     surface.triangles.row(4 * i + 3) << sides + i, sides + next, 2 * sides + 1;
+  }
+  return surface;
+}
+
+Surface half_ball_surface(double radius) {
+  constexpr int sides = 160, rings = 40;  // from the rim to the pole
+  Surface surface;
+  surface.vertices.resize(sides * rings + 2, 3);
+  surface.triangles.resize(2 * sides * rings, 3);
+  const int pole = sides * rings, middle = pole + 1;
+  surface.vertices.row(pole) << 0, 0, radius;
+  surface.vertices.row(middle) << 0, 0, 0;
+  int triangle = 0;
+  for (int k = 0; k < rings; ++k) {
+    const double angle = pi / 2 * k / rings;
+    for (int i = 0; i < sides; ++i) {
+      const int a = k * sides + i, b = k * sides + (i + 1) % sides;
+      surface.vertices.row(a) =
+          on_circle(radius * std::cos(angle), static_cast<double>(i) / sides, radius * std::sin(angle));
+      if (k == 0) {
+        surface.triangles.row(triangle++) << middle, b, a;
+      }
+      if (k + 1 == rings) {
+        surface.triangles.row(triangle++) << a, b, pole;
+      } else {
+        surface.triangles.row(triangle++) << a, b, b + sides;
+        surface.triangles.row(triangle++) << a, b + sides, a + sides;
+      }
+    }
   }
   return surface;
 }

@@ -76,6 +76,9 @@ NodeCloud box_cloud(const Eigen::Vector3d& size, double least_distance, unsigned
 NodeCloud rectangle_cloud(double width, double height, double least_distance, unsigned seed,
                           std::function<double(const Eigen::Vector3d&)> fineness = {});
 
+/// The half of a ball about the origin with z ≥ 0, with nodes on the rim.
+NodeCloud half_ball_cloud(double radius, double least_distance, unsigned seed);
+
 /// An eighth of a hollow ball: x, y, z ≥ 0, between two radii.
 NodeCloud hollow_ball_cloud(double inner, double outer, double least_distance, unsigned seed);
 
@@ -89,5 +92,8 @@ discretise::Refinement refinement_about(const Grading& grading, double radius);
 
 /// Closed surface of a cylinder along z, a prism of many sides.
 Surface cylinder_surface(double radius, double height);
+
+/// Closed surface of the half of a ball with z ≥ 0, of its volume to a thousandth.
+Surface half_ball_surface(double radius);
 
 }  // namespace brainshift::verification

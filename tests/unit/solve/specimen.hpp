@@ -73,6 +73,10 @@ struct Specimen {
     PointLaws laws;
     for (const Material& m : materials) {
       laws.elastic.push_back(elastic_law(m));
+      if (m.swelling != 0) {
+        laws.swelling.resize(materials.size(), 0.0);
+        laws.swelling[laws.elastic.size() - 1] = m.swelling;
+      }
     }
     laws.plane_stress = plane_stress;
     return laws;

@@ -23,6 +23,9 @@ const std::vector<NamedCase>& all_cases() {
                                                {"adaptive_integration", adaptive_cases::adaptive_integration},
                                                {"cut_path", cuts_cases::cut_path},
                                                {"cut_block", cuts_cases::cut_block},
+                                               {"wet_block", fluid_cases::wet_block},
+                                               {"wet_ball", fluid_cases::wet_ball},
+                                               {"bilayer", swelling_cases::bilayer},
                                                {"tear", tear_cases::tear}};
   return cases;
 }

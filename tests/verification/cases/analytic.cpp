@@ -134,7 +134,7 @@ Outcome homogeneous(bool small) {
 /// other.
 Outcome cantilever(bool small) {
   constexpr double length = 100, depth = 20, force = 6e-7;  // mm, mm, N/mm
-  const solve::Material material = {3000, 0.3, 1000, solve::Law::linear_elastic};
+  const solve::Material material = {.poisson_ratio = 0.3, .law = solve::Law::linear_elastic};
   const double youngs = 1e-6 * material.youngs_modulus, nu = material.poisson_ratio;  // N/mm²
   const double inertia = std::pow(depth, 3) / 12;
   const auto exact = [&](const Eigen::RowVector3d& at) {
@@ -210,7 +210,7 @@ BackgroundCells hollow_ball_cells(double inner, double outer, int radial, int an
 /// Lamé: u = A r + B / r², without stress at the outer radius; the inner one is widened.
 Outcome pressurised_ball(bool small) {
   constexpr double inner = 10, outer = 20, widened = 0.01, poisson_ratio = 0.49;  // mm
-  const solve::Material material = {3000, poisson_ratio, 1000, solve::Law::linear_elastic};
+  const solve::Material material = {.poisson_ratio = poisson_ratio, .law = solve::Law::linear_elastic};
   const double shear = solve::shear_modulus(material), bulk = solve::bulk_modulus(material);
   const double ratio = 4 * shear / (3 * bulk * std::pow(outer, 3));  // A / B
   const double b = widened / (ratio * inner + 1 / (inner * inner));

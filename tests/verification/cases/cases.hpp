@@ -42,6 +42,11 @@ namespace extension_cases {
 Outcome extension(bool small);
 }  // namespace extension_cases
 
+namespace fluid_cases {
+Outcome wet_block(bool small);
+Outcome wet_ball(bool small);
+}  // namespace fluid_cases
+
 namespace large_strain_cases {
 Outcome there_and_back(bool small);
 Outcome indentation(bool small);
@@ -54,6 +59,10 @@ Outcome resection(bool small);
 namespace singular_clouds_cases {
 Outcome singular_clouds(bool small);
 }  // namespace singular_clouds_cases
+
+namespace swelling_cases {
+Outcome bilayer(bool small);
+}  // namespace swelling_cases
 
 namespace tear_cases {
 Outcome tear(bool small);

@@ -34,7 +34,7 @@ Eigen::Vector3d squeeze(const Eigen::Vector3d& x) {
 
 /// L2 norm of the error over that of the solution, at random points.
 double manufactured_error(Basis basis, double least_distance, double& seconds) {
-  const solve::Material material = {3000, 0.3, 1000, solve::Law::linear_elastic};
+  const solve::Material material = {.poisson_ratio = 0.3, .law = solve::Law::linear_elastic};
   const double shear = solve::shear_modulus(material);
   const double wave_modulus = solve::bulk_modulus(material) + 4 * shear / 3;
   solve::Model model;

@@ -74,7 +74,7 @@ void hold(solve::Model& model, const Lame& exact) {
 /// most_wall, most: bounds, %. The wall is a staircase of integration points: it lies wrong by up to a quarter of a
 /// cell's side, and u at it goes with its radius.
 std::vector<Figure> emptied_ball(std::size_t nodes, double most_wall, double most) {
-  const solve::Material material = {3000, 0.49, 1000, solve::Law::linear_elastic};
+  const solve::Material material = {.poisson_ratio = 0.49, .law = solve::Law::linear_elastic};
   const Lame exact(material);
   solve::Model model;
   model.labels = core_and_shell();

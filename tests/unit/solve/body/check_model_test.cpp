@@ -19,4 +19,23 @@ TEST(Diagnosis, RefusesNodesNearlyInOnePlace) {
   }
 }
 
+std::string refusal(const Model& model) {
+  try {
+    solve(model, {});
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(CheckModel, WantsSomethingThatMovesAndSomethingThatHolds) {
+  Model model = box_model(test::box_cells(3, model_side), 4);
+  EXPECT_NE(refusal(model).find("give a load"), std::string::npos);
+  model.gravity = {0, 0, -9.81};
+  EXPECT_NE(refusal(model).find("nothing holds the body"), std::string::npos) << refusal(model);
+  model.gravity.setZero();
+  model.materials[1].swelling = 0.1;
+  EXPECT_NE(refusal(model).find("nothing holds the body"), std::string::npos) << refusal(model);
+}
+
 }  // namespace brainshift::solve::check_model_test

@@ -66,7 +66,7 @@ TEST(LayOut, AddsUpTheForcesOnTheBody) {
   model.body_force = [](const Eigen::Vector3d&, std::int32_t) { return Eigen::Vector3d(1e-6, 0, 0); };  // N/mm³
   model.conditions.force = Points::Zero(model.cloud.positions.rows(), 3);
   model.conditions.force.row(62) << 0, 0.25, 0;  // N
-  const NodalVectors force = lay_out(model, {}, parts_of(model), {}).external;
+  const NodalVectors force = lay_out(model, {}, parts_of(model), {}).external.full();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t a = 0; a < model.cloud.size(); ++a) {
     sum += at(force, a).head<3>();

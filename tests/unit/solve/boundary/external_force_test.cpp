@@ -39,15 +39,15 @@ struct Scene {
   }
 };
 
-class ExternalForce : public testing::TestWithParam<bool> {
+class ForceOnNodes : public testing::TestWithParam<bool> {
  protected:
   Scene scene{GetParam()};
 };
 
-INSTANTIATE_TEST_SUITE_P(Dimensions, ExternalForce, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Dimensions, ForceOnNodes, testing::Bool(),
                          [](const auto& tested) { return std::string(tested.param ? "Two" : "Three"); });
 
-TEST_P(ExternalForce, AtANodeKeepsForceAndMoment) {
+TEST_P(ForceOnNodes, AtANodeKeepsForceAndMoment) {
   const Eigen::Index nodes[] = {0, 24, 31};
   const Eigen::Vector3d push(0.2, -0.1, GetParam() ? 0 : 0.3);
   for (const Eigen::Index node : nodes) {
@@ -62,7 +62,7 @@ TEST_P(ExternalForce, AtANodeKeepsForceAndMoment) {
   }
 }
 
-TEST_P(ExternalForce, OfGravityIsTheWeightAtTheCentre) {
+TEST_P(ForceOnNodes, OfGravityIsTheWeightAtTheCentre) {
   const Eigen::Vector3d weight_density(1e-6, -9.81e-6, GetParam() ? 0 : 3e-6);  // N/mm³
   NodalVectors total = scene.zero();
   add_body_force([&](const Eigen::Vector3d&, std::int32_t) { return weight_density; }, scene.points,
@@ -74,7 +74,7 @@ TEST_P(ExternalForce, OfGravityIsTheWeightAtTheCentre) {
   EXPECT_LE((scene.moment(total) - centre.cross(weight)).norm(), 1e-11 * side * weight.norm());
 }
 
-TEST_P(ExternalForce, TakesPlaceAndLabelOfABodyForce) {
+TEST_P(ForceOnNodes, TakesPlaceAndLabelOfABodyForce) {
   for (std::size_t p = 0; p < scene.points.size(); ++p) {
     scene.points.label[p] = scene.points.positions(static_cast<Eigen::Index>(p), 0) < side / 2 ? 1 : 2;
   }
@@ -94,7 +94,7 @@ TEST_P(ExternalForce, TakesPlaceAndLabelOfABodyForce) {
   EXPECT_LE((newton * resultant(total) - Eigen::Vector3d(0, expected, 0)).norm(), 1e-11 * expected);
 }
 
-TEST_P(ExternalForce, AddsToWhatIsThere) {
+TEST_P(ForceOnNodes, AddsToWhatIsThere) {
   NodalVectors once = scene.zero();
   const ShapeRows rows = scene.shape.evaluate(scene.cloud.positions, false);
   const Points force = Points::Constant(scene.cloud.positions.rows(), 3, 0.5);
@@ -104,6 +104,31 @@ TEST_P(ExternalForce, AddsToWhatIsThere) {
   for (std::size_t i = 0; i < once.size(); ++i) {
     EXPECT_NEAR(twice[i], 2 * once[i], 1e-6);  // µN
   }
+}
+
+TEST(ExternalForce, InProportionIsThatOfTheFullLoadTimesTheFraction) {
+  EXPECT_TRUE(ExternalForce(NodalVectors()).empty());
+  const ExternalForce force(NodalVectors{2, 0, -4, 0});
+  NodalVectors left(4, 0.0);
+  force.subtract(0.25, left);
+  EXPECT_EQ(left, (NodalVectors{-0.5, 0, 1, 0}));
+  EXPECT_DOUBLE_EQ(force.work(0, 1, {0, 0, 0, 0}, {3, 0, 0, 0}), 3) << "half of it in the mean";
+}
+
+TEST(ExternalForce, OfATableIsJoinedByStraightLinesFromNothing) {
+  const ExternalForce force(std::vector<NodalVectors>{{1, 0, 0, 0}, {4, 0, 0, 0}});
+  const auto at_fraction = [&](double fraction) {
+    NodalVectors left(4, 0.0);
+    force.subtract(fraction, left);
+    return -left[0];
+  };
+  EXPECT_DOUBLE_EQ(at_fraction(0), 0);
+  EXPECT_DOUBLE_EQ(at_fraction(0.25), 0.5);
+  EXPECT_DOUBLE_EQ(at_fraction(0.5), 1);
+  EXPECT_DOUBLE_EQ(at_fraction(0.75), 2.5);
+  EXPECT_DOUBLE_EQ(at_fraction(1), 4);
+  EXPECT_DOUBLE_EQ(at_fraction(1.5), 7) << "on along the last line";
+  EXPECT_DOUBLE_EQ(force.work(0.5, 1, {0, 0, 0, 0}, {2, 0, 0, 0}), 5);
 }
 
 }  // namespace brainshift::solve::external_force_test

@@ -44,10 +44,11 @@ struct Marched {
     std::iota(body.original.begin(), body.original.end(), 0);
     body.points = box.points;
     body.laws = box.laws;
-    body.external = box.rest();
+    NodalVectors external = box.rest();
     for (std::size_t a = 0; a < box.cloud.size(); ++a) {
-      body.external[4 * a + 2] = pull * (box.cloud.positions(static_cast<Eigen::Index>(a), 2) - side / 2);
+      external[4 * a + 2] = pull * (box.cloud.positions(static_cast<Eigen::Index>(a), 2) - side / 2);
     }
+    body.external = ExternalForce(std::move(external));
     return body;
   }
 };

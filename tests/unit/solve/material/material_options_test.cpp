@@ -18,8 +18,9 @@ std::string fault(const Material& material) {
 
 // A new member of the struct does not compile here: it goes into the table.
 TEST(MaterialOptions, AreAllInTheTable) {
-  [[maybe_unused]] const auto& [youngs_modulus, poisson_ratio, density, law, ogden, prony, own] = Material{};
-  EXPECT_EQ(material_options().size() + 1, 7U) << "beside the law that a program brings along";
+  [[maybe_unused]] const auto& [youngs_modulus, poisson_ratio, density, swelling, room, law, ogden, prony, own] =
+      Material{};
+  EXPECT_EQ(material_options().size() + 1, 9U) << "beside the law that a program brings along";
 }
 
 TEST(MaterialOptions, SurviveBeingWrittenAndRead) {
@@ -34,6 +35,8 @@ TEST(MaterialOptions, SurviveBeingWrittenAndRead) {
     EXPECT_EQ(bulk_modulus(copy), bulk_modulus(material)) << name;
     EXPECT_EQ(shear_modulus(long_term(copy)), shear_modulus(long_term(material))) << name;
     EXPECT_EQ(copy.density, material.density) << name;
+    EXPECT_EQ(copy.swelling, material.swelling) << name;
+    EXPECT_EQ(copy.room, material.room) << name;
   }
 }
 

@@ -65,12 +65,12 @@ TEST(Prepare, HasForcesOnlyWhereSomethingPushes) {
   EXPECT_TRUE(prepared(model).body.external.empty());
   Model heavy = model;
   heavy.gravity = {0, 0, -9.81};
-  EXPECT_EQ(prepared(heavy).body.external.size(), 4 * model.cloud.size());
+  EXPECT_EQ(prepared(heavy).body.external.full().size(), 4 * model.cloud.size());
   Model filled = model;
   filled.body_force = [](const Eigen::Vector3d&, std::int32_t) { return Eigen::Vector3d(0, 0, 1e-6); };
-  EXPECT_EQ(prepared(filled).body.external.size(), 4 * model.cloud.size());
+  EXPECT_EQ(prepared(filled).body.external.full().size(), 4 * model.cloud.size());
   model.conditions.force = Points::Constant(model.cloud.positions.rows(), 3, 1e-6);
-  EXPECT_EQ(prepared(model).body.external.size(), 4 * model.cloud.size());
+  EXPECT_EQ(prepared(model).body.external.full().size(), 4 * model.cloud.size());
 }
 
 TEST(Prepare, HasPressureModesOnlyWherePointsShareAPressure) {

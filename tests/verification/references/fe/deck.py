@@ -45,9 +45,30 @@ def numbered_lines(numbers, per_line=12):
     return "\n".join(", ".join(str(int(a) + 1) for a in numbers[i:i + per_line]) for i in range(0, len(numbers), per_line)) + "\n"
 
 
-def write_deck(path, mesh, kind, material, loading, force_sets, thickness=None, equations=(), solver="SPOOLES"):
+@dataclass
+class Layer:
+    """Elements that swell by a share of their volume when the load has come, as heat would make them."""
+
+    elements: np.ndarray
+    swelling: float
+
+
+def heated(layers, material):
+    """Model and step lines for Layer: each a section of its own material, and one degree for every node."""
+    model, numbers = "", ""
+    for i, layer in enumerate(layers):
+        numbers += f"*ELSET, ELSET=LAYER{i}\n" + numbered_lines(layer.elements)
+        model += (f"*MATERIAL, NAME=LAYER{i}\n*HYPERELASTIC, NEO HOOKE\n{material.mu / 2:.12g}, {2 / material.bulk:.12g}\n"
+                  f"*EXPANSION, ZERO=0\n{(1 + layer.swelling) ** (1 / 3) - 1:.12g}\n"
+                  f"*SOLID SECTION, ELSET=LAYER{i}, MATERIAL=LAYER{i}\n")
+    return numbers + model + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 0\n", "*TEMPERATURE\nALL, 1\n"
+
+
+def write_deck(path, mesh, kind, material, loading, force_sets, thickness=None, equations=(), solver="SPOOLES", density=None,
+               step_lines="", layers=()):
     """Write the deck. `force_sets` names the node sets whose total reaction is printed at each output, as are the
-    displacements of all nodes (CalculiX knows one list of time points a step)."""
+    displacements of all nodes (CalculiX knows one list of time points a step). `density` in g/mm3; `step_lines` are
+    further loads."""
     nodes = np.zeros((len(mesh.nodes), 3))
     nodes[:, :mesh.nodes.shape[1]] = mesh.nodes
     with open(path, "w") as deck:
@@ -61,12 +82,19 @@ def write_deck(path, mesh, kind, material, loading, force_sets, thickness=None, 
             deck.write(f"*NSET, NSET={name}\n" + numbered_lines(members))
         for terms in equations:
             deck.write(f"*EQUATION\n{len(terms)}\n" + "".join(f"{a + 1}, {d}, {c:.12g}\n" for a, d, c in terms))
-        deck.write(f"*MATERIAL, NAME=SOFT\n*HYPERELASTIC, NEO HOOKE\n{material.mu / 2:.12g}, {2 / material.bulk:.12g}\n")
-        deck.write("*SOLID SECTION, ELSET=BODY, MATERIAL=SOFT\n" + (f"{thickness:.12g}\n" if thickness else ""))
+        if layers:
+            model, heat = heated(layers, material)
+            deck.write(model)
+            step_lines += heat
+        else:
+            deck.write(f"*MATERIAL, NAME=SOFT\n*HYPERELASTIC, NEO HOOKE\n{material.mu / 2:.12g}, {2 / material.bulk:.12g}\n")
+            deck.write(f"*DENSITY\n{density:.12g}\n" if density else "")
+            deck.write("*SOLID SECTION, ELSET=BODY, MATERIAL=SOFT\n" + (f"{thickness:.12g}\n" if thickness else ""))
         deck.write("*TIME POINTS, NAME=OUTPUTS\n" + "".join(f"{t:.9g},\n" for t in loading.outputs))
         step = loading.largest_increment
         deck.write(f"*STEP, NLGEOM, INC=2000\n*STATIC, SOLVER={solver}\n{step:.9g}, 1., 1e-4, {step:.9g}\n*BOUNDARY\n")
         deck.writelines(f"{a + 1}, {d}, {d}, {v:.12g}\n" for a, d, v in loading.prescribed)
+        deck.write(step_lines)
         for name in force_sets:
             deck.write(f"*NODE PRINT, NSET={name}, TOTALS=ONLY, TIME POINTS=OUTPUTS\nRF\n")
         deck.write("*NODE PRINT, NSET=ALL, TIME POINTS=OUTPUTS\nU\n*END STEP\n")
