@@ -126,6 +126,7 @@ int run_program(int argc, char** argv) {
   add_report_command(program, settings);
   add_phantom_command(program, settings);
   add_scene_command(program, settings);
+  add_slicer_command(program, settings);
   add_tradeoff_command(program, settings);
   try {
     program.parse(argc, argv);

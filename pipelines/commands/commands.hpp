@@ -33,6 +33,7 @@ void add_warp_command(CLI::App& program, const Settings& settings);
 void add_report_command(CLI::App& program, const Settings& settings);
 void add_phantom_command(CLI::App& program, const Settings& settings);
 void add_scene_command(CLI::App& program, const Settings& settings);
+void add_slicer_command(CLI::App& program, const Settings& settings);
 void add_tradeoff_command(CLI::App& program, const Settings& settings);
 
 /// Runs a stage's work in a folder of its own and moves what it wrote to `out` when it is whole, with stage.json beside

@@ -46,6 +46,11 @@ void Interruption::set_unfinished(const std::filesystem::path& folder, const std
   unfinished_ = folder;
 }
 
+void Interruption::set_scratch(const std::filesystem::path& folder) {
+  const std::lock_guard lock(mutex_);
+  scratch_ = folder;
+}
+
 void Interruption::set_command(pid_t group) {
   const std::lock_guard lock(mutex_);
   command_ = group;
@@ -71,10 +76,12 @@ void Interruption::clean_up() {
   }
   // The main thread may still be writing: a file that it has just made can keep the folder from going.
   std::error_code fault;
-  for (int attempt = 0; attempt < 100 && !unfinished_.empty(); ++attempt) {
-    remove_own_folder(unfinished_);
-    if (!std::filesystem::exists(unfinished_, fault)) {
-      break;
+  for (const std::filesystem::path& folder : {unfinished_, scratch_}) {
+    for (int attempt = 0; attempt < 100 && !folder.empty(); ++attempt) {
+      remove_own_folder(folder);
+      if (!std::filesystem::exists(folder, fault)) {
+        break;
+      }
     }
   }
 }

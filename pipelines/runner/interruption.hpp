@@ -25,6 +25,8 @@ class Interruption {
   /// The folder that is being written; empty for none. The second is for who holds already.
   void set_unfinished(const std::filesystem::path& folder);
   void set_unfinished(const std::filesystem::path& folder, const std::unique_lock<std::mutex>& hold);
+  /// A folder that goes whole when the program is interrupted; empty for none.
+  void set_scratch(const std::filesystem::path& folder);
   /// While this lives nobody is interrupted: for a few renames that belong together.
   [[nodiscard]] std::unique_lock<std::mutex> hold() { return std::unique_lock(mutex_); }
   /// The external command's process group; 0 for none.
@@ -36,7 +38,7 @@ class Interruption {
 
   std::function<void(int)> farewell_;
   std::mutex mutex_;
-  std::filesystem::path unfinished_;
+  std::filesystem::path unfinished_, scratch_;
   pid_t command_ = 0;
   std::atomic<bool> stop_ = false;
   std::thread watcher_;

@@ -10,6 +10,7 @@
 #include "pipelines/runner/patient_registration.hpp"
 #include "pipelines/runner/warnings.hpp"
 #include "pipelines/runner/warp_files.hpp"
+#include "pipelines/show/shown_fields.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/image/frame_note.hpp"
 #include "solve/load/noisy_load.hpp"
@@ -380,6 +381,7 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
     return registration::register_images(input, job.options, progress);
   });
   registration::write_registration(out, result);
+  write_shown_fields(out, input.solution, input.brain, result.forward);
   StageReport said = report_of(result);
   warn(warnings_of(result.measures), said);
   if (!job.warp.empty() || !job.warp_labels.empty()) {

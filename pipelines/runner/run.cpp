@@ -11,6 +11,7 @@
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
+#include "pipelines/show/show_scripts.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -100,6 +101,16 @@ void write_record(const fs::path& out, const RunOutcome& outcome, Interruption& 
   write_whole(out / "run.json", json_text(outcome.record));
 }
 
+/// For whoever opens the folder: whatever ran, they show what lies there.
+void write_scripts(const fs::path& out, Interruption& interruption) {
+  const auto hold = interruption.hold();
+  for (const ShowScript& script : show_scripts()) {
+    write_whole(out / script.name, script.text);
+    std::error_code refused;  // by a file system without rights, where nothing is started by a double-click
+    fs::permissions(out / script.name, fs::perms::owner_exec, fs::perm_options::add, refused);
+  }
+}
+
 /// Later stages of an earlier run that were not reached: told apart from those that still hold.
 void note_unreached(nlohmann::ordered_json& stages, const Scene& scene, const fs::path& out, StageId last,
                     InputStates& states, Interruption& interruption) {
@@ -165,6 +176,7 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
   }
   note_unreached(outcome.record["stages"], scene, out, last, states, interruption);
   write_record(out, outcome, interruption);
+  write_scripts(out, interruption);
   return outcome;
 }
 

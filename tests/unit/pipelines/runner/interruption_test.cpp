@@ -64,6 +64,19 @@ TEST(Interruption, RemovesTheUnfinishedFolderAndNoOther) {
   EXPECT_TRUE(std::filesystem::exists(scratch / "finished"));
 }
 
+TEST(Interruption, RemovesTheScratchFolderToo) {
+  const brainshift::test::ScratchFolder scratch;
+  std::filesystem::create_directories(scratch / "unfinished");
+  scratch.write("unfinished/file", "x");
+  std::filesystem::create_directories(scratch / "scratch/run");
+  exit_code_of([&](Interruption& interruption) {
+    interruption.set_scratch(scratch / "scratch");
+    interruption.set_unfinished(scratch / "unfinished");
+    interrupt(SIGTERM);
+  });
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
+}
+
 TEST(Interruption, LeavesAFolderThatIsNoLongerUnfinished) {
   const brainshift::test::ScratchFolder scratch;
   std::filesystem::create_directories(scratch / "finished");

@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shows in 3D Slicer the run of brainshift in whose folder this file lies. The folder may be moved.
+
+  python3 open_in_slicer.py                    a double-click; Slicer must be on the PATH, or $SLICER name it
+  Slicer --python-script open_in_slicer.py
+
+The module Brain Shift shows its runs by show(), too.
+"""
+import csv
+import json
+import os
+import shutil
+import sys
+from pathlib import Path
+
+FILES = {
+    "warped": "register/warped.nii.gz",
+    "labels": "register/warped_labels.nii.gz",
+    "transform": "register/from-preop_to-intraop_mode-image_xfm.h5",
+    "brain": "register/brain_intraop.vtp",
+    "error": "register/estimated_error.nii.gz",
+    "load": "solve/load.csv",
+    "report": "report/index.html",
+}
+COLOURS = "vtkMRMLColorTableNodeFileViridis.txt"
+NAMES = {"1": "parenchyma", "2": "ventricles", "3": "tumour", "4": "fluid", "5": "skull", "6": "skin"}
+
+
+def record_of(run):
+    """run.json, or an empty record."""
+    file = Path(run) / "run.json"
+    return json.loads(file.read_text()) if file.is_file() else {}
+
+
+def files_of(run):
+    """The files that the run has, by what they are; t1 is where it was, or in the folder's inputs/."""
+    run = Path(run)
+    found = {what: run / name for what, name in FILES.items() if (run / name).is_file()}
+    for given in record_of(run).get("inputs", []):
+        places = (run / "inputs" / Path(given["path"]).name, Path(given["path"]))
+        for place in places if given["role"] == "image.t1" else ():
+            if place.exists():
+                found.setdefault("t1", place)
+    return found
+
+
+def measured_points(file):
+    """[(before, after)] of a load.csv, in Slicer's frame, RAS."""
+    with open(file, newline="") as lines:
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    points = []
+    for row in rows:
+        x, y, z, ux, uy, uz = (float(row[name]) for name in ("x", "y", "z", "ux", "uy", "uz"))
+        points.append(((-x, -y, z), (-x - ux, -y - uy, z + uz)))
+    return points
+
+
+def largest_displacement(record):
+    return record.get("stages", {}).get("solve", {}).get("measures", {}).get("largest_displacement_mm", 1.0)
+
+
+def contour_levels(largest):
+    """About eight whole steps of 0.5, 1, 2 or 5 mm."""
+    step = next((step for step in (0.5, 1, 2, 5) if largest <= 8 * step), 10)
+    return " ".join(f"{step * i:g}" for i in range(1, int(largest / step) + 1)) or f"{largest / 2:.3g}"
+
+
+def segment_names(record):
+    """{label: name}, by the scene's tissues."""
+    tissues = record.get("options", {}).get("tissues", {})
+    return {**NAMES, **{label: tissue["name"] for label, tissue in tissues.items() if tissue.get("name")}}
+
+
+def _show_brain(slicer, node, largest):
+    import vtk
+
+    display = node.GetDisplayNode()
+    display.SetActiveScalar("displacement_mm", vtk.vtkAssignAttribute.POINT_DATA)
+    display.SetAndObserveColorNodeID(COLOURS)
+    display.SetScalarRangeFlag(slicer.vtkMRMLDisplayNode.UseManualScalarRange)
+    display.SetScalarRange(0, largest)
+    display.SetScalarVisibility(True)
+    _add_colour_bar(slicer, node, "Displacement (mm)")
+
+
+def _add_colour_bar(slicer, node, title):
+    legend = slicer.modules.colors.logic().AddDefaultColorLegendDisplayNode(node)
+    legend.SetTitleText(title)
+    legend.SetLabelFormat("%.2f")
+
+
+def _show_contours(slicer, transform, levels):
+    transform.CreateDefaultDisplayNodes()
+    display = transform.GetDisplayNode()
+    display.SetVisualizationMode(slicer.vtkMRMLTransformDisplayNode.VIS_MODE_CONTOUR)
+    display.SetContourLevelsMmFromString(levels)
+    display.SetVisibility(True)
+    display.SetVisibility2D(True)
+    display.SetVisibility3D(False)
+
+
+def _show_error(slicer, node):
+    """As an overlay that is clear where there is none."""
+    display = node.GetDisplayNode()
+    display.SetAndObserveColorNodeID(COLOURS)
+    display.SetThreshold(1e-6, 1e6)
+    display.SetApplyThreshold(True)
+    _add_colour_bar(slicer, node, "Estimated error (mm)")
+
+
+def _name_segments(node, names):
+    segments = node.GetSegmentation()
+    for i in range(segments.GetNumberOfSegments()):
+        segment = segments.GetNthSegment(i)
+        segment.SetName(names.get(str(segment.GetLabelValue()), segment.GetName()))
+
+
+def _add_points(slicer, name, colour, places):
+    node = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLMarkupsFiducialNode", name)
+    for i, place in enumerate(places, 1):
+        node.AddControlPoint(list(place), str(i))
+    node.CreateDefaultDisplayNodes()
+    node.GetDisplayNode().SetSelectedColor(*colour)
+    node.GetDisplayNode().SetPointLabelsVisibility(False)
+    node.SetLocked(True)
+    return node
+
+
+def show(run, slicer, t1=None):
+    """Loads what the run has and shows it; t1: the node of the T1 where it is loaded already. {what: node}."""
+    record, files = record_of(run), files_of(run)
+    largest = largest_displacement(record)
+    nodes = {"t1": t1} if t1 else {}
+    for what, name in (("t1", "T1 before"), ("warped", "T1 warped"), ("error", "Estimated error")):
+        if what in files and what not in nodes:
+            nodes[what] = slicer.util.loadVolume(str(files[what]), {"name": name, "show": False})
+    if "labels" in files:
+        nodes["labels"] = slicer.util.loadSegmentation(str(files["labels"]), {"name": "Segmentation warped"})
+        _name_segments(nodes["labels"], segment_names(record))
+        nodes["labels"].GetDisplayNode().SetVisibility(False)
+    if "transform" in files:
+        nodes["transform"] = slicer.util.loadTransform(str(files["transform"]))
+        nodes["transform"].SetName("Brain shift")
+        _show_contours(slicer, nodes["transform"], contour_levels(largest))
+    if "brain" in files:
+        nodes["brain"] = slicer.util.loadModel(str(files["brain"]))
+        nodes["brain"].SetName("Brain warped")
+        _show_brain(slicer, nodes["brain"], largest)
+    if "load" in files:
+        before, after = zip(*measured_points(files["load"]))
+        nodes["before"] = _add_points(slicer, "Measured before", (0.2, 0.4, 1.0), before)
+        nodes["after"] = _add_points(slicer, "Measured after", (1.0, 0.3, 0.2), after)
+    if "error" in nodes:
+        _show_error(slicer, nodes["error"])
+    if "warped" in nodes:
+        slicer.util.setSliceViewerLayers(
+            background=nodes["warped"], foreground=nodes.get("error"), foregroundOpacity=0.0, fit=True
+        )
+    slicer.util.resetThreeDViews()
+    return nodes
+
+
+def main():
+    here = Path(__file__).resolve()
+    try:
+        import slicer
+    except ImportError:
+        program = os.environ.get("SLICER") or shutil.which("Slicer")
+        if not program:
+            sys.exit("3D Slicer is not on the PATH; name its program by the environment variable SLICER")
+        os.execv(program, [program, "--python-script", str(here)])
+    show(here.parent, slicer)
+
+
+if __name__ == "__main__":
+    main()
