@@ -10,12 +10,57 @@ import sys
 import time
 from pathlib import Path
 
-HOME = Path(__file__).resolve().parent.parent
+from . import plan, program
+
 STEPS = re.compile(r"^(\d+) of (\d+) steps")
+WHOLE = ("report",)  # the run to its end in one rule
 
 
-class Unusable(Exception):
-    """A sentence: why nothing can be run."""
+def add_options(parser):
+    parser.add_argument("--jobs", "--n-cpus", "--n_cpus", type=int, metavar="N",
+                        help="cores of this machine, or jobs at a time in a cluster's queue")
+    parser.add_argument("--mem-mb", "--mem_mb", type=int, metavar="MB", help="memory of this machine for all jobs")
+    parser.add_argument("--threads", type=int, metavar="N", help="of each job; the results do not depend on it")
+    parser.add_argument("--profile", default="local", metavar="NAME",
+                        help="local, slurm or a folder with Snakemake's config.yaml (%(default)s)")
+    parser.add_argument("--one-job", action="store_true",
+                        help="all stages of a case in one job, not a job a stage: faster where heads are small")
+    parser.add_argument("--dry-run", action="store_true", help="say what would be run, and stop")
+    parser.add_argument("--quiet", action="store_true", help="no progress")
+    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
+                        help="an option of all scenes, as discretise.nodes=6000 or solve.command='my_solver {in} {out}'")
+    parser.add_argument("--brainshift", metavar="FILE", help="the program, if it is not on the path")
+    parser.add_argument("--work-dir", "-w", type=Path, metavar="DIR", help="for the runs; OUT/work if absent")
+    parser.add_argument("--snakemake", action="append", default=[], metavar="WORD",
+                        help="a further word to Snakemake, as --snakemake=--printshellcmds")
+
+
+def stages_of(options):
+    return WHOLE if options.one_job else plan.STAGES
+
+
+def work_folder(options):
+    return (options.work_dir or options.out / "work").resolve()
+
+
+def compute(options, cases, version):
+    """Runs the cases, as far as they are not whole; Snakemake's exit code."""
+    work = work_folder(options)
+    brainshift = program.find(options.brainshift)
+    if not shutil.which("snakemake"):
+        raise program.Unusable("Snakemake is not installed; on Debian: apt-get install snakemake")
+    with take_lock(work) as lock:
+        local = options.profile == "local"
+        cores = (options.jobs if local else None) or len(os.sched_getaffinity(0))
+        threads = options.threads or (max(1, cores // max(len(cases), 1)) if local else 1)
+        plan.write(work, cases, stages_of(options), brainshift, version, threads, cores)
+        code = run(words(options, work, cores if local else options.jobs, local), work, lock,
+                   Progress(options.quiet or options.dry_run))
+    if options.dry_run:
+        print((work / "snakemake.log").read_text(encoding="utf-8"), end="")
+    elif code != 0:
+        print(f"Snakemake ended with {code}; {work}/snakemake.log says why; the same command goes on", file=sys.stderr)
+    return code
 
 
 def take_lock(work):
@@ -25,49 +70,40 @@ def take_lock(work):
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        raise Unusable(f"{work}: another run works in this folder; wait for it or end it") from None
+        raise program.Unusable(f"{work}: another run works in this folder; wait for it or end it") from None
     return lock
 
 
-def find_program(given):
-    found = shutil.which(given or os.environ.get("BRAINSHIFT") or "brainshift")
-    if not found:
-        raise Unusable(f"there is no program {given or 'brainshift'}; name it by --brainshift FILE")
-    return os.path.abspath(found)
-
-
 def profile_folder(name):
-    folder = HOME / "profiles" / name
+    folder = plan.HOME / "profiles" / name
     return str(folder if folder.is_dir() else Path(name).resolve())
 
 
-def memory_mb():
-    """What this machine has free."""
+def free_memory_mb():
     with open("/proc/meminfo", encoding="ascii") as stream:
         fields = dict(line.split(":", 1) for line in stream)
     return int(fields["MemAvailable"].split()[0]) // 1024
 
 
-def snakemake(work, profile, jobs, mem_mb, dry_run, more):
-    if not shutil.which("snakemake"):
-        raise Unusable("Snakemake is not installed; on Debian: apt-get install snakemake")
-    words = ["snakemake", "--snakefile", str(HOME / "Snakefile"), "--directory", str(work), "--configfile",
-             str(work / "plan.json"), "--profile", profile_folder(profile), "--nolock", "--rerun-incomplete",
+def words(options, work, jobs, local):
+    found = ["snakemake", "--snakefile", str(plan.HOME / "Snakefile"), "--directory", str(work), "--configfile",
+             str(work / "plan.json"), "--profile", profile_folder(options.profile), "--nolock", "--rerun-incomplete",
              "--keep-going", "--rerun-triggers", "mtime"]
-    words += ["--jobs", str(jobs)] if jobs else []
-    words += ["--resources", f"mem_mb={mem_mb}"] if mem_mb else []
-    return words + (["--dry-run"] if dry_run else []) + more
+    memory = options.mem_mb or (free_memory_mb() if local else None)
+    found += ["--jobs", str(jobs)] if jobs else []
+    found += ["--resources", f"mem_mb={memory}"] if memory else []
+    return found + (["--dry-run"] if options.dry_run else []) + options.snakemake
 
 
-def run(words, work, lock, tell):
+def run(command, work, lock, tell):
     """Snakemake's exit code. What it prints goes to work/snakemake.log."""
-    begin, log = time.monotonic(), work / "snakemake.log"
-    environment = {**os.environ, "XDG_CACHE_HOME": str(work / ".cache"), "PYTHONDONTWRITEBYTECODE": "1"}
-    child = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+    begin = time.monotonic()
+    environment = {**os.environ, "XDG_CACHE_HOME": str(work / ".cache")}
+    child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
                              pass_fds=(lock.fileno(),), env=environment)
     for number in (signal.SIGINT, signal.SIGTERM):  # Snakemake ends its jobs, and then this loop
         signal.signal(number, lambda number, _: child.send_signal(number))
-    with open(log, "w", encoding="utf-8") as stream:
+    with open(work / "snakemake.log", "w", encoding="utf-8") as stream:
         for line in child.stdout:
             stream.write(line)
             stream.flush()
@@ -80,22 +116,21 @@ class Progress:
     """A line with the time left: over itself on a terminal, else one at each tenth."""
 
     def __init__(self, quiet):
-        self.quiet, self.tenth = quiet, -1
-        self.terminal = sys.stderr.isatty()
+        self.quiet, self.tenth, self.terminal = quiet, 0, sys.stderr.isatty()
 
-    def __call__(self, done, all_steps, seconds):
-        tenth = 10 * done // all_steps
+    def __call__(self, done, every, seconds):
+        tenth = 10 * done // every
         if self.quiet or (not self.terminal and tenth == self.tenth):
             return
         self.tenth = tenth
-        left = duration(seconds * (all_steps - done) / max(done - 1, 1))
-        end = "\n" if not self.terminal or done == all_steps else ""
-        start = "\r\033[K" if self.terminal else ""
-        print(f"{start}{done} of {all_steps} steps, about {left} left", end=end, file=sys.stderr, flush=True)
+        text = f"{done} of {every} steps, about {duration(seconds * (every - done) / done)} left"
+        if self.terminal:
+            print(f"\r\033[K{text}", end="\n" if done == every else "", file=sys.stderr, flush=True)
+        else:
+            print(text, file=sys.stderr, flush=True)
 
 
 def duration(seconds):
-    minutes = round(seconds / 60)
-    if minutes < 1:
+    if seconds < 90:
         return f"{round(seconds)} s"
-    return f"{minutes} min" if minutes < 120 else f"{minutes / 60:.1f} h"
+    return f"{round(seconds / 60)} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"

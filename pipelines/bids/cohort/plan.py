@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is to be run: a folder a case with its case.json, and plan.json, which Snakemake reads.
+"""What is to be run: a folder a case with its case.sh, which stage.sh reads, and plan.json, which Snakemake reads.
 
-case.json is written anew only where the case's options, its files or the program have changed; all that Snakemake has to
+case.sh is written anew only where the case's options, its files or the program have changed; all that Snakemake has to
 know is that it is newer than the marks. So a file that was replaced by an older one counts, too.
 """
 import concurrent.futures
@@ -9,51 +9,49 @@ import gzip
 import json
 import os
 import re
+import shlex
 import struct
+import subprocess
 import xml.etree.ElementTree as tree
 from pathlib import Path
+from typing import NamedTuple
 
-from . import program
-from .derivatives import as_json, replace_text
+from . import marks
+from .files import replace_text
 
+HOME = Path(__file__).resolve().parent.parent
 STAGES = ("segment", "discretise", "solve", "register", "report")
-WHOLE = ("report",)
-# scene --explain estimates what a stage's own arrays take. Measured on a real head and on phantoms, a stage held up to
-# 3.1 times as much while that was small, and 1.8 times while it was large: twice the estimate and this covers both.
+# scene --explain estimates what a stage's own arrays take. On a real head and on phantoms a stage held up to 3.1 times
+# as much where that was below 150 MB and 1.8 times above: twice the estimate and this covers both.
 SPARE_MB = 200
 UNKNOWN_MB = 2000  # of another program in a stage, and where the scene cannot be explained: its run will say why
 COST = re.compile(r"^  (\w+): .*about (\d+) MB$", re.MULTILINE)
 
 
-def write_case(work, case, inputs):
-    """True where it is new or has changed."""
-    folder = work / case["name"]
+class Case(NamedTuple):
+    """A scene's file, or the words of `scene --new` that make one; the options of --set; the files it is made from."""
+    name: str
+    scene: str
+    words: list
+    options: list
+    inputs: list
+
+
+def write_case(work, case, version):
+    folder = work / case.name
     folder.mkdir(parents=True, exist_ok=True)
-    states = {file: [(state := os.stat(file)).st_size, state.st_mtime_ns] for file in inputs if os.path.exists(file)}
-    text = as_json({**case, "inputs": states})
-    file = folder / "case.json"
-    if file.exists() and file.read_text(encoding="utf-8") == text:
-        return False
-    replace_text(file, text)
-    return True
+    states = [(os.stat(file), file) for file in case.inputs if os.path.exists(file)]
+    lines = [f"# {version}", *(f"# {s.st_size} {s.st_mtime_ns} {json.dumps(file)}" for s, file in states),
+             f"scene={shlex.quote(case.scene)}", f"files=({shlex.join(case.words)})",
+             f"options=({shlex.join(set_words(case))})"]
+    text = "\n".join(lines) + "\n"
+    file = folder / "case.sh"
+    if not file.exists() or file.read_text(encoding="utf-8") != text:
+        replace_text(file, text)
 
 
-def drop_marks(folder, stages):
-    """From the first stage on that failed, or whose files are gone: those are to be run again."""
-    gone = False
-    for stage in stages:
-        mark = folder / "marks" / f"{stage}.json"
-        gone = gone or not mark.exists() or not whole(mark, folder / "run" / stage / "stage.json")
-        if gone:
-            mark.unlink(missing_ok=True)
-
-
-def whole(mark, stage_file):
-    try:
-        said = json.loads(mark.read_text(encoding="utf-8"))
-    except ValueError:
-        return False
-    return not said["fault"] and stage_file.exists() and all(os.path.exists(file) for file in said["files"])
+def set_words(case):
+    return [word for option in case.options for word in ("--set", option)]
 
 
 def scene_inputs(scene):
@@ -64,58 +62,59 @@ def scene_inputs(scene):
 
 
 def grid(file):
-    """Voxels along each axis, by the header of a NIfTI or FreeSurfer image; empty where it cannot be read."""
+    """Voxels along each axis, by the header of a NIfTI or FreeSurfer image; empty of another, or a damaged one."""
     try:
         with (gzip.open if file.endswith("z") else open)(file, "rb") as stream:
-            head = stream.read(348)
+            head = stream.read(48)
         if file.endswith((".mgz", ".mgh")):
             return struct.unpack(">3i", head[4:16])
-        order = "<" if struct.unpack("<i", head[:4])[0] == 348 else ">"
+        order = "<" if head[:4] == struct.pack("<i", 348) else ">"
         return struct.unpack(order + "3h", head[42:48])
     except (OSError, EOFError, struct.error):
         return ()
 
 
-def size_key(case):
-    """Cases with the same key need the same memory: one of them is asked about."""
-    options = [o for o in case["set"] if o.startswith(("discretise.", "solve.", "image."))
+def kind(case):
+    """Cases of the same kind need the same memory: one of them is asked about."""
+    images = [grid(file) for file in case.inputs if file.endswith((".nii", ".nii.gz", ".mgz", ".mgh"))]
+    options = [o for o in case.options if o.startswith(("discretise.", "solve.", "image."))
                or o.partition("=")[0].endswith(".command")]
-    images = [grid(file) for file in (case.get("t1"), case.get("labels"), case.get("brain_mask")) if file]
-    return json.dumps([case.get("scene"), images, options])
+    return json.dumps([case.scene, images, options])
 
 
-def explained(brainshift, work, case):
-    """MB of each stage, or nothing where the scene is at fault."""
-    try:
-        scene = program.scene_of(brainshift, case, work / case["name"])
-        text = program.ask(brainshift, "scene", "--explain", scene, *program.set_options(case))
-    except program.Refused:
-        return {}
-    return {stage: 2 * int(mb) + SPARE_MB for stage, mb in COST.findall(text)}
+def explained(program, work, case):
+    """MB of each stage, or nothing where the scene is at fault: its run will say so."""
+    subprocess.run([HOME / "stage.sh", program, case.name, "1", "scene"], cwd=work, check=True)
+    scene = case.scene or str(work / case.name / "scene.xml")
+    done = subprocess.run([program, "scene", "--explain", scene, *set_words(case)], capture_output=True, text=True,
+                          check=False)
+    return {stage: 2 * int(mb) + SPARE_MB for stage, mb in COST.findall(done.stdout)} if done.returncode == 0 else {}
 
 
-def memory(brainshift, work, cases, workers):
+def memory(program, work, cases, workers):
     """By case: MB of each stage. The first of a kind that can be explained speaks for the others."""
     kinds = {}
     for case in cases:
-        kinds.setdefault(size_key(case), []).append(case)
+        kinds.setdefault(kind(case), []).append(case)
 
-    def of_kind(kind):
-        return next((mb for case in kind if (mb := explained(brainshift, work, case))), {})
+    def of_kind(alike):
+        return next((mb for case in alike if (mb := explained(program, work, case))), {})
 
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
         costs = list(pool.map(of_kind, kinds.values()))
-    return {case["name"]: cost for kind, cost in zip(kinds.values(), costs) for case in kind}
+    return {case.name: cost for alike, cost in zip(kinds.values(), costs) for case in alike}
 
 
 def needs(cost, stages):
     every = {stage: cost.get(stage, UNKNOWN_MB) for stage in STAGES}
-    return every if tuple(stages) == STAGES else {stages[-1]: max(every.values())}
+    return every if len(stages) == len(STAGES) else {stages[-1]: max(every.values())}
 
 
-def write_plan(work, cases, stages, brainshift, threads, cores):
-    costs = memory(brainshift, work, cases, cores)
-    plan = {"program": brainshift, "threads": threads, "stages": stages,
-            "cases": {case["name"]: needs(costs[case["name"]], stages) for case in cases}}
-    replace_text(work / "plan.json", json.dumps(plan))
-    return plan
+def write(work, cases, stages, program, version, threads, cores):
+    for case in cases:
+        write_case(work, case, version)
+        marks.drop(work / case.name, stages)
+    costs = memory(program, work, cases, cores)
+    replace_text(work / "plan.json", json.dumps({
+        "program": program, "threads": threads, "stages": stages,
+        "cases": {case.name: needs(costs[case.name], stages) for case in cases}}))
