@@ -19,7 +19,12 @@ leave_mark() { # CODE SENTENCE
   exit 0
 }
 
-last_line() { grep -v '^[[:space:]]*$' "$1" | tail -n 1 | sed 's/^brainshift: //'; }
+leave_fault() { # CODE LOG
+  local said
+  said=$(grep -v '^[[:space:]]*$' "$2" | tail -n 1 | sed 's/^brainshift: //') || true
+  [ "$1" -le 128 ] || said="$stage was killed by signal $(($1 - 128))"
+  leave_mark "$1" "${said:-$stage ended with $1 without a word}"
+}
 
 begin=$EPOCHREALTIME
 if [ -n "$before" ]; then
@@ -35,7 +40,7 @@ if [ -z "$scene" ]; then
   scene=$PWD/scene.xml
   if [ ! scene.xml -nt case.sh ]; then
     "$program" --quiet scene --new "${files[@]}" > scene.partial 2> logs/scene.log \
-      || leave_mark $? "scene: $(last_line logs/scene.log)"
+      || leave_fault $? logs/scene.log
     mv scene.partial scene.xml
   fi
 fi
@@ -43,5 +48,5 @@ fi
 code=0
 "$program" --quiet --threads "$threads" run "$scene" --out "$PWD/run" --until "$stage" "${options[@]}" \
   > "logs/$stage.log" 2>&1 || code=$?
-[ $code = 0 ] || leave_mark $code "$stage: $(last_line "logs/$stage.log")"
+[ $code = 0 ] || leave_fault $code "logs/$stage.log"
 leave_mark 0 ''
