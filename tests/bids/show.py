@@ -266,6 +266,19 @@ def in_one_job(show, bids, arguments, cores):
              f"{single:.2f} s")
 
 
+def on_slurm(show, arguments, cores, faulted, expected):
+    ways = min(arguments.broken, arguments.slurm // 2)
+    bids = show.cohort("bids_slurm", arguments.slurm, ways)
+    with Slurm(show.out / "slurm", cores) as slurm:
+        more = ("--profile", str(slurm.profile(APP / "profiles/slurm")))
+        shared = (*more, "--per-job", str(max(1, arguments.slurm // (4 * cores))))
+        out, *_ = undisturbed(show, bids, arguments.slurm, ways, shared, "Slurm")
+        singles(show, out, 3)
+        share = busy_share(out, plan.STAGES, cores)
+        show.say("Slurm: the cores are busy from the first solve to the last", share >= BUSY, f"{100 * share:.1f} %")
+        killed_runs(show, faulted, more, expected, "Slurm", 1.0, slurm)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program", type=pathlib.Path)
@@ -288,16 +301,7 @@ def main():
         if os.geteuid() == 0:
             full_disk(show, faulted, expected)
         if os.geteuid() == 0 and arguments.slurm and shutil.which("slurmctld"):
-            with Slurm(show.out / "slurm", cores) as slurm:
-                more = ("--profile", str(slurm.profile(APP / "profiles/slurm")))
-                small = show.cohort("bids_slurm", arguments.slurm, min(arguments.broken, arguments.slurm // 2))
-                out, _, _ = undisturbed(show, small, arguments.slurm, min(arguments.broken, arguments.slurm // 2), more,
-                                        "Slurm")
-                singles(show, out, 3)
-                share = busy_share(out, plan.STAGES, cores)
-                show.say("Slurm: the cores are busy from the first solve to the last", share >= BUSY,
-                         f"{100 * share:.1f} %")
-                killed_runs(show, faulted, more, expected, "Slurm", 1.0, slurm)
+            on_slurm(show, arguments, cores, faulted, expected)
     finally:
         show.write(load)
     return 1 if show.broken else 0

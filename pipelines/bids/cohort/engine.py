@@ -25,6 +25,8 @@ def add_options(parser):
                         help="local, slurm or a folder with Snakemake's config.yaml (%(default)s)")
     parser.add_argument("--one-job", action="store_true",
                         help="all stages of a case in one job, not a job a stage: faster where heads are small")
+    parser.add_argument("--per-job", type=int, default=1, metavar="N",
+                        help="cases that share a job of a cluster's queue (%(default)s)")
     parser.add_argument("--dry-run", action="store_true", help="say what would be run, and stop")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
@@ -54,8 +56,8 @@ def compute(options, cases, version):
         cores = (options.jobs if local else None) or len(os.sched_getaffinity(0))
         threads = options.threads or (max(1, cores // max(len(cases), 1)) if local else 1)
         plan.write(work, cases, stages_of(options), brainshift, version, threads, cores)
-        code = run(words(options, work, cores if local else options.jobs, local), work, lock,
-                   Progress(options.quiet or options.dry_run))
+        command = words(options, work) + (on_this_machine(options, cores) if local else in_queue(options, threads))
+        code = run(command + options.snakemake, work, lock, Progress(options.quiet or options.dry_run))
     if options.dry_run:
         print((work / "snakemake.log").read_text(encoding="utf-8"), end="")
     elif code != 0:
@@ -85,14 +87,20 @@ def free_memory_mb():
     return int(fields["MemAvailable"].split()[0]) // 1024
 
 
-def words(options, work, jobs, local):
-    found = ["snakemake", "--snakefile", str(plan.HOME / "Snakefile"), "--directory", str(work), "--configfile",
-             str(work / "plan.json"), "--profile", profile_folder(options.profile), "--nolock", "--rerun-incomplete",
-             "--keep-going", "--rerun-triggers", "mtime"]
-    memory = options.mem_mb or (free_memory_mb() if local else None)
-    found += ["--jobs", str(jobs)] if jobs else []
-    found += ["--resources", f"mem_mb={memory}"] if memory else []
-    return found + (["--dry-run"] if options.dry_run else []) + options.snakemake
+def words(options, work):
+    return ["snakemake", "--snakefile", str(plan.HOME / "Snakefile"), "--directory", str(work), "--configfile",
+            str(work / "plan.json"), "--profile", profile_folder(options.profile), "--nolock", "--rerun-incomplete",
+            "--keep-going", "--rerun-triggers", "mtime"] + (["--dry-run"] if options.dry_run else [])
+
+
+def on_this_machine(options, cores):
+    return ["--jobs", str(cores), "--resources", f"mem_mb={options.mem_mb or free_memory_mb()}"]
+
+
+def in_queue(options, threads):
+    """The cores are those of one job: cases that share it follow one another."""
+    jobs = ["--jobs", str(options.jobs)] if options.jobs else []
+    return jobs + ["--cores", str(threads), "--group-components", f"case={options.per_job}"]
 
 
 def run(command, work, lock, tell):
