@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# One rule's work, in the folder of work: a case up to a stage, and a mark that says that it is whole or why not.
+# One rule's work: a case up to a stage, and a mark that says that it is whole or why not.
 #
-#   stage.sh PROGRAM CASE THREADS STAGE [STAGE BEFORE]     STAGE scene: the scene alone
+#   stage.sh PROGRAM FOLDER THREADS STAGE [STAGE BEFORE]     STAGE scene: the scene alone
 #
 # It ends with 0 when the case itself is at fault, so that the engine goes on with the others; the stages after it pass
 # the fault on. A shell, as a cohort of small heads would feel an interpreter's start at each stage.

@@ -40,7 +40,7 @@ class AppTest(unittest.TestCase):
 
     def test_the_broken_participant_is_named_and_the_others_are_done(self):
         self.assertEqual(self.first.returncode, NOT_ALL, self.first.stderr)
-        self.assertEqual(self.first.stdout, f"2 of 3 done: {self.out}/group.html\n")
+        self.assertEqual(self.first.stdout, f"2 of 3 done: {self.out}\n")
         self.assertIn("sub-00003: no T1w image", self.first.stderr)
         self.assertIn("no T1w image", (self.out / "sub-00003.html").read_text())
         page = (self.out / "group.html").read_text()

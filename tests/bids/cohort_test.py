@@ -187,6 +187,10 @@ class GroupTest(unittest.TestCase):
 
 
 class NamesTest(unittest.TestCase):
+    def test_a_case_is_named_by_participant_and_session(self):
+        self.assertEqual(names.case_parts(names.case_name("01", "a")), ("01", "a"))
+        self.assertEqual(names.case_parts("sub-01"), ("01", ""))
+
     def test_entities_suffix_and_extension(self):
         name = names.parse("sub-01_ses-a_desc-before_points.mrk.json")
         self.assertEqual(name, ({"sub": "01", "ses": "a", "desc": "before"}, "points", ".mrk.json"))

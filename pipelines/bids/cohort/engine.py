@@ -45,34 +45,35 @@ def work_folder(options):
     return (options.work_dir or options.out / "work").resolve()
 
 
-def compute(options, cases, version):
-    """Runs the cases, as far as they are not whole; Snakemake's exit code."""
+def compute(options, cases, version, call="all"):
+    """Runs the cases, as far as they are not whole; Snakemake's exit code. Calls of other names may run beside it."""
     work = work_folder(options)
+    own = work / ".engine" / call
     brainshift = program.find(options.brainshift)
     if not shutil.which("snakemake"):
         raise program.Unusable("Snakemake is not installed; on Debian: apt-get install snakemake")
-    with take_lock(work) as lock:
+    with take_lock(own) as lock:
         local = options.profile == "local"
         cores = (options.jobs if local else None) or len(os.sched_getaffinity(0))
         threads = options.threads or (max(1, cores // max(len(cases), 1)) if local else 1)
-        plan.write(work, cases, stages_of(options), brainshift, version, threads, cores)
-        command = words(options, work) + (on_this_machine(options, cores) if local else in_queue(options, threads))
-        code = run(command + options.snakemake, work, lock, Progress(options.quiet or options.dry_run))
+        plan.write(own, work, cases, stages_of(options), brainshift, version, threads, cores)
+        command = words(options, own) + (on_this_machine(options, cores) if local else in_queue(options, threads))
+        code = run(command + options.snakemake, own, lock, Progress(options.quiet or options.dry_run))
     if options.dry_run:
-        print((work / "snakemake.log").read_text(encoding="utf-8"), end="")
+        print((own / "snakemake.log").read_text(encoding="utf-8"), end="")
     elif code != 0:
-        print(f"Snakemake ended with {code}; {work}/snakemake.log says why; the same command goes on", file=sys.stderr)
+        print(f"Snakemake ended with {code}; {own}/snakemake.log says why; the same command goes on", file=sys.stderr)
     return code
 
 
-def take_lock(work):
+def take_lock(own):
     """Held until this process and Snakemake have ended, in whatever way."""
-    work.mkdir(parents=True, exist_ok=True)
-    lock = open(work / "lock", "a", encoding="utf-8")
+    own.mkdir(parents=True, exist_ok=True)
+    lock = open(own / "lock", "a", encoding="utf-8")
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        raise program.Unusable(f"{work}: another run works in this folder; wait for it or end it") from None
+        raise program.Unusable(f"{own}: the same command is at work here already; wait for it or end it") from None
     return lock
 
 
@@ -87,9 +88,9 @@ def free_memory_mb():
     return int(fields["MemAvailable"].split()[0]) // 1024
 
 
-def words(options, work):
-    return ["snakemake", "--snakefile", str(plan.HOME / "Snakefile"), "--directory", str(work), "--configfile",
-            str(work / "plan.json"), "--profile", profile_folder(options.profile), "--nolock", "--rerun-incomplete",
+def words(options, own):
+    return ["snakemake", "--snakefile", str(plan.HOME / "Snakefile"), "--directory", str(own), "--configfile",
+            str(own / "plan.json"), "--profile", profile_folder(options.profile), "--nolock", "--rerun-incomplete",
             "--keep-going", "--rerun-triggers", "mtime"] + (["--dry-run"] if options.dry_run else [])
 
 
@@ -103,15 +104,15 @@ def in_queue(options, threads):
     return jobs + ["--cores", str(threads), "--group-components", f"case={options.per_job}"]
 
 
-def run(command, work, lock, tell):
-    """Snakemake's exit code. What it prints goes to work/snakemake.log."""
+def run(command, own, lock, tell):
+    """Snakemake's exit code. What it prints goes to snakemake.log."""
     begin = time.monotonic()
-    environment = {**os.environ, "XDG_CACHE_HOME": str(work / ".cache")}
+    environment = {**os.environ, "XDG_CACHE_HOME": str(own / ".cache")}
     child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
                              pass_fds=(lock.fileno(),), env=environment)
     for number in (signal.SIGINT, signal.SIGTERM):  # Snakemake ends its jobs, and then this loop
         signal.signal(number, lambda number, _: child.send_signal(number))
-    with open(work / "snakemake.log", "w", encoding="utf-8") as stream:
+    with open(own / "snakemake.log", "w", encoding="utf-8") as stream:
         for line in child.stdout:
             stream.write(line)
             stream.flush()

@@ -13,9 +13,9 @@ OTHERS = {
 }
 
 
-def write(out, records, sentences):
-    """records: run.json by name of those that are done; sentences: by name why the others are not."""
-    rows = [{"name": name, "status": "done", **measures.row_of(record)} for name, record in records.items()]
+def write(out, done, sentences):
+    """done: measures by name; sentences: by name why the others have none."""
+    rows = [{"name": name, "status": "done", **row} for name, row in done.items()]
     rows += [{"name": name, "status": "no result", "sentence": sentence} for name, sentence in sentences.items()]
     rows.sort(key=lambda row: row["name"])
     far = measures.far_columns(rows)

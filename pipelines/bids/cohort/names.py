@@ -23,6 +23,12 @@ def case_name(participant, session):
     return f"sub-{participant}" + (f"_ses-{session}" if session else "")
 
 
+def case_parts(name):
+    """Participant and session, which may be empty."""
+    entities = dict(pair.split("-", 1) for pair in name.split("_"))
+    return entities["sub"], entities.get("ses", "")
+
+
 def without_prefix(label, prefix):
     """BIDS Apps take 01 and sub-01."""
     return label[len(prefix):] if label.startswith(prefix) else label

@@ -84,7 +84,7 @@ def kind(case):
 
 def explained(program, work, case):
     """MB of each stage, or nothing where the scene is at fault: its run will say so."""
-    subprocess.run([HOME / "stage.sh", program, case.name, "1", "scene"], cwd=work, check=True)
+    subprocess.run([HOME / "stage.sh", program, work / case.name, "1", "scene"], check=True)
     scene = case.scene or str(work / case.name / "scene.xml")
     done = subprocess.run([program, "scene", "--explain", scene, *set_words(case)], capture_output=True, text=True,
                           check=False)
@@ -110,11 +110,11 @@ def needs(cost, stages):
     return every if len(stages) == len(STAGES) else {stages[-1]: max(every.values())}
 
 
-def write(work, cases, stages, program, version, threads, cores):
+def write(own, work, cases, stages, program, version, threads, cores):
     for case in cases:
         write_case(work, case, version)
         marks.drop(work / case.name, stages)
     costs = memory(program, work, cases, cores)
-    replace_text(work / "plan.json", json.dumps({
-        "program": program, "threads": threads, "stages": stages,
+    replace_text(own / "plan.json", json.dumps({
+        "work": str(work), "program": program, "threads": threads, "stages": stages,
         "cases": {case.name: needs(costs[case.name], stages) for case in cases}}))
