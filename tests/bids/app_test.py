@@ -58,7 +58,8 @@ class AppTest(unittest.TestCase):
                              ("from-preop_to-intraop_mode-image_xfm.h5", "from-preop_to-intraop_mode-image_xfm.h5"),
                              ("from-preop_to-intraop_mode-points_xfm.h5", "from-preop_to-intraop_mode-points_xfm.h5"),
                              ("desc-jacobian_map.nii.gz", "jacobian.nii.gz")):
-            self.assertEqual(pathlib.Path(stem + ending).read_bytes(), (single / "register" / made).read_bytes(), ending)
+            derivative = pathlib.Path(stem + ending)
+            self.assertEqual(derivative.read_bytes(), (single / "register" / made).read_bytes(), ending)
         self.assertIn("3\ttumour\n", pathlib.Path(stem + "space-intraop_dseg.tsv").read_text())
         self.assertIn('"GeneratedBy"', (self.out / "dataset_description.json").read_text())
 
@@ -67,11 +68,12 @@ class AppTest(unittest.TestCase):
         load.write_text(make_cohort.scaled(load.read_text(), 0.9))
         os.utime(load, (1, 1))  # older than everything, as a copy that keeps times
         (self.out / "sub-00002/anat/sub-00002_desc-jacobian_map.nii.gz").unlink()
-        before = [self.inode(*key) for key in (("sub-00001", "segment"), ("sub-00001", "solve"), ("sub-00002", "solve"))]
+        stages = (("sub-00001", "segment"), ("sub-00001", "solve"), ("sub-00002", "solve"))
+        before = [self.inode(*stage) for stage in stages]
         again = call("brainshift-bids", self.bids, self.out, "participant", "--participant-label", "sub-00001", "00002",
                      *FAST)
         self.assertEqual(again.returncode, 0, again.stderr)
-        after = [self.inode(*key) for key in (("sub-00001", "segment"), ("sub-00001", "solve"), ("sub-00002", "solve"))]
+        after = [self.inode(*stage) for stage in stages]
         self.assertEqual([one == other for one, other in zip(before, after)], [True, False, True])
         self.assertTrue((self.out / "sub-00002/anat/sub-00002_desc-jacobian_map.nii.gz").exists())
 

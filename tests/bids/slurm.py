@@ -81,8 +81,8 @@ class Slurm:
 
     def kill_jobs(self, number):
         """Running jobs, as a node that is lost; how many."""
-        said = subprocess.run(["squeue", "--noheader", "--states=RUNNING", "--format=%i"], capture_output=True, text=True,
-                              check=True)
+        said = subprocess.run(["squeue", "--noheader", "--states=RUNNING", "--format=%i"], capture_output=True,
+                              text=True, check=True)
         jobs = said.stdout.split()[:number]
         subprocess.run(["scancel", "--signal=KILL", "--full", *jobs], check=True)
         return len(jobs)

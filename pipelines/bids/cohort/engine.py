@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calls Snakemake and tells how far it is."""
+import contextlib
 import fcntl
 import os
 import re
@@ -30,7 +31,7 @@ def add_options(parser):
     parser.add_argument("--dry-run", action="store_true", help="say what would be run, and stop")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
-                        help="an option of all scenes, as discretise.nodes=6000 or solve.command='my_solver {in} {out}'")
+                        help="an option of all scenes, as discretise.nodes=6000 or solve.command='my_own {in} {out}'")
     parser.add_argument("--brainshift", metavar="FILE", help="the program, if it is not on the path")
     parser.add_argument("--work-dir", "-w", type=Path, metavar="DIR", help="for the runs; OUT/work if absent")
     parser.add_argument("--snakemake", action="append", default=[], metavar="WORD",
@@ -50,6 +51,7 @@ def compute(options, cases, version, call="all"):
     work = work_folder(options)
     own = work / ".engine" / call
     brainshift = program.find(options.brainshift)
+    profile = profile_folder(options.profile)
     if not shutil.which("snakemake"):
         raise program.Unusable("Snakemake is not installed; on Debian: apt-get install snakemake")
     with take_lock(own) as lock:
@@ -57,8 +59,9 @@ def compute(options, cases, version, call="all"):
         cores = (options.jobs if local else None) or len(os.sched_getaffinity(0))
         threads = options.threads or (max(1, cores // max(len(cases), 1)) if local else 1)
         plan.write(own, work, cases, stages_of(options), brainshift, version, threads, cores)
-        command = words(options, own) + (on_this_machine(options, cores) if local else in_queue(options, threads))
-        code = run(command + options.snakemake, own, lock, Progress(options.quiet or options.dry_run))
+        place = on_this_machine(options, cores) if local else in_queue(options, threads)
+        command = words(own, profile, options.dry_run) + place + options.snakemake
+        code = run(command, own, lock, Progress(options.quiet or options.dry_run))
     if options.dry_run:
         print((own / "snakemake.log").read_text(encoding="utf-8"), end="")
     elif code != 0:
@@ -78,8 +81,10 @@ def take_lock(own):
 
 
 def profile_folder(name):
-    folder = plan.HOME / "profiles" / name
-    return str(folder if folder.is_dir() else Path(name).resolve())
+    for folder in (plan.HOME / "profiles" / name, Path(name).resolve()):
+        if (folder / "config.yaml").is_file():
+            return str(folder)
+    raise program.Unusable(f"--profile {name}: local, slurm or a folder with a config.yaml of Snakemake is wanted")
 
 
 def free_memory_mb():
@@ -88,10 +93,10 @@ def free_memory_mb():
     return int(fields["MemAvailable"].split()[0]) // 1024
 
 
-def words(options, own):
+def words(own, profile, dry_run):
     return ["snakemake", "--snakefile", str(plan.HOME / "Snakefile"), "--directory", str(own), "--configfile",
-            str(own / "plan.json"), "--profile", profile_folder(options.profile), "--nolock", "--rerun-incomplete",
-            "--keep-going", "--rerun-triggers", "mtime"] + (["--dry-run"] if options.dry_run else [])
+            str(own / "plan.json"), "--profile", profile, "--nolock", "--rerun-incomplete", "--keep-going",
+            "--rerun-triggers", "mtime"] + (["--dry-run"] if dry_run else [])
 
 
 def on_this_machine(options, cores):
@@ -109,13 +114,13 @@ def run(command, own, lock, tell):
     begin = time.monotonic()
     environment = {**os.environ, "XDG_CACHE_HOME": str(own / ".cache")}
     child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
-                             pass_fds=(lock.fileno(),), env=environment)
-    for number in (signal.SIGINT, signal.SIGTERM):  # Snakemake ends its jobs, and then this loop
-        signal.signal(number, lambda number, _: child.send_signal(number))
-    with open(own / "snakemake.log", "w", encoding="utf-8") as stream:
+                             pass_fds=(lock.fileno(),), env=environment, start_new_session=True)
+    for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):  # to Snakemake and its jobs; then this loop ends
+        signal.signal(number, lambda number, _: os.killpg(child.pid, number))
+    with open(own / "snakemake.log", "wb", buffering=0) as stream:
         for line in child.stdout:
-            stream.write(line)
-            stream.flush()
+            with contextlib.suppress(OSError):  # a full disk; Snakemake is not left alone for it
+                stream.write(line.encode())
             if step := STEPS.match(line):
                 tell(int(step[1]), int(step[2]), time.monotonic() - begin)
     return child.wait()

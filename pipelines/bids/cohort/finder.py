@@ -80,8 +80,8 @@ class Finder:
             loads += self._derived(participant, "")
         case = Case(name, participant, session, t1=self._t1(raw, participant))
         self._find_labels(case, derived, participant, preop)
-        case.tumour = self._one([f for f in self._matching(derived, "mask", IMAGE)
-                                 if names.parse(f.name).entities.get("label") in ("tumor", "tumour")], "mask")
+        case.tumour = self._one([f for f in self._matching(derived, "mask", IMAGE) if own_space(f)
+                                 and names.parse(f.name).entities.get("label") in ("tumor", "tumour")], "mask")
         case.points = self._points(loads, name)
         return case
 

@@ -3,10 +3,24 @@
 import os
 import shutil
 import subprocess
+import sys
 
 
 class Unusable(Exception):
     """A sentence: why nothing can be run."""
+
+
+def guarded(name, main):
+    """What main says is the exit code; of what cannot be run or written, a sentence."""
+    try:
+        return main()
+    except Unusable as fault:
+        print(f"{name}: {fault}", file=sys.stderr)
+        return 2
+    except OSError as fault:
+        print(f"{name}: {fault.filename or 'a file'}: {fault.strerror}; see to that and give the same command again",
+              file=sys.stderr)
+        return 1
 
 
 def find(given):
