@@ -7,7 +7,11 @@ import shutil
 
 def replace_text(target, text):
     partial = target.with_name(f".{target.name}.partial")
-    partial.write_text(text, encoding="utf-8")
+    try:
+        partial.write_text(text, encoding="utf-8")
+    except OSError as fault:
+        fault.filename = str(target)  # a full disk names none
+        raise
     partial.replace(target)
 
 
