@@ -250,10 +250,9 @@ def on_this_machine(show, arguments, cores):
     stages = ("--jobs", str(cores))
     out, _, used = undisturbed(show, bids, arguments.participants, arguments.broken, stages, "local")
     single, done = singles(show, out, 10)
-    show.say("a job a stage: the cores are busy from the first solve to the last",
-             (share := busy_share(out, plan.STAGES, cores)) >= BUSY, f"{100 * share:.1f} %")
-    above = (used - single * done) / done
-    show.say("a job a stage: s of a core a participant above its run", True, f"{above:.2f} s; its run {single:.2f} s")
+    share, above = busy_share(out, plan.STAGES, cores), (used - single * done) / done
+    show.say("a job a stage: the cores are busy from the first solve to the last", share >= BUSY,
+             f"{100 * share:.1f} %; a participant takes {above:.2f} s of a core above its run of {single:.2f} s")
     opens(show, out / "group.html")
     code, _, wall, _ = measured(show.command(bids, out, *stages))
     show.say("the same command again runs nothing but what failed", code == (NOT_ALL if arguments.broken else 0),
@@ -272,6 +271,15 @@ def in_one_job(show, bids, arguments, cores):
              f"{single:.2f} s")
 
 
+def end_orphans(folder):
+    """The Snakemake of a job that was killed: this Slurm has no control groups, and loses it."""
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):
+            words = (process / "cmdline").read_text().split("\0")
+            if "snakemake" in words and any(word.startswith(str(folder)) for word in words):
+                os.kill(int(process.name), signal.SIGKILL)
+
+
 def on_slurm(show, arguments, cores, faulted, expected):
     ways = min(arguments.broken, arguments.slurm // 2)
     bids = show.cohort("bids_slurm", arguments.slurm, ways)
@@ -283,6 +291,7 @@ def on_slurm(show, arguments, cores, faulted, expected):
         share = busy_share(out, plan.STAGES, cores)
         show.say("Slurm: the cores are busy from the first solve to the last", share >= BUSY, f"{100 * share:.1f} %")
         killed_runs(show, faulted, more, expected, "Slurm", 1.0, slurm)
+    end_orphans(show.out)
 
 
 def main():
