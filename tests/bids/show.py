@@ -226,7 +226,7 @@ def full_disk(show, bids, expected):
 
 
 def opens(show, page):
-    """Above an empty page, each the quickest of three: a browser's start is at the mercy of what else the machine does."""
+    """Above an empty page, each the quickest of three: a browser's start depends on what else the machine does."""
     browser = shutil.which("chromium") or shutil.which("google-chrome")
     if not browser:
         return
