@@ -27,6 +27,15 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/brainshift-config-version
 install(FILES ${PROJECT_BINARY_DIR}/brainshift-config.cmake ${PROJECT_BINARY_DIR}/brainshift-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/brainshift COMPONENT library)
 
+# The BIDS App: scripts in one folder, which the commands on the path lead to.
+set(cohorts ${CMAKE_INSTALL_DATADIR}/brainshift/bids)
+install(DIRECTORY pipelines/bids/ DESTINATION ${cohorts} COMPONENT program USE_SOURCE_PERMISSIONS
+  PATTERN "*.md" EXCLUDE PATTERN Dockerfile EXCLUDE PATTERN __pycache__ EXCLUDE)
+foreach(command brainshift-bids brainshift-sweep)
+  file(CREATE_LINK ../share/brainshift/bids/${command} ${PROJECT_BINARY_DIR}/${command} SYMBOLIC)
+  install(FILES ${PROJECT_BINARY_DIR}/${command} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+endforeach()
+
 # help2man writes the page from the program's own help.
 find_program(HELP2MAN help2man)
 if(HELP2MAN)
@@ -55,6 +64,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME brainshift)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS python3:any)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "snakemake, slurm-wlm")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What stage.sh says of each stage of a case: when it began and ended, an exit code, a sentence."""
+from typing import NamedTuple
+
+
+class Mark(NamedTuple):
+    begin: float
+    end: float
+    code: int
+    sentence: str
+
+
+def read(folder, stage):
+    """None where the stage has not ended, or the disk took no more of the mark."""
+    try:
+        begin, end, code, sentence = (folder / "marks" / stage).read_text(encoding="utf-8").split("\n")[:4]
+        return Mark(float(begin), float(end), int(code), sentence)
+    except (FileNotFoundError, ValueError):
+        return None
+
+
+def drop(folder, stages):
+    """From the first stage on that failed, or whose files are gone: those are to be run again."""
+    for place, stage in enumerate(stages):
+        mark = read(folder, stage)
+        if not mark or mark.code != 0 or not (folder / "run" / stage / "stage.json").exists():
+            for later in stages[place:]:
+                (folder / "marks" / later).unlink(missing_ok=True)
+            return
+
+
+def fault(folder, stages):
+    """Empty, or why a case has no result."""
+    last = read(folder, stages[-1])
+    if last:
+        return last.sentence or (f"ended with {last.code}" if last.code else "")
+    begun = [stage for stage in stages if read(folder, stage)]
+    return f"interrupted after {begun[-1]}; the same command goes on" if begun else "not run yet"

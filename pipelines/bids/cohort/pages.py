@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page of a group, and that of a case without a result."""
+import html
+
+from .measures import COLUMNS, COSTS, outliers_first, written
+
+STYLE = ("body{font:15px sans-serif;margin:24px}table{border-collapse:collapse}td,th{padding:3px 9px;text-align:right;"
+         "border-bottom:1px solid #ddd;white-space:nowrap}th{position:sticky;top:0;background:#fff}"
+         "td:first-child,th:first-child,td.words{text-align:left}td.words{white-space:normal}.far{background:#ffe08a}"
+         ".fault{background:#ffd4cf}")
+MOST_ROWS = 2000  # a browser shows no more in a moment; the table holds all
+
+
+def page(title, body):
+    return (f'<!DOCTYPE html>\n<html lang="en"><meta charset="utf-8"/><title>{html.escape(title)}</title>'
+            f"<style>{STYLE}</style>\n<h1>{html.escape(title)}</h1>\n{body}</html>\n")
+
+
+def fault_page(name, sentence):
+    return page(f"{name}: no result", f"<p>{html.escape(sentence)}</p>\n")
+
+
+def shown(value):
+    return f"{value:.3g}" if isinstance(value, float) and abs(value) < 1000 else written(
+        round(value) if isinstance(value, float) else value)
+
+
+def group_page(rows, far, table_name):
+    order = outliers_first(rows, far)
+    done = sum(row["status"] == "done" for row in rows)
+    out = sum(bool(places) for row, places in zip(rows, far) if row["status"] == "done")
+    intro = (f"<p>{done} of {len(rows)} done; {out} of them lie far from the others in what is coloured. "
+             f'The whole table: <a href="{table_name}">{table_name}</a>.</p>\n')
+    if len(rows) > MOST_ROWS:
+        intro += f"<p>The first {MOST_ROWS} rows are shown.</p>\n"
+    names = list(COLUMNS) + list(COSTS)
+    about = {name: text for name, (_, text, _) in COLUMNS.items()} | {name: text for name, (text, _) in COSTS.items()}
+    head = "".join(f'<th title="{html.escape(about[name])}">{name}</th>' for name in names)
+    lines = [row_text(rows[i], far[i], names) for i in order[:MOST_ROWS]]
+    return page("brainshift: group", f"{intro}<table><tr><th>name</th>{head}</tr>\n" + "\n".join(lines) + "</table>\n")
+
+
+def row_text(row, far, names):
+    name = html.escape(row["name"])
+    link = f'<td><a href="{name}.html">{name}</a></td>'
+    if row["status"] != "done":
+        sentence = html.escape(row["sentence"])
+        return f'<tr class="fault">{link}<td class="words" colspan="{len(names)}">{sentence}</td></tr>'
+    cells = "".join(f'<td{" class=far" if name in far else ""}>{shown(row[name])}</td>' for name in names)
+    return f"<tr>{link}{cells}</tr>"

@@ -1,0 +1,205 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a BIDS folder holds and what it lacks; the plan; the table and which rows lie far from the others."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipelines/bids"))
+
+from cohort import derivatives, marks, measures, names, pages, plan  # noqa: E402
+from cohort.finder import Finder  # noqa: E402
+
+POINTS = "derivatives/plan/sub-01/anat/sub-01_desc-cortex_points.csv"
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.root = pathlib.Path(temporary.name)
+
+    def make(self, *files, text=""):
+        for file in files:
+            (self.root / file).parent.mkdir(parents=True, exist_ok=True)
+            (self.root / file).write_text(text)
+
+    def find(self, participant="01", sessions=(), **options):
+        folders = sorted((self.root / "derivatives").glob("*"))
+        return Finder(self.root, folders, **options).cases(participant, sessions)
+
+    def one(self, **options):
+        cases, faults = self.find(**options)
+        self.assertEqual(faults, {})
+        self.assertEqual(len(cases), 1)
+        return cases[0]
+
+    def relative(self, file):
+        return str(pathlib.Path(file).relative_to(self.root))
+
+
+class FinderTest(Folder):
+    def test_takes_the_label_map_with_the_inherited_table_and_the_load(self):
+        self.make("sub-01/anat/sub-01_T1w.nii.gz", "sub-01/anat/sub-01_T2w.nii.gz", POINTS,
+                  "derivatives/plan/sub-01/anat/sub-01_dseg.nii.gz", "derivatives/plan/dseg.tsv",
+                  "derivatives/plan/desc-aseg_dseg.tsv")
+        case = self.one()
+        self.assertEqual(self.relative(case.t1), "sub-01/anat/sub-01_T1w.nii.gz")
+        self.assertEqual(self.relative(case.labels), "derivatives/plan/sub-01/anat/sub-01_dseg.nii.gz")
+        self.assertEqual(self.relative(case.labels_are), "derivatives/plan/dseg.tsv")
+        self.assertEqual([self.relative(file) for file in case.points], [POINTS])
+
+    def test_prefers_the_map_that_knows_the_ventricles_and_no_map_of_another_space(self):
+        maps = [f"derivatives/fmriprep/sub-01/anat/sub-01_{name}dseg.nii.gz"
+                for name in ("", "desc-aseg_", "desc-aparcaseg_", "space-MNI_desc-aparcaseg_")]
+        self.make("sub-01/anat/sub-01_T1w.nii.gz", POINTS, *maps)
+        self.assertEqual(self.relative(self.one().labels), maps[2])
+
+    def test_takes_freesurfer_where_there_is_no_map_and_a_mask_where_there_is_neither(self):
+        mask = "derivatives/plan/sub-01/anat/sub-01_desc-brain_mask.nii.gz"
+        self.make("sub-01/anat/sub-01_T1w.nii.gz", POINTS, mask)
+        self.assertEqual(self.relative(self.one().brain_mask), mask)
+        self.make("derivatives/freesurfer/sub-01/mri/aseg.mgz", "derivatives/freesurfer/sub-01/mri/aparc+aseg.mgz")
+        case = self.one()
+        self.assertEqual(self.relative(case.labels), "derivatives/freesurfer/sub-01/mri/aparc+aseg.mgz")
+        self.assertEqual((case.labels_are, case.brain_mask), ("freesurfer", ""))
+
+    def test_takes_markups_before_and_after_and_the_map_of_the_tumour(self):
+        stem = "derivatives/plan/sub-01/sub-01_desc-"
+        tumour = "derivatives/plan/sub-01/anat/sub-01_label-tumor_mask.nii.gz"
+        self.make("sub-01/anat/sub-01_T1w.nii.gz", "derivatives/plan/sub-01/anat/sub-01_dseg.nii.gz", tumour,
+                  stem + "before_points.mrk.json", stem + "after_points.mrk.json")
+        case = self.one()
+        self.assertEqual([self.relative(file) for file in case.points],
+                         [stem + "before_points.mrk.json", stem + "after_points.mrk.json"])
+        self.assertEqual(self.relative(case.tumour), tumour)
+        (self.root / (stem + "after_points.mrk.json")).unlink()
+        self.assertIn("half a load", self.find()[1]["sub-01"])
+
+    def test_names_what_is_missing(self):
+        self.make(POINTS)
+        self.assertIn("no T1w image", self.find()[1]["sub-01"])
+        self.make("sub-01/anat/sub-01_T1w.nii.gz")
+        self.assertIn("no labels", self.find()[1]["sub-01"])
+        self.make("derivatives/plan/sub-01/anat/sub-01_dseg.nii.gz")
+        (self.root / POINTS).unlink()
+        self.assertIn("no load", self.find()[1]["sub-01"])
+
+    def test_asks_which_of_two_images_and_takes_the_answer(self):
+        images = [f"sub-01/anat/sub-01_acq-{name}_T1w.nii.gz" for name in ("flash", "mprage")]
+        self.make(*images, POINTS, "derivatives/plan/sub-01/anat/sub-01_dseg.nii.gz")
+        self.assertIn("--pick T1w:", self.find()[1]["sub-01"])
+        self.assertEqual(self.relative(self.one(pick={"T1w": {"acq": "mprage"}}).t1), images[1])
+
+    def test_says_that_a_link_has_no_content(self):
+        self.make("sub-01/anat/x", POINTS)
+        (self.root / "sub-01/anat/sub-01_T1w.nii.gz").symlink_to("gone")
+        self.assertIn("datalad get", self.find()[1]["sub-01"])
+
+    def session(self, name, *kinds):
+        files = {"T1w": f"sub-01/ses-{name}/anat/sub-01_ses-{name}_T1w.nii.gz",
+                 "dseg": f"derivatives/plan/sub-01/ses-{name}/anat/sub-01_ses-{name}_dseg.nii.gz",
+                 "points": f"derivatives/plan/sub-01/ses-{name}/sub-01_ses-{name}_desc-cortex_points.csv"}
+        self.make(*(files[kind] for kind in kinds))
+
+    def test_each_session_has_its_own_files(self):
+        self.session("a", "T1w", "dseg", "points")
+        self.session("b", "T1w", "dseg")
+        cases, faults = self.find()
+        self.assertEqual([case.name for case in cases], ["sub-01_ses-a"])
+        self.assertIn("no load", faults["sub-01_ses-b"])
+        self.assertEqual(self.find(sessions=("a",))[1], {})
+
+    def test_a_load_without_a_session_is_not_given_to_two(self):
+        self.session("a", "T1w", "dseg")
+        self.make(POINTS)
+        self.assertEqual([case.name for case in self.find()[0]], ["sub-01_ses-a"])
+        self.session("b", "T1w", "dseg")
+        self.assertEqual(sorted(self.find()[1]), ["sub-01_ses-a", "sub-01_ses-b"])
+
+    def test_the_image_may_be_of_another_session_than_the_load(self):
+        self.session("preop", "T1w", "dseg")
+        self.session("intraop", "points")
+        case = self.one(preop_session="preop")
+        self.assertEqual((case.name, self.relative(case.t1)),
+                         ("sub-01_ses-intraop", "sub-01/ses-preop/anat/sub-01_ses-preop_T1w.nii.gz"))
+
+
+class PlanTest(Folder):
+    def test_a_case_is_newer_only_where_something_changed(self):
+        self.make("t1.nii.gz", text="one")
+        case = plan.Case("sub-01", "", ["--t1", "a b"], ["discretise.nodes=300"], [str(self.root / "t1.nii.gz")])
+        plan.write_case(self.root, case, "1.0")
+        file = self.root / "sub-01/case.sh"
+        first = file.stat().st_ino
+        plan.write_case(self.root, case, "1.0")
+        self.assertEqual(file.stat().st_ino, first)
+        self.make("t1.nii.gz", text="another")
+        plan.write_case(self.root, case, "1.0")
+        self.assertNotEqual(file.stat().st_ino, first)
+        self.assertIn("files=(--t1 'a b')", file.read_text())
+
+    def test_what_failed_or_is_gone_is_run_again_with_all_after_it(self):
+        stages = ("segment", "discretise", "solve")
+        self.make("run/segment/stage.json", "run/discretise/stage.json", "run/solve/stage.json")
+        self.make(*(f"marks/{stage}" for stage in stages), text="1.0\n2.0\n0\n\n")
+        marks.drop(self.root, stages)
+        self.assertEqual(marks.fault(self.root, stages), "")
+        (self.root / "run/discretise/stage.json").unlink()
+        marks.drop(self.root, stages)
+        self.assertEqual([marks.read(self.root, stage) is None for stage in stages], [False, True, True])
+        self.assertIn("interrupted after segment", marks.fault(self.root, stages))
+        self.make("marks/solve", text="1.0\n2.0\n2\nsolve: the load is empty\n")
+        self.assertEqual(marks.fault(self.root, stages), "solve: the load is empty")
+
+    def test_a_mark_that_the_disk_cut_off_is_none(self):
+        self.make("marks/solve", text="1.0\n2.")
+        self.assertIsNone(marks.read(self.root, "solve"))
+
+
+class GroupTest(unittest.TestCase):
+    def rows(self):
+        rows = [{"name": f"sub-{i:02d}", "status": "done", "largest_shift_mm": 8 + 0.1 * (i % 5), "folded_voxels": 0,
+                 "seconds": 1.0} for i in range(20)]
+        rows[7]["largest_shift_mm"] = 19.0
+        rows[12]["folded_voxels"] = 3
+        rows.append({"name": "sub-99", "status": "no result", "sentence": "no <T1w> image"})
+        return rows
+
+    def test_far_rows_are_found_and_come_first_behind_those_without_a_result(self):
+        rows = self.rows()
+        far = measures.far_columns(rows)
+        self.assertEqual([list(places) for places in far if places], [["largest_shift_mm"], ["folded_voxels"]])
+        order = [rows[i]["name"] for i in measures.outliers_first(rows, far)]
+        self.assertEqual((order[0], set(order[1:3])), ("sub-99", {"sub-07", "sub-12"}))
+
+    def test_the_page_and_the_table_hold_every_row(self):
+        rows = [{column: row.get(column) for column in (*row, *measures.COLUMNS, *measures.COSTS)}
+                for row in self.rows()]
+        text = pages.group_page(rows, measures.far_columns(rows), "t.tsv")
+        self.assertEqual(text.count("<tr"), len(rows) + 1)
+        self.assertIn("no &lt;T1w&gt; image", text)
+        table = measures.as_table(rows, ("name", "largest_shift_mm"))
+        self.assertEqual(table.splitlines()[-1], "sub-99\tn/a")
+        self.assertEqual(table.splitlines()[8], "sub-07\t19")
+
+
+class NamesTest(unittest.TestCase):
+    def test_a_case_is_named_by_participant_and_session(self):
+        self.assertEqual(names.case_parts(names.case_name("01", "a")), ("01", "a"))
+        self.assertEqual(names.case_parts("sub-01"), ("01", ""))
+
+    def test_entities_suffix_and_extension(self):
+        name = names.parse("sub-01_ses-a_desc-before_points.mrk.json")
+        self.assertEqual(name, ({"sub": "01", "ses": "a", "desc": "before"}, "points", ".mrk.json"))
+        self.assertIsNone(names.parse("sub-01_thing_T1w.nii.gz"))
+
+    def test_the_table_of_labels_has_the_names_of_the_tissues(self):
+        table = derivatives.label_table({"1": {"name": ""}, "12": {"name": "falx"}}).splitlines()
+        self.assertEqual((table[0], table[1], table[-1]), ("index\tname", "1\tparenchyma", "12\tfalx"))
+
+
+if __name__ == "__main__":
+    unittest.main()
