@@ -48,11 +48,12 @@
         plot.ctx.fillRect(left, top, plot.valToPos(x[loading], "x", true) - left, height);
       };
       new uPlot({
-        title, width: 600, height: 360, hooks: { drawClear: [shadeLoading] },
+        title, width: 560, height: 340, hooks: { drawClear: [shadeLoading] },
         scales: { x: { time: false }, y: logarithmic ? { distr: 3 } : {} },
         axes: [{ label: xName }, { label: yName, size: 70 }],
         series: [{ label: xName },
-          ...lines.map(([label, , dash], i) => ({ label, stroke: colours[i], width: 2, dash }))],
+          ...lines.map(([label, , dash], i) =>
+            ({ label, stroke: colours[i], width: 2, dash, points: { show: !dash } }))],
       }, [x, ...lines.map(([, values]) => values.map(shown))], element("curves"));
     };
     const tolerance = columns.step.map(() => Number(options.tolerance));
@@ -155,8 +156,7 @@
       crosshairGap: 8, show3Dcrosshair: true,
       isRadiologicalConvention: true, sagittalNoseLeft: true, isSliceMM: true, multiplanarForceRender: true,
       multiplanarShowRender: niivue.SHOW_RENDER.ALWAYS, multiplanarLayout: niivue.MULTIPLANAR_TYPE.GRID,
-      meshThicknessOn2D: 0.7, isDepthPickMesh: true, isClipAllVolumes: true,
-      dragAndDropEnabled: false, logLevel: "error",
+      meshThicknessOn2D: 0.7, isClipAllVolumes: true, dragAndDropEnabled: false, logLevel: "error",
     });
     await nv.attachToCanvas(element("canvas"));
     nv.setClipPlane([-10, 0, 0]); // the 3-D tile shows the surface; the image's block would hide it
@@ -311,7 +311,7 @@
       const source = isAfter() ? cameFrom(place) : place;
       const u = displacementAt(source);
       const parts = [`At ${place.map((x) => x.toFixed(1)).join(", ")} (LPS, mm), ${isAfter() ? "after" : "before"}:`];
-      if (nearest(fields, brain, source)) {
+      if (valueAt(fields, brain, source) > 0) { // its surface, too
         const tissue = isAfter() ? "the tissue that lies here came" : "the tissue here moves";
         parts.push(`${tissue} ${mm(length(u))}: ${directions(u)}.`);
         for (const kind of kinds.slice(2)) {
@@ -326,7 +326,7 @@
       if (label) parts.push(`${labelName(label)}.`);
       const near = measured.map((point) => ({ ...point, far: length(point.at.map((x, axis) => x - source[axis])) }))
         .sort((a, b) => a.far - b.far)[0];
-      if (near) {
+      if (near?.far < 20) {
         const computed = displacementAt(near.at);
         parts.push(`Nearest measured point, ${mm(near.far)} away: measured ${mm(length(near.shift))}`,
           near.deviation ? `(standard deviation ${mm(near.deviation)}),` : "and",
@@ -349,6 +349,9 @@
       element(control).addEventListener("input", later);
     }
     nv.onLocationChange = ({ mm: place }) => describe(flipped(place));
+    // NiiVue picks a place of the surface on a double click, and tells nobody.
+    element("canvas").addEventListener("dblclick", () =>
+      describe(flipped([...nv.frac2mm(nv.scene.crosshairPos, 0, true)].slice(0, 3))));
     nv.scene.crosshairPos = nv.mm2frac(flipped(facts.focus));
     const [x, y, z] = flipped(facts.inward).map((part) => -part); // from the brain to the eye
     nv.scene.volScaleMultiplier = 1.3;
@@ -377,10 +380,10 @@
     element("controls").hidden = element("frame").hidden = false;
     await loadLibrary("niivue");
     await show(facts);
-    says.textContent = "Click or drag in a plane, or click on the brain, to read what happens there; drag beside it to "
-      + "turn it; scroll to zoom, or to go through the slices. The slider takes image, labels and surface from before "
-      + "the operation to after it; in between the image is only faded. From its middle on, colours and words are "
-      + "those of the tissue as it lies after. Lines: the brain's surface before (blue) and after (orange).";
+    says.textContent = "Click or drag in a plane, or double-click on the brain, to read what happens there; drag the "
+      + "brain to turn it; scroll to zoom it or to go through the slices. The slider takes image, labels and surface "
+      + "from before the operation to after it; in between the image is only faded. From its middle on, colours and "
+      + "words are those of the tissue as it lies after. Lines: the brain's surface before (blue) and after (orange).";
   } catch (error) {
     console.error(error);
     if (says) says.textContent = `The view cannot be drawn (${error.message}). The pictures below show the same run.`;
