@@ -2,9 +2,11 @@
 #include "pipelines/report/report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <future>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -30,6 +32,13 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
   }
 }
 
+constexpr std::size_t largest_page = 10'000'000;  // letters: what goes by mail
+constexpr std::size_t tables = 200'000;           // and script: what else is on the page
+
+std::array<const std::vector<Figure>*, 4> all_figures(const PageContent& content) {
+  return {&content.comparisons, &content.displacements, &content.labels, &content.surfaces};
+}
+
 // The pictures do not depend on each other: one is drawn while another's PNG is compressed.
 void draw_pictures(const RunData& run, PageContent& content, const Progress& progress) {
   const View view = make_view(run);
@@ -50,9 +59,6 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
   report(progress, 0.3, "drawing the surface");
   content.surfaces.push_back(surface_figure(run, view));
   report(progress, 0.6, "drawing the slices");
-  if (!content.libraries.empty() && content.has_image && run.forward) {
-    content.viewer = viewer_data(run, view);
-  }
   for (auto& figures : comparisons) {
     std::ranges::move(figures.get(), std::back_inserter(content.comparisons));
   }
@@ -61,6 +67,15 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
   }
   for (auto& figure : labels) {
     content.labels.push_back(figure.get());
+  }
+  if (!content.libraries.empty() && content.has_image && run.forward) {
+    report(progress, 0.8, "packing the images");
+    std::size_t taken = letters_of(content.libraries) + tables;
+    for (const auto* figures : all_figures(content)) {
+      taken = std::accumulate(figures->begin(), figures->end(), taken,
+                              [](std::size_t sum, const Figure& figure) { return sum + figure.svg.size(); });
+    }
+    content.viewer = viewer_data(run, view, largest_page - std::min(taken, largest_page));
   }
 }
 
@@ -79,8 +94,7 @@ void write_report(const fs::path& run_folder, const fs::path& out, const Progres
   }
   content.viewer.facts["history"] = run.history;
   content.viewer.facts["options"] = run.record.value("options", nlohmann::json::object());
-  for (const std::vector<Figure>* figures :
-       {&content.comparisons, &content.displacements, &content.labels, &content.surfaces}) {
+  for (const auto* figures : all_figures(content)) {
     for (const Figure& figure : *figures) {
       write_bytes(out / (figure.name + ".svg"), figure.svg);
     }

@@ -79,6 +79,7 @@ RunData read_run(const fs::path& run_folder) {
       read_if_there(run_folder / "solve/solution.vtu", [](const fs::path& file) { return read_solution(file); });
   run.history = text_of(run_folder / "solve/history.csv");
   run.load = text_of(run_folder / "solve/load.csv");
+  run.uncertainty = text_of(run_folder / "solve/uncertainty.csv");
   run.warped_labels = read_if_there(run_folder / "register/warped_labels.nii.gz", label_map);
   run.jacobian = read_if_there(run_folder / "register/jacobian.nii.gz", image);
   run.forward = forward.get();

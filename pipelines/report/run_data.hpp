@@ -28,6 +28,7 @@ struct RunData {
   std::optional<LabelMap> warped_labels = {};
   std::optional<ScalarImage> jacobian = {};  ///< volume ratio at preop points
   std::string load = {};                     ///< text of solve/load.csv
+  std::string uncertainty = {};              ///< text of solve/uncertainty.csv
 };
 
 /// Throws std::invalid_argument, naming the file, when the folder holds no run.json or something that cannot be read.

@@ -70,13 +70,16 @@
   const transformed = (m, [x, y, z]) =>
     [0, 4, 8].map((row) => m[row] * x + m[row + 1] * y + m[row + 2] * z + m[row + 3]);
 
-  // Linear between the voxels; beyond the grid as at its border.
+  // Linear between the voxels; beyond the grid as at its border. Called millions of times: no array is made here.
   function valueAt(grid, values, place, component = 0) {
     const [nx, ny, nz] = grid.size;
-    const index = transformed(grid.to_index, place);
-    const low = index.map((x, axis) => Math.max(0, Math.min(grid.size[axis] - 2, Math.floor(x))));
-    const [a, b, c] = index.map((x, axis) => Math.max(0, Math.min(1, x - low[axis])));
-    const first = low[0] + nx * (low[1] + ny * (low[2] + nz * component));
+    const m = grid.to_index, [px, py, pz] = place;
+    const x = Math.max(0, Math.min(nx - 1, m[0] * px + m[1] * py + m[2] * pz + m[3]));
+    const y = Math.max(0, Math.min(ny - 1, m[4] * px + m[5] * py + m[6] * pz + m[7]));
+    const z = Math.max(0, Math.min(nz - 1, m[8] * px + m[9] * py + m[10] * pz + m[11]));
+    const i = Math.min(nx - 2, Math.floor(x)), j = Math.min(ny - 2, Math.floor(y)), k = Math.min(nz - 2, Math.floor(z));
+    const a = x - i, b = y - j, c = z - k;
+    const first = i + nx * (j + ny * (k + nz * component));
     const along = (from) => values[from] * (1 - a) + values[from + 1] * a;
     const layer = (from) => along(from) * (1 - b) + along(from + nx) * b;
     return layer(first) * (1 - c) + layer(first + nx * ny) * c;
@@ -156,10 +159,10 @@
       crosshairGap: 8, show3Dcrosshair: true,
       isRadiologicalConvention: true, sagittalNoseLeft: true, isSliceMM: true, multiplanarForceRender: true,
       multiplanarShowRender: niivue.SHOW_RENDER.ALWAYS, multiplanarLayout: niivue.MULTIPLANAR_TYPE.GRID,
-      meshThicknessOn2D: 0.7, isClipAllVolumes: true, dragAndDropEnabled: false, logLevel: "error",
+      meshThicknessOn2D: 0.7, dragAndDropEnabled: false, logLevel: "error",
     });
     await nv.attachToCanvas(element("canvas"));
-    nv.setClipPlane([-10, 0, 0]); // the 3-D tile shows the surface; the image's block would hide it
+    nv.drawImage3D = () => {}; // in 3-D the image's block would hide the surface
 
     const addVolume = async (name, grid, type, values, more) => {
       const m = [...grid.to_world.map((value, i) => (i < 8 ? -value : value)), 0, 0, 0, 1];
@@ -229,6 +232,10 @@
     });
     nv.addMesh(points);
     element("points_shown").disabled = measured.length === 0;
+    const asked = facts.uncertainty ? table(facts.uncertainty) : { x: [] };
+    const deviations = asked.x.map((x, i) => ({
+      at: [x, asked.y[i], asked.z[i]], deviation: Math.sqrt(asked.xx[i] + asked.yy[i] + asked.zz[i]),
+    }));
 
     // --- What the controls do ---
 
@@ -324,9 +331,15 @@
       }
       const label = labels[0] && nearest(images, labels[0], source);
       if (label) parts.push(`${labelName(label)}.`);
-      const near = measured.map((point) => ({ ...point, far: length(point.at.map((x, axis) => x - source[axis])) }))
-        .sort((a, b) => a.far - b.far)[0];
-      if (near?.far < 20) {
+      const nearestOf = (all) => all
+        .map((point) => ({ ...point, far: length(point.at.map((x, axis) => x - source[axis])) }))
+        .filter(({ far }) => far < 20).sort((a, b) => a.far - b.far)[0];
+      const landmark = nearestOf(deviations);
+      if (landmark) {
+        parts.push(`Standard deviation, at a landmark ${mm(landmark.far)} away: ${mm(landmark.deviation)}.`);
+      }
+      const near = nearestOf(measured);
+      if (near) {
         const computed = displacementAt(near.at);
         parts.push(`Nearest measured point, ${mm(near.far)} away: measured ${mm(length(near.shift))}`,
           near.deviation ? `(standard deviation ${mm(near.deviation)}),` : "and",

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <new>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "pipelines/report/canvas.hpp"
@@ -19,10 +22,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double image_margin = 10;              // mm, shown around the brain
-constexpr double field_voxel = 2;                // mm, at least: fields are smooth
-constexpr double most_voxels = 6e6;              // of an image
-constexpr std::size_t most_letters = 5'200'000;  // of both images; pictures and libraries take 4 MB
+constexpr double image_margin = 10;  // mm, shown around the brain
+constexpr double field_voxel = 2;    // mm, at least: fields are smooth
+constexpr double most_voxels = 6e6;  // of an image
+constexpr std::size_t least_voxels = 100'000;
 
 // The part of a grid around the brain, with voxels so many times as long.
 ImageGeometry part_around(const Surface& brain, const ImageGeometry& grid, const Eigen::Array3d& longer) {
@@ -75,26 +78,21 @@ std::vector<std::uint8_t> greys(const ScalarImage& image, const View& view, cons
   });
 }
 
-// Adds both images, on the finest grid that keeps the page small; the grid.
-ImageGeometry add_images(ViewerData& data, const RunData& run, const View& view) {
-  const auto grid_of = [&](double longer) {
-    return part_around(*run.brain, run.t1->geometry, Eigen::Array3d::Constant(longer));
-  };
-  const double voxels = static_cast<double>(grid_of(1).voxel_count());
-  for (double longer = std::max(1.0, std::cbrt(voxels / most_voxels));; longer *= std::cbrt(2.0)) {
-    const ImageGeometry grid = grid_of(longer);
-    const auto before = greys(*run.t1, view, grid);
-    auto change = greys(*run.warped, view, grid);
-    std::ranges::transform(change, before, change.begin(), [](int to, int from) {
-      return static_cast<std::uint8_t>(to - from);  // modulo 256, as the page adds it
-    });
-    std::string first = packed_numbers(before), second = packed_numbers(change);
-    if (first.size() + second.size() <= most_letters) {
-      data.arrays.push_back({"image", std::move(first)});
-      data.arrays.push_back({"image_change", std::move(second)});
-      return grid;
+// Both images, and the label maps where there are both.
+std::vector<PackedBytes> images_on(const ImageGeometry& grid, const RunData& run, const View& view) {
+  const auto before = greys(*run.t1, view, grid);
+  auto change = greys(*run.warped, view, grid);
+  std::ranges::transform(change, before, change.begin(), [](int to, int from) {
+    return static_cast<std::uint8_t>(to - from);  // modulo 256, as the page adds it
+  });
+  std::vector<PackedBytes> arrays = {{"image", packed_numbers(before)}, {"image_change", packed_numbers(change)}};
+  if (run.labels && run.warped_labels) {
+    for (const auto& [name, map] : {std::pair("labels", &*run.labels), {"labels_after", &*run.warped_labels}}) {
+      const auto label = [map = map](const Eigen::Vector3d& place) { return label_at(*map, place); };
+      arrays.push_back({name, packed_numbers(on_voxels<std::uint16_t>(grid, label))});
     }
   }
+  return arrays;
 }
 
 // 1 inside the surface: cut layer by layer, in voxels of the grid.
@@ -144,7 +142,7 @@ void add_fields(ViewerData& data, const RunData& run, const ImageGeometry& grid)
     return cell.interpolate([&](std::size_t voxel) { return forward.voxels[voxel][static_cast<std::size_t>(axis)]; });
   });
   if (run.jacobian) {
-    add_field(data, "ratio", 0.001, 1, grid, [&](auto& place, int) { return value_at(*run.jacobian, place); });
+    add_field(data, "ratio", 0.002, 1, grid, [&](auto& place, int) { return value_at(*run.jacobian, place); });
   }
   if (!run.solution->estimated_error.empty()) {
     const PointTree nodes(run.solution->positions);
@@ -178,7 +176,7 @@ json described_colours(ColourMap map) {
 
 }  // namespace
 
-ViewerData viewer_data(const RunData& run, const View& view) {
+ViewerData viewer_data(const RunData& run, const View& view, std::size_t room) {
   const std::vector<double> focus(view.focus.data(), view.focus.data() + 3);
   const std::vector<double> inward(view.inward.data(), view.inward.data() + 3);
   ViewerData data{.facts = {{"focus", focus},
@@ -186,26 +184,37 @@ ViewerData viewer_data(const RunData& run, const View& view) {
                             {"largest", view.shift.high},
                             {"sequential", described_colours(ColourMap::sequential)},
                             {"diverging", described_colours(ColourMap::diverging)},
-                            {"load", run.load}}};
-  const ImageGeometry images = add_images(data, run, view);
-  const Eigen::Array3d longer = (field_voxel / images.spacing.array()).max(1);
-  const ImageGeometry fields = part_around(*run.brain, images, longer);
-  data.facts["images"] = described_grid(images);
+                            {"load", run.load},
+                            {"uncertainty", run.uncertainty}}};
+  const ImageGeometry& t1 = run.t1->geometry;
+  const ImageGeometry fields = part_around(*run.brain, t1, (field_voxel / t1.spacing.array()).max(1));
   data.facts["fields"] = described_grid(fields);
   add_fields(data, run, fields);
-  if (run.labels && run.warped_labels) {
-    for (const auto& [name, map] : {std::pair("labels", &run.labels), {"labels_after", &run.warped_labels}}) {
-      const auto label = [&map](const Eigen::Vector3d& place) { return label_at(**map, place); };
-      data.arrays.push_back({name, packed_numbers(on_voxels<std::uint16_t>(images, label))});
-    }
-  }
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> vertices = run.brain->vertices.cast<float>();
   const std::span<const float> places(vertices.data(), static_cast<std::size_t>(vertices.size()));
   const std::span<const std::int32_t> corners(run.brain->triangles.data(),
                                               static_cast<std::size_t>(run.brain->triangles.size()));
   data.arrays.push_back({"vertices", packed_numbers(places)});
   data.arrays.push_back({"triangles", packed_numbers(corners)});
+
+  const std::size_t taken = letters_of(data.arrays);
+  for (double longer = 1; data.facts["images"].is_null(); longer *= std::cbrt(2.0)) {
+    const ImageGeometry grid = part_around(*run.brain, t1, Eigen::Array3d::Constant(longer));
+    if (static_cast<double>(grid.voxel_count()) > most_voxels) {
+      continue;
+    }
+    std::vector<PackedBytes> images = images_on(grid, run, view);
+    if (taken + letters_of(images) <= room || grid.voxel_count() < least_voxels) {
+      data.facts["images"] = described_grid(grid);
+      std::ranges::move(images, std::back_inserter(data.arrays));
+    }
+  }
   return data;
+}
+
+std::size_t letters_of(const std::vector<PackedBytes>& all) {
+  return std::accumulate(all.begin(), all.end(), std::size_t{0},
+                         [](std::size_t sum, const PackedBytes& one) { return sum + one.text.size(); });
 }
 
 std::string packed(std::string_view bytes) {

@@ -24,10 +24,13 @@ struct ViewerData {
 };
 
 /// Both images around the brain in 64 greys, the warped one as what it differs by from the first, which takes a third
-/// of the room; on a grid of 2 mm displacement, volume ratio, estimated error and what is brain; both label maps; the
-/// surface. Large images are made coarser, so that the page stays below 10 MB. The run must have a brain's surface, a
-/// solution, T1, warped image and forward field; what else it lacks is left out.
-ViewerData viewer_data(const RunData& run, const View& view);
+/// of the letters; both label maps; on a grid of 2 mm displacement, volume ratio, estimated error and what is brain;
+/// the surface. Images and labels are made coarser until all takes no more letters than room. The run must have a
+/// brain's surface, a solution, T1, warped image and forward field; what else it lacks is left out.
+ViewerData viewer_data(const RunData& run, const View& view, std::size_t room);
+
+/// How much of the page they take.
+std::size_t letters_of(const std::vector<PackedBytes>& all);
 
 /// Bytes compressed and as text. Throws std::length_error as encode_base64() does.
 std::string packed(std::string_view bytes);

@@ -15,6 +15,7 @@
 #include "solve/output/field_difference.hpp"
 #include "solve/output/solution_file.hpp"
 #include "tests/phantoms/heads/head_runs.hpp"
+#include "tests/phantoms/program.hpp"
 
 namespace brainshift {
 namespace {

@@ -13,7 +13,9 @@ class RunDataTest : public RunFolder {};
 TEST_F(RunDataTest, PartsThatTheRunDidNotMakeAreEmpty) {
   write("run.json", "{}");
   write("solve/history.csv", "step,time\n1,1\n");
+  write("solve/uncertainty.csv", "x,y,z\n");
   const RunData run = read_run(folder_);
+  EXPECT_EQ(run.uncertainty, "x,y,z\n");
   EXPECT_EQ(run.history, "step,time\n1,1\n");
   EXPECT_EQ(run.load, "");
   EXPECT_FALSE(run.t1 || run.warped || run.forward || run.brain || run.solution || run.labels || run.warped_labels ||
