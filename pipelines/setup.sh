@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sourced by demo.sh and tests/run.sh: installs what a fresh Debian 12 lacks, and builds.
+# Sourced by demo.sh, tests/run.sh and package.sh: installs what a fresh Debian 12 lacks, and builds.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
@@ -21,8 +21,19 @@ as_root() {
   fi
 }
 
+# The two libraries of the report's view, whose checksums viewer.cmake has. They may fail to come: the report then does
+# not turn.
+fetch_viewer() {
+  local folder=$root/build/npm packages=(@niivue/niivue@0.69.0 uplot@1.6.32)
+  [ ! -e "$folder/niivue-niivue-0.69.0.tgz" ] || [ ! -e "$folder/uplot-1.6.32.tgz" ] || return 0
+  mkdir -p "$folder"
+  (cd "$folder" && npm pack --silent --fetch-retries=0 --fetch-timeout=60000 "${packages[@]}") ||
+    echo "${packages[*]} cannot be had by npm: the report will not turn."
+}
+
 # The packages of packages.txt, those named, and the head MRI, which may fail to come: a synthetic head takes its place.
 install_packages() {
+  fetch_viewer
   local needed image
   mapfile -t needed < <(missing_packages $(grep -v '^#' "$root/pipelines/packages.txt") "$@")
   mapfile -t image < <(missing_packages mricron-data)

@@ -96,14 +96,11 @@ json figures_of(std::span<Figure> figures) {
   return list;
 }
 
-json comparison(std::vector<Figure>& figures, std::size_t blink) {
+json comparison(std::vector<Figure>& figures) {
   if (figures.empty()) {
     return false;
   }
-  const Figure& before = figures[blink];
-  json section = {{"depth", readable(depth_of_planes)},      {"width", std::to_string(before.width)},
-                  {"height", std::to_string(before.height)}, {"before", before.name},
-                  {"after", figures[blink + 1].name},        {"rows", json::array()}};
+  json section = {{"depth", readable(depth_of_planes)}, {"rows", json::array()}};
   for (std::size_t i = 0; i + 2 < figures.size(); i += 3) {
     section["rows"].push_back({{"figures", figures_of(std::span(figures).subspan(i, 3))}});
   }
@@ -138,15 +135,25 @@ json measures_of(const std::vector<MeasureRow>& rows) {
 }
 
 json convergence(const PageContent& content) {
-  if (content.plots.empty()) {
+  if (content.viewer.facts.value("history", "").empty()) {
     return false;
   }
   const bool in_time = dynamics_of(content.record) == solve::Dynamics::transient;
-  json section = {{"in_time", in_time}, {"relaxed", !in_time}, {"plots", json::array()}};
-  for (const std::string& plot : content.plots) {
-    section["plots"].push_back({{"svg", plot}});
-  }
-  return section;
+  return {{"in_time", in_time}, {"relaxed", !in_time}, {"as_file", content.libraries.empty()}};
+}
+
+// What viewer_run.js unpacks, and both scripts as one module, which keeps their names; in XML, too, the page is
+// well-formed.
+std::string scripts(const PageContent& content) {
+  std::string text;
+  const auto add = [&text](const PackedBytes& bytes) {
+    text += "<script type=\"text/plain\" id=\"" + bytes.name + "\">" + bytes.text + "</script>\n";
+  };
+  std::ranges::for_each(content.viewer.arrays, add);
+  std::ranges::for_each(content.libraries, add);
+  constexpr auto replace = json::error_handler_t::replace;
+  add({.name = "facts", .text = packed(content.viewer.facts.dump(-1, ' ', false, replace))});
+  return text + "<script type=\"module\">//<![CDATA[\n" + viewer_script() + "//]]></script>\n";
 }
 
 json stages_of(const json& stages) {
@@ -173,27 +180,36 @@ std::string make_page(PageContent content) {
   const json stages = record.value("stages", json::object());
   json options = json::array(), all_measures = json::array();
   const json elements = record.value("options", json::object());
+  const bool turns = !content.libraries.empty() && !content.viewer.arrays.empty();
   for (const auto& [element, values] : elements.items()) {
     options.push_back(row_of_groups(element, values));
   }
   for (const auto& [stage, entry] : stages.items()) {
     all_measures.push_back(row_of_groups(stage, entry.value("measures", json::object())));
   }
-  return fill_page(page_html(), {{"scene", std::filesystem::path(record.value("scene", "")).filename().string()},
-                                 {"version", record.value("version", "")},
-                                 {"threads", readable(record.value("threads", 1))},
-                                 {"simulated", elements.contains("load.simulated")},
-                                 {"failures", failures(stages)},
-                                 {"no_image", !content.has_image},
-                                 {"tiles", tiles(content, stages, measures)},
-                                 {"comparison", comparison(content.comparisons, content.blink)},
-                                 {"displacement", displacement(content)},
-                                 {"labels", labels_of(content)},
-                                 {"measures", measures_of(measures)},
-                                 {"convergence", convergence(content)},
-                                 {"stages", stages_of(stages)},
-                                 {"options", std::move(options)},
-                                 {"all_measures", std::move(all_measures)}});
+  std::string page =
+      fill_page(page_html(), {{"scene", std::filesystem::path(record.value("scene", "")).filename().string()},
+                              {"version", record.value("version", "")},
+                              {"threads", readable(record.value("threads", 1))},
+                              {"simulated", elements.contains("load.simulated")},
+                              {"failures", failures(stages)},
+                              {"no_image", !content.has_image},
+                              {"tiles", tiles(content, stages, measures)},
+                              {"viewer", turns},
+                              {"no_viewer", content.libraries.empty()},
+                              {"licences", !content.libraries.empty()},
+                              {"comparison", comparison(content.comparisons)},
+                              {"displacement", displacement(content)},
+                              {"labels", labels_of(content)},
+                              {"measures", measures_of(measures)},
+                              {"convergence", convergence(content)},
+                              {"stages", stages_of(stages)},
+                              {"options", std::move(options)},
+                              {"all_measures", std::move(all_measures)}});
+  if (!content.libraries.empty()) {
+    page.insert(page.rfind("</body>"), scripts(content));
+  }
+  return page;
 }
 
 }  // namespace brainshift::pipelines

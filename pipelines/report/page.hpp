@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipelines/report/measure_table.hpp"
-#include "pipelines/report/slice_figures.hpp"
+#include "pipelines/report/viewer_data.hpp"
 
 namespace brainshift::pipelines {
 
@@ -13,14 +13,14 @@ namespace brainshift::pipelines {
 struct PageContent {
   nlohmann::json record;  ///< run.json
   bool has_image = false;
-  double largest_displacement = 0;         ///< mm
-  double arrow_factor = 1;                 ///< arrows are drawn so many times too long
-  std::vector<Figure> comparisons = {};    ///< before, after, difference; three a plane
-  std::vector<Figure> displacements = {};  ///< one a plane
-  std::vector<Figure> labels = {};         ///< one a plane
-  std::vector<Figure> surfaces = {};       ///< none or one
-  std::vector<std::string> plots = {};     ///< SVG text
-  std::size_t blink = 0;                   ///< index in comparisons of the "before" that fades into "after"
+  double largest_displacement = 0;          ///< mm
+  double arrow_factor = 1;                  ///< arrows are drawn so many times too long
+  std::vector<Figure> comparisons = {};     ///< before, after, difference; three a plane
+  std::vector<Figure> displacements = {};   ///< one a plane
+  std::vector<Figure> labels = {};          ///< one a plane
+  std::vector<Figure> surfaces = {};        ///< none or one
+  ViewerData viewer = {};                   ///< without an array where there is no image
+  std::vector<PackedBytes> libraries = {};  ///< of viewer.js
 };
 
 /// The whole page.
@@ -28,5 +28,11 @@ std::string make_page(PageContent content);
 
 /// The text of page.html, to be filled.
 const char* page_html();
+
+/// The text of viewer_run.js and viewer.js.
+const char* viewer_script();
+
+/// What viewer.js calls, with its licences; empty where the packages of npm were not there when the program was built.
+const std::vector<PackedBytes>& viewer_libraries();
 
 }  // namespace brainshift::pipelines

@@ -2,14 +2,15 @@
 #include "pipelines/report/report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <future>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "pipelines/report/history_plot.hpp"
 #include "pipelines/report/page.hpp"
 #include "pipelines/report/run_data.hpp"
 #include "pipelines/report/slice_figures.hpp"
@@ -31,23 +32,11 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
   }
 }
 
-// The plane in which most of the load's direction lies shows the shift best.
-std::size_t most_telling_plane(const View& view) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < view.planes.size(); ++i) {
-    const auto across = [&](std::size_t plane) { return std::abs(view.inward[view.planes[plane].normal_axis]); };
-    best = across(i) < across(best) ? i : best;
-  }
-  return best;
-}
+constexpr std::size_t largest_page = 10'000'000;  // letters: what goes by mail
+constexpr std::size_t tables = 200'000;           // and script: what else is on the page
 
-double tolerance_of(const nlohmann::json& record) {
-  const nlohmann::json::json_pointer place("/options/solve/tolerance");
-  if (!record.contains(place)) {
-    return 0;
-  }
-  const auto& value = record.at(place);
-  return value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
+std::array<const std::vector<Figure>*, 4> all_figures(const PageContent& content) {
+  return {&content.comparisons, &content.displacements, &content.labels, &content.surfaces};
 }
 
 // The pictures do not depend on each other: one is drawn while another's PNG is compressed.
@@ -55,7 +44,6 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
   const View view = make_view(run);
   content.arrow_factor = arrow_factor(view);
   content.largest_displacement = run.solution->displacement.rowwise().norm().maxCoeff();
-  content.blink = 3 * most_telling_plane(view);
   std::vector<std::future<std::vector<Figure>>> comparisons;
   std::vector<std::future<Figure>> displacements;
   std::vector<std::future<Figure>> labels;
@@ -80,6 +68,15 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
   for (auto& figure : labels) {
     content.labels.push_back(figure.get());
   }
+  if (!content.libraries.empty() && content.has_image && run.forward) {
+    report(progress, 0.8, "packing the images");
+    std::size_t taken = letters_of(content.libraries) + tables;
+    for (const auto* figures : all_figures(content)) {
+      taken = std::accumulate(figures->begin(), figures->end(), taken,
+                              [](std::size_t sum, const Figure& figure) { return sum + figure.svg.size(); });
+    }
+    content.viewer = viewer_data(run, view, largest_page - std::min(taken, largest_page));
+  }
 }
 
 }  // namespace
@@ -91,19 +88,15 @@ void write_report(const fs::path& run_folder, const fs::path& out, const Progres
   PageContent content;
   content.record = run.record;
   content.has_image = run.t1.has_value() && run.warped.has_value();
+  content.libraries = viewer_libraries();
   if (run.brain && run.solution) {
     draw_pictures(run, content, progress);
   }
-  for (const std::vector<Figure>* figures :
-       {&content.comparisons, &content.displacements, &content.labels, &content.surfaces}) {
+  content.viewer.facts["history"] = run.history;
+  content.viewer.facts["options"] = run.record.value("options", nlohmann::json::object());
+  for (const auto* figures : all_figures(content)) {
     for (const Figure& figure : *figures) {
       write_bytes(out / (figure.name + ".svg"), figure.svg);
-    }
-  }
-  for (const std::optional<Plot>& plot :
-       {convergence_plot(run.history, tolerance_of(run.record)), energy_plot(run.history, dynamics_of(run.record))}) {
-    if (plot) {
-      content.plots.push_back(plot_svg(*plot));
     }
   }
   write_bytes(out / "index.html", make_page(std::move(content)));

@@ -5,11 +5,10 @@
 #include <array>
 #include <fstream>
 #include <future>
-#include <map>
+#include <iterator>
 #include <stdexcept>
 
 #include "segmentation/files/surface_file.hpp"
-#include "segmentation/files/text_lines.hpp"
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/output/field_difference.hpp"
 #include "solve/output/solution_file.hpp"
@@ -49,24 +48,9 @@ auto read_if_there(const fs::path& file, const Read& read) {
   return !file.empty() && fs::exists(file) ? std::optional<Content>(read(file)) : std::nullopt;
 }
 
-// Columns that are not known are left out.
-void set_column(solve::HistoryRow& row, const std::string& name, double value) {
-  static const std::map<std::string, double solve::HistoryRow::*> columns = {
-      {"time", &solve::HistoryRow::time},
-      {"external_work_mJ", &solve::HistoryRow::external_work},
-      {"strain_energy_mJ", &solve::HistoryRow::strain_energy},
-      {"kinetic_energy_mJ", &solve::HistoryRow::kinetic_energy},
-      {"dissipated_energy_mJ", &solve::HistoryRow::dissipated_energy},
-      {"residual", &solve::HistoryRow::residual},
-      {"error_bound_mm", &solve::HistoryRow::error_bound}};
-  static const std::array<std::string, 3> reactions = {"reaction_x_N", "reaction_y_N", "reaction_z_N"};
-  if (const auto column = columns.find(name); column != columns.end()) {
-    row.*column->second = value;
-  } else if (const auto axis = std::find(reactions.begin(), reactions.end(), name); axis != reactions.end()) {
-    row.reaction[axis - reactions.begin()] = value;
-  } else if (name == "step") {
-    row.step = static_cast<int>(value);
-  }
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace
@@ -93,9 +77,11 @@ RunData read_run(const fs::path& run_folder) {
   run.brain = read_if_there(run_folder / "segment/brain.vtp", [](const fs::path& file) { return read_surface(file); });
   run.solution =
       read_if_there(run_folder / "solve/solution.vtu", [](const fs::path& file) { return read_solution(file); });
-  if (fs::exists(run_folder / "solve/history.csv")) {
-    run.history = read_history(run_folder / "solve/history.csv");
-  }
+  run.history = text_of(run_folder / "solve/history.csv");
+  run.load = text_of(run_folder / "solve/load.csv");
+  run.uncertainty = text_of(run_folder / "solve/uncertainty.csv");
+  run.warped_labels = read_if_there(run_folder / "register/warped_labels.nii.gz", label_map);
+  run.jacobian = read_if_there(run_folder / "register/jacobian.nii.gz", image);
   run.forward = forward.get();
   return run;
 }
@@ -104,34 +90,6 @@ solve::Dynamics dynamics_of(const json& record) {
   const json::json_pointer place("/options/solve/dynamics");
   return record.contains(place) && record.at(place) == "transient" ? solve::Dynamics::transient
                                                                    : solve::Dynamics::relaxation;
-}
-
-std::vector<solve::HistoryRow> read_history(const fs::path& file) {
-  const std::vector<std::string> lines = read_lines(file);
-  const std::vector<std::string> names = split_fields(lines[0]);
-  for (const char* needed : {"step", "time"}) {
-    if (std::find(names.begin(), names.end(), needed) == names.end()) {
-      fail_at_line(file, 1, std::string("there is no column '") + needed + "'");
-    }
-  }
-  std::vector<solve::HistoryRow> rows;
-  for (std::size_t number = 2; number <= lines.size(); ++number) {
-    const std::string& line = lines[number - 1];
-    const std::vector<std::string> fields = split_fields(line);
-    if (fields.size() != names.size()) {
-      fail_at_line(file, number, std::to_string(names.size()) + " numbers expected, found '" + line + "'");
-    }
-    solve::HistoryRow& row = rows.emplace_back();
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      char* end = nullptr;
-      const double value = std::strtod(fields[i].c_str(), &end);  // not parse_number(): a row may hold nan and inf
-      if (end == fields[i].c_str() || *end != '\0') {
-        fail_at_line(file, number, names[i] + " is '" + fields[i] + "', but must be a number");
-      }
-      set_column(row, names[i], value);
-    }
-  }
-  return rows;
 }
 
 Points loaded_positions(const Solution& solution) {

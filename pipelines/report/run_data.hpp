@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <vector>
+#include <string>
 
 #include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
@@ -22,9 +22,13 @@ struct RunData {
   std::optional<VectorImage> forward;  ///< preop point -> displacement
   std::optional<Surface> brain;
   std::optional<Solution> solution;
-  std::vector<solve::HistoryRow> history;
+  std::string history;                  ///< text of solve/history.csv
   std::optional<LabelMap> labels = {};  ///< as the stages understood them
   std::optional<LabelMap> closed = {};  ///< 1 where closing took in what no label called brain
+  std::optional<LabelMap> warped_labels = {};
+  std::optional<ScalarImage> jacobian = {};  ///< volume ratio at preop points
+  std::string load = {};                     ///< text of solve/load.csv
+  std::string uncertainty = {};              ///< text of solve/uncertainty.csv
 };
 
 /// Throws std::invalid_argument, naming the file, when the folder holds no run.json or something that cannot be read.
@@ -32,10 +36,6 @@ RunData read_run(const std::filesystem::path& run_folder);
 
 /// What time stepping was for, from run.json's options; relaxation where they do not say.
 solve::Dynamics dynamics_of(const nlohmann::json& record);
-
-/// The rows of solve/history.csv, whose columns go by name: step and time must be there, others that are not stay 0.
-/// Throws std::invalid_argument, naming file and line.
-std::vector<solve::HistoryRow> read_history(const std::filesystem::path& file);
 
 /// The nodes on which a displacement was imposed (those with a reaction), (n × 3) mm; no row where there are none.
 Points loaded_positions(const Solution& solution);

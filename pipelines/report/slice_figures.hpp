@@ -26,7 +26,8 @@ struct View {
   Eigen::Vector3d opening_centre;     ///< on the surface, or the brain's centre where nothing is loaded
   Eigen::Vector3d inward;             ///< unit vector from the opening into the brain
   double opening_reach;               ///< a place nearer than this to a loaded node is in the opening, mm
-  std::array<SlicePlane, 3> planes;   ///< under the opening's centre
+  Eigen::Vector3d focus;              ///< under the opening's centre
+  std::array<SlicePlane, 3> planes;   ///< through the focus
   double darkest = 0;                 ///< shown black
   double brightest = 1;               ///< shown white
   Surface deformed;                   ///< the brain's surface, intraop

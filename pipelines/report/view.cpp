@@ -82,7 +82,8 @@ View make_view(const RunData& run) {
   const Vector3d low = vertices.colwise().minCoeff().transpose().array() - margin;
   const Vector3d high = vertices.colwise().maxCoeff().transpose().array() + margin;
   const double depth = view.opening.rows() == 0 ? 0 : depth_of_planes;
-  view.planes = anatomical_planes(view.opening_centre + depth * view.inward, low, high, pixels_per_mm);
+  view.focus = view.opening_centre + depth * view.inward;
+  view.planes = anatomical_planes(view.focus, low, high, pixels_per_mm);
   if (run.t1) {
     std::tie(view.darkest, view.brightest) = grey_window(run, view.planes);
   }

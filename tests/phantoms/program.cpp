@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 namespace brainshift {
 namespace fs = std::filesystem;
@@ -35,6 +36,28 @@ ScratchFolder::~ScratchFolder() {
 std::string contents_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::map<std::string, double>> read_history(const fs::path& file) {
+  std::ifstream stream(file);
+  const auto fields = [&stream] {
+    std::vector<std::string> found;
+    std::string line, field;
+    std::getline(stream, line);
+    for (std::istringstream rest(line); std::getline(rest, field, ',');) {
+      found.push_back(field);
+    }
+    return found;
+  };
+  const std::vector<std::string> names = fields();
+  std::vector<std::map<std::string, double>> rows;
+  for (auto values = fields(); values.size() == names.size() && stream; values = fields()) {
+    auto& row = rows.emplace_back();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      row[names[i]] = std::stod(values[i]);
+    }
+  }
+  return rows;
 }
 
 void write_text(const fs::path& file, const std::string& text) {

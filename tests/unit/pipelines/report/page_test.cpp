@@ -35,7 +35,7 @@ PageContent full_content() {
   content.displacements = {figure("u")};
   content.surfaces = {figure("surface")};
   content.labels = {figure("l")};
-  content.plots = {figure("convergence").svg};
+  content.viewer.facts = {{"history", "step,time\n1,1\n"}};
   return content;
 }
 
@@ -56,6 +56,28 @@ TEST(Page, AsksForNothingFromOutside) {
   }
 }
 
+TEST(Page, TurnsWithLibrariesAndAnImageAndElseSaysWhyNot) {
+  const char* const says_why = "Nothing on this page turns";
+  PageContent content = full_content();
+  EXPECT_TRUE(has(make_page(content), says_why));
+  EXPECT_TRUE(has(make_page(content), "solve/history.csv"));
+  content.libraries = {{"niivue", "H4sI"}};
+  const std::string curves = make_page(content);
+  EXPECT_FALSE(has(curves, says_why));
+  EXPECT_FALSE(has(curves, "id=\"canvas\""));
+  EXPECT_TRUE(has(curves, "<script type=\"text/plain\" id=\"niivue\">H4sI</script>"));
+  EXPECT_TRUE(has(curves, viewer_script()));
+  content.viewer.arrays = {{"image", "eJw="}};
+  const std::string page = make_page(content);
+  EXPECT_TRUE(has(page, "id=\"canvas\""));
+  EXPECT_TRUE(has(page, "id=\"image\">eJw=</script>"));
+  tinyxml2::XMLDocument document;
+  EXPECT_EQ(document.Parse(page.c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
+  for (const char* link : {"src=", "@import", "<link", "http"}) {
+    EXPECT_FALSE(has(viewer_script(), link)) << link;
+  }
+}
+
 TEST(Page, ShowsWhatTheRunMeasured) {
   const std::string page = make_page(full_content());
   for (const char* text : {"scene &lt;a &amp; b&gt;.xml, brainshift 9.8, 3 threads", "12,000", "34,000", "12.5 s",
@@ -63,18 +85,6 @@ TEST(Page, ShowsWhatTheRunMeasured) {
     EXPECT_TRUE(has(page, text)) << text;
   }
   EXPECT_FALSE(has(page, ">shape ")) << "an option without a value";
-}
-
-TEST(Page, FadesOnePictureIntoTheNext) {
-  PageContent content = full_content();
-  for (const char* name : {"b2", "a2", "d2"}) {
-    content.comparisons.push_back(figure(name));
-  }
-  content.blink = 3;
-  const std::string page = make_page(content);
-  EXPECT_TRUE(has(page, "<use href=\"#b2\">"));
-  EXPECT_TRUE(has(page, "<use id=\"fade\" href=\"#a2\">"));
-  EXPECT_TRUE(has(page, "<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"a2\""));
 }
 
 TEST(Page, LeavesOutWhatThereIsNot) {

@@ -40,9 +40,8 @@ TEST(Report, IsOnePageAndItsPicturesAsFiles) {
     EXPECT_TRUE(fs::exists(folder / ("page/" + std::string(name) + ".svg"))) << name;
     EXPECT_NE(page.find("id=\"" + std::string(name) + "\""), std::string::npos) << name;
   }
-  for (const char* text : {"id=\"convergence\"", "id=\"energies\"", "tolerance, mm", "4 mm"}) {
-    EXPECT_NE(page.find(text), std::string::npos) << text;
-  }
+  EXPECT_NE(page.find("4 mm"), std::string::npos);
+  EXPECT_NE(page.find("How the solver converged"), std::string::npos);
 }
 
 TEST(Report, RefusesAFolderThatIsNoRun) {

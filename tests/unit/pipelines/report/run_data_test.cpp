@@ -3,35 +3,34 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <fstream>
-
-#include "pipelines/runner/stage_folder.hpp"
+#include "tests/unit/pipelines/report/small_run.hpp"
 #include "tests/unit/pipelines/run_folder.hpp"
 
 namespace brainshift::pipelines::run_data_test {
 
 class RunDataTest : public RunFolder {};
 
-TEST_F(RunDataTest, AHistoryIsReadByTheNamesOfItsColumns) {
-  const auto rows = read_history(write("h.csv", "time,step,mine,reaction_z_N,error_bound_mm\n0.5,20,7,-3,inf\n"));
-  ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0].time, 0.5);
-  EXPECT_EQ(rows[0].step, 20);
-  EXPECT_EQ(rows[0].reaction, Eigen::Vector3d(0, 0, -3));
-  EXPECT_TRUE(std::isinf(rows[0].error_bound));
-  EXPECT_EQ(rows[0].dissipated_energy, 0) << "a column that is not there";
-  const std::pair<const char*, const char*> faults[] = {{"step\n1\n", "no column 'time'"},
-                                                        {"step,time\n1\n", ":2: 2 numbers"},
-                                                        {"step,time\n1,2\n3,x\n", ":3: time is 'x'"}};
-  for (const auto& [text, said] : faults) {
-    try {
-      read_history(write("h.csv", text));
-      FAIL() << text;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
-    }
-  }
+TEST_F(RunDataTest, PartsThatTheRunDidNotMakeAreEmpty) {
+  write("run.json", "{}");
+  write("solve/history.csv", "step,time\n1,1\n");
+  write("solve/uncertainty.csv", "x,y,z\n");
+  const RunData run = read_run(folder_);
+  EXPECT_EQ(run.uncertainty, "x,y,z\n");
+  EXPECT_EQ(run.history, "step,time\n1,1\n");
+  EXPECT_EQ(run.load, "");
+  EXPECT_FALSE(run.t1 || run.warped || run.forward || run.brain || run.solution || run.labels || run.warped_labels ||
+               run.jacobian);
+  EXPECT_EQ(dynamics_of(run.record), solve::Dynamics::relaxation);
+}
+
+TEST(RunData, ADisplacementBetweenNodesLiesBetweenTheirs) {
+  const Solution solution = *small_run().solution;
+  EXPECT_EQ(loaded_positions(solution).rows(), 13);
+  const Points at_nodes = displacement_at(solution, solution.positions);
+  EXPECT_LT((at_nodes - solution.displacement).cwiseAbs().maxCoeff(), 1e-9);
+  const double sunk = displacement_at(solution, Points({{11, 0, 20}}))(0, 2);
+  EXPECT_LT(sunk, 0);
+  EXPECT_GT(sunk, -4);
 }
 
 }  // namespace brainshift::pipelines::run_data_test
