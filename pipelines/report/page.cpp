@@ -142,7 +142,8 @@ json convergence(const PageContent& content) {
   return {{"in_time", in_time}, {"relaxed", !in_time}, {"as_file", content.libraries.empty()}};
 }
 
-// What viewer.js reads, and viewer.js; in XML, too, the page is well-formed.
+// What viewer_run.js unpacks, and both scripts as one module, which keeps their names; in XML, too, the page is
+// well-formed.
 std::string scripts(const PageContent& content) {
   std::string text;
   const auto add = [&text](const PackedBytes& bytes) {
@@ -152,7 +153,7 @@ std::string scripts(const PageContent& content) {
   std::ranges::for_each(content.libraries, add);
   constexpr auto replace = json::error_handler_t::replace;
   add({.name = "facts", .text = packed(content.viewer.facts.dump(-1, ' ', false, replace))});
-  return text + "<script>//<![CDATA[\n" + viewer_script() + "//]]></script>\n";
+  return text + "<script type=\"module\">//<![CDATA[\n" + viewer_script() + "//]]></script>\n";
 }
 
 json stages_of(const json& stages) {

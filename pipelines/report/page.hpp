@@ -29,7 +29,7 @@ std::string make_page(PageContent content);
 /// The text of page.html, to be filled.
 const char* page_html();
 
-/// The text of viewer.js.
+/// The text of viewer_run.js and viewer.js.
 const char* viewer_script();
 
 /// What viewer.js calls, with its licences; empty where the packages of npm were not there when the program was built.

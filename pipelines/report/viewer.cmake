@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The page's view: viewer.js, and the two libraries it calls, as npm packs them. Where setup.sh could not fetch them the
-# program is built without, and its page does not turn.
+# The page's view: viewer_run.js, viewer.js and the two libraries they call, as npm packs them. Where setup.sh could not
+# fetch them the program is built without, and its page does not turn.
 set(BRAINSHIFT_NPM ${PROJECT_SOURCE_DIR}/build/npm CACHE PATH "Folder of the packages that 'npm pack' fetched")
 find_program(BASE64_PROGRAM base64 REQUIRED)
 find_program(GZIP_PROGRAM gzip REQUIRED)
@@ -33,7 +33,8 @@ else()
 endif()
 
 file(READ report/page.html BRAINSHIFT_PAGE)
+file(READ report/viewer_run.js BRAINSHIFT_VIEWER_RUN)
 file(READ report/viewer.js BRAINSHIFT_VIEWER)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS report/page.html report/viewer.js
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS report/page.html report/viewer_run.js report/viewer.js
   ${PROJECT_SOURCE_DIR}/pipelines/package/copyright)
 configure_file(report/page_html.cpp.in report/page_html.cpp @ONLY)

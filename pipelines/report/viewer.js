@@ -1,404 +1,285 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The part of the report that moves: the solver's curves (uPlot), and three planes with the brain in 3-D (NiiVue).
-// page.cpp puts it at the end of the page, with what viewer_data.cpp packed. Places and displacements are in LPS, mm;
-// NiiVue's are in RAS, and flipped() leads from either to the other.
-(async () => {
-  "use strict";
-  const element = (id) => document.getElementById(id);
-  const flipped = ([x, y, z]) => [-x, -y, z];
-  const length = (v) => Math.hypot(...v);
+// page.cpp puts it at the end of the page, after viewer_run.js. NiiVue's places are in RAS; flipped() leads from LPS to
+// them and back.
 
-  async function unpacked(id) {
-    const text = element(id).textContent;
-    const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-    const format = text.startsWith("H4sI") ? "gzip" : "deflate"; // what gzip's first bytes look like
-    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format))).arrayBuffer();
+// --- Curves ---
+
+// A line: its label, its column, its dashes. One without a positive value is left out, and a plot without lines.
+function drawPlot(rows, title, [x, xLabel], yLabel, lines, { logarithmic = false, shaded = 0 } = {}) {
+  const shown = (y) => (Number.isFinite(y) && (!logarithmic || y > 0) ? y : null);
+  const columns = lines.map(([, name]) => rows.map((row) => shown(row[name])));
+  const drawn = lines.map((_, i) => i).filter((i) => columns[i].some((y) => y > 0));
+  if (rows.length < 2 || drawn.length === 0) return;
+  const colours = ["#145aaa", "#d25a14", "#288c3c", "#96288c"];
+  const shade = (plot) => {
+    const { left, top, height } = plot.bbox;
+    plot.ctx.fillStyle = "#eef2f7";
+    plot.ctx.fillRect(left, top, plot.valToPos(rows[shaded][x], "x", true) - left, height);
+  };
+  new uPlot({
+    title, width: 560, height: 340, hooks: { drawClear: shaded > 0 ? [shade] : [] },
+    scales: { x: { time: false }, y: logarithmic ? { distr: 3 } : {} },
+    axes: [{ label: xLabel }, { label: yLabel, size: 70 }],
+    series: [{ label: xLabel }, ...drawn.map((i, place) => {
+      const [label, , dash] = lines[i];
+      return { label, stroke: colours[place], width: 2, dash, points: { show: !dash } };
+    })],
+  }, [rows.map((row) => row[x]), ...drawn.map((i) => columns[i])], element("curves"));
+}
+
+// A motion in time converges to nothing; else time 1 is the end of loading.
+function drawCurves(history, options) {
+  const inTime = options.dynamics === "transient";
+  const rows = records(history).map((row) => ({ ...row, tolerance: Number(options.tolerance) }));
+  if (!inTime) {
+    const shaded = rows.findIndex(({ time }) => time >= 1);
+    drawPlot(rows, shaded > 0 ? "Convergence (shaded: loading)" : "Convergence", ["step", "step"], "",
+      [["bound of the remaining error, mm", "error_bound_mm"], ["residual / force", "residual"],
+        ["tolerance, mm", "tolerance", [6, 4]]], { logarithmic: true, shaded });
   }
-  const unpackedText = async (id) => new TextDecoder().decode(await unpacked(id));
+  drawPlot(rows, "Energies", inTime ? ["time", "time, s"] : ["step", "step"], "mJ",
+    [["external work", "external_work_mJ"], ["strain energy", "strain_energy_mJ"],
+      ["kinetic energy", "kinetic_energy_mJ"], ["dissipated", "dissipated_energy_mJ"]]);
+}
 
-  async function loadLibrary(id) {
-    const script = document.createElement("script");
-    script.textContent = await unpackedText(id);
-    document.head.append(script);
+// --- Colours ---
+
+const flesh = [220, 200, 190], blue = [90, 200, 250], orange = [255, 150, 60];
+
+// Evenly spaced colours, as NiiVue takes them.
+const colourMap = (colours) => ({
+  R: colours.map((c) => c[0]), G: colours.map((c) => c[1]), B: colours.map((c) => c[2]), A: colours.map(() => 255),
+  I: colours.map((_, i) => Math.round((255 * i) / (colours.length - 1))),
+});
+
+const mixed = (a, b, share) => a.map((from, i) => from + (b[i] - from) * share);
+
+function colourOf({ colours, low, high }, value) {
+  const place = clamped((value - low) / (high - low), 0, 1) * (colours.length - 1);
+  const below = Math.min(Math.floor(place), colours.length - 2);
+  return mixed(colours[below], colours[below + 1], place - below);
+}
+
+// 0 where nothing happens, so that the image or the bare surface is seen.
+const strength = (kind, value) => Math.min(1, 3 * Math.abs(value - kind.neutral) / (kind.high - kind.neutral));
+
+// --- What NiiVue shows ---
+
+const flipped = ([x, y, z]) => [-x, -y, z];
+
+async function newView() {
+  const nv = new niivue.Niivue({
+    backColor: [0, 0, 0, 1], fontColor: [0.9, 0.9, 0.9, 1], crosshairColor: [0.3, 1, 0.4, 1], crosshairWidth: 0.4,
+    crosshairGap: 8, show3Dcrosshair: true,
+    isRadiologicalConvention: true, sagittalNoseLeft: true, isSliceMM: true, multiplanarForceRender: true,
+    multiplanarShowRender: niivue.SHOW_RENDER.ALWAYS, multiplanarLayout: niivue.MULTIPLANAR_TYPE.GRID,
+    meshThicknessOn2D: 0.7, dragAndDropEnabled: false, logLevel: "error",
+  });
+  await nv.attachToCanvas(element("canvas"));
+  nv.drawImage3D = () => {}; // in 3-D the image's block would hide the surface
+  return nv;
+}
+
+async function addVolume(nv, name, grid, values, options) {
+  const m = [...grid.to_world.map((value, i) => (i < 8 ? -value : value)), 0, 0, 0, 1];
+  const spacing = [0, 1, 2].map((axis) => Math.hypot(m[axis], m[axis + 4], m[axis + 8]));
+  const type = values instanceof Float32Array ? 16 : 2; // NIfTI's numbers of float and of byte
+  const bytes = niivue.NVImage.createNiftiArray(grid.size, spacing, m, type, values);
+  const volume = await niivue.NVImage.loadFromFile({ file: new File([bytes], `${name}.nii`), name, ...options });
+  nv.addVolume(volume);
+  return volume;
+}
+
+// Colours, and their opacities.
+async function addOverlay(nv, { fields, brain, kinds }) {
+  const overlay = await addVolume(nv, "overlay", fields, new Float32Array(brain.length), {});
+  const opacity = await addVolume(nv, "opacity", fields, new Float32Array(brain.length), { opacity: 0 });
+  Object.assign(opacity, { cal_min: 0, cal_max: 1 });
+  Object.assign(overlay, { modulationImage: nv.volumes.indexOf(opacity), modulateAlpha: 1 });
+  for (const kind of kinds.slice(1)) nv.addColormap(kind.name, colourMap(kind.colours));
+  return { overlay, opacity };
+}
+
+// NiiVue's palettes have 256 places: a label is shown by its place among those that there are.
+async function addLabels(nv, { images, labels }) {
+  const known = [...new Set(labels.flatMap((map) => [...new Set(map)]))].sort((a, b) => a - b);
+  element("labels_shown").disabled = known.length < 2;
+  if (known.length < 2) return {};
+  const places = new Map(known.map((label, place) => [label, place]));
+  const labelMaps = labels.map((map) => Uint8Array.from(map, (label) => places.get(label)));
+  const labelVolume = await addVolume(nv, "labels", images, labelMaps[0], { opacity: 0 });
+  const palette = [orange, [255, 80, 80], [80, 200, 255], [255, 210, 60], [120, 230, 120], [220, 120, 255]];
+  const colours = colourMap(known.map((_, place) => palette[place % palette.length]));
+  labelVolume.setColormapLabel({ ...colours, A: known.map((label) => (label ? 255 : 0)), I: [...known.keys()] });
+  return { labelVolume, labelMaps };
+}
+
+const vertexOf = (vertices, i) => [vertices[i], vertices[i + 1], vertices[i + 2]];
+
+// The brain, and its outlines before and after, as lines in the planes.
+function addSurfaces(nv, { vertices, triangles, displacementAt }) {
+  const shifts = new Float32Array(vertices.length);
+  for (let i = 0; i < vertices.length; i += 3) shifts.set(displacementAt(vertexOf(vertices, i)), i);
+  const add = (name, colour, share) => {
+    const moved = vertices.map((x, i) => (i % 3 < 2 ? -1 : 1) * (x + share * shifts[i]));
+    const mesh = new niivue.NVMesh(moved, triangles, name, new Uint8Array([...colour, 255]), 1, true, nv.gl);
+    nv.addMesh(mesh);
+    return mesh;
+  };
+  const surface = add("brain", flesh, 0);
+  for (const outline of [add("before", blue, 0), add("after", orange, 1)]) nv.setMeshShader(outline.id, "Crosscut");
+  return { surface, shifts };
+}
+
+// Measured points, 250 at most: a ball before, one after, and a line between them. Nothing where there are none, as
+// NiiVue loses its places with an empty mesh.
+function addPoints(nv, measured) {
+  element("points_shown").disabled = measured.length === 0;
+  if (measured.length === 0) return null;
+  const drawn = measured.filter((_, i) => i % Math.ceil(measured.length / 250) === 0);
+  const ends = drawn.flatMap(({ at, shift }) => [at, at.map((x, axis) => x + shift[axis])]);
+  nv.addColormap("points", colourMap([blue, orange]));
+  const points = nv.loadConnectomeAsMesh({
+    name: "points", showLegend: false, nodeColormap: "points", nodeMinColor: 0, nodeMaxColor: 1, nodeScale: 1.2,
+    edgeColormap: "points", edgeMin: -1, edgeMax: 1, edgeScale: 0.3,
+    nodes: ends.map(flipped).map(([x, y, z], i) => ({ name: "", x, y, z, colorValue: i % 2, sizeValue: 1 })),
+    edges: drawn.map((_, i) => ({ first: 2 * i, second: 2 * i + 1, colorValue: 1 })),
+  });
+  nv.addMesh(points);
+  return points;
+}
+
+// The opening's middle, seen from outside.
+function look(nv, { focus, inward }) {
+  const [x, y, z] = flipped(inward).map((part) => -part); // from the brain to the eye
+  nv.scene.crosshairPos = nv.mm2frac(flipped(focus));
+  nv.scene.volScaleMultiplier = 1.3;
+  nv.setRenderAzimuthElevation((Math.atan2(-x, -y) * 180) / Math.PI, (Math.asin(z) * 180) / Math.PI);
+}
+
+// --- What the controls do ---
+
+const shareAfter = () => element("slider").value / 100;
+const isAfter = () => shareAfter() >= 0.5;
+
+function drawImages({ image, change }, { imageVolume, labelVolume, labelMaps }) {
+  const after = shareAfter();
+  for (let i = 0; i < image.length; ++i) {
+    const warped = (image[i] + change[i]) & 255; // as viewer_data.cpp took the difference
+    imageVolume.img[i] = image[i] + after * (warped - image[i]);
   }
+  if (!labelVolume) return;
+  labelVolume.img.set(labelMaps[isAfter() ? 1 : 0]);
+  labelVolume.opacity = element("labels_shown").checked ? 0.5 : 0;
+}
 
-  // Columns by their names.
-  function table(csv) {
-    const rows = csv.trim().split("\n").filter((line) => !line.startsWith("#")).map((line) => line.split(","));
-    return Object.fromEntries(rows[0].map((name, i) => [name, rows.slice(1).map((row) => Number(row[i]))]));
+function drawBar({ values, colours, low, high, unit }) {
+  element("bar").style.background =
+    values ? `linear-gradient(to right, ${colours.map((c) => `rgb(${c})`).join()})` : "none";
+  element("low").textContent = values ? Number(low.toPrecision(3)) : "";
+  element("high").textContent = values ? `${Number(high.toPrecision(3))} ${unit}` : "";
+}
+
+function drawOverlay(run, kind, { overlay, opacity }) {
+  opacity.img.fill(0);
+  if (!kind.values) return;
+  const sources = isAfter() && sourcesOf(run);
+  for (let v = 0; v < run.brain.length; ++v) {
+    const inside = sources ? valueAt(run.fields, run.brain, sources[v]) > 0.5 : run.brain[v];
+    overlay.img[v] = sources ? valueAt(run.fields, kind.values, sources[v]) : kind.values[v];
+    opacity.img[v] = inside ? 0.7 * strength(kind, overlay.img[v]) : 0;
   }
+  Object.assign(overlay, { colormap: kind.name, cal_min: kind.low, cal_max: kind.high });
+}
 
-  // --- Curves ---
-
-  function drawCurves(history, options) {
-    const columns = table(history);
-    const inTime = options.dynamics === "transient";
-    const colours = ["#145aaa", "#d25a14", "#288c3c", "#96288c"];
-    const draw = (title, xName, yName, series, logarithmic) => {
-      const x = columns[xName === "step" ? "step" : "time"];
-      const shown = (y) => (Number.isFinite(y) && (!logarithmic || y > 0) ? y : null);
-      const lines = series.filter(([, values]) => values && values.some((y) => shown(y) > 0));
-      if (x.length < 2 || lines.length === 0) return;
-      const loading = columns.time.findIndex((time) => time >= 1);
-      const shadeLoading = (plot) => {
-        if (xName !== "step" || loading < 1) return;
-        const { left, top, height } = plot.bbox;
-        plot.ctx.fillStyle = "#eef2f7";
-        plot.ctx.fillRect(left, top, plot.valToPos(x[loading], "x", true) - left, height);
-      };
-      new uPlot({
-        title, width: 560, height: 340, hooks: { drawClear: [shadeLoading] },
-        scales: { x: { time: false }, y: logarithmic ? { distr: 3 } : {} },
-        axes: [{ label: xName }, { label: yName, size: 70 }],
-        series: [{ label: xName },
-          ...lines.map(([label, , dash], i) =>
-            ({ label, stroke: colours[i], width: 2, dash, points: { show: !dash } }))],
-      }, [x, ...lines.map(([, values]) => values.map(shown))], element("curves"));
-    };
-    const tolerance = columns.step.map(() => Number(options.tolerance));
-    draw(columns.time[0] < 1 ? "Convergence (shaded: loading)" : "Convergence", "step", "",
-      [["bound of the remaining error, mm", columns.error_bound_mm], ["residual / force", columns.residual],
-        ["tolerance, mm", tolerance, [6, 4]]], true);
-    draw("Energies", inTime ? "time, s" : "step", "mJ",
-      [["external work", columns.external_work_mJ], ["strain energy", columns.strain_energy_mJ],
-        ["kinetic energy", columns.kinetic_energy_mJ], ["dissipated", columns.dissipated_energy_mJ]], false);
+function drawSurface({ vertices, fields }, kind, { nv, surface, shifts }) {
+  const after = shareAfter();
+  surface.rgba255 = new Uint8Array((vertices.length / 3) * 4).fill(255);
+  for (let i = 0; i < vertices.length; i += 3) {
+    const vertex = vertexOf(vertices, i);
+    const value = kind.values && valueAt(fields, kind.values, vertex);
+    const colour = kind.values ? mixed(flesh, colourOf(kind, value), strength(kind, value)) : flesh;
+    surface.rgba255.set(colour, (i / 3) * 4);
+    surface.pts.set(flipped(vertex.map((x, axis) => x + after * shifts[i + axis])), i);
   }
+  surface.updateMesh(nv.gl);
+}
 
-  // --- Fields on grids ---
+// --- Begin ---
 
-  const transformed = (m, [x, y, z]) =>
-    [0, 4, 8].map((row) => m[row] * x + m[row + 1] * y + m[row + 2] * z + m[row + 3]);
+async function show(run) {
+  const nv = await newView();
+  const imageVolume =
+    await addVolume(nv, "image", run.images, run.image, { colormap: "gray", cal_min: 0, cal_max: 252 });
+  const shown = { nv, imageVolume, ...await addOverlay(nv, run), ...await addLabels(nv, run), ...addSurfaces(nv, run) };
+  const points = addPoints(nv, run.measured);
+  for (const [i, kind] of run.kinds.entries()) element("colours").add(new Option(kind.name, i, i === 1, i === 1));
 
-  // Linear between the voxels; beyond the grid as at its border. Called millions of times: no array is made here.
-  function valueAt(grid, values, place, component = 0) {
-    const [nx, ny, nz] = grid.size;
-    const m = grid.to_index, [px, py, pz] = place;
-    const x = Math.max(0, Math.min(nx - 1, m[0] * px + m[1] * py + m[2] * pz + m[3]));
-    const y = Math.max(0, Math.min(ny - 1, m[4] * px + m[5] * py + m[6] * pz + m[7]));
-    const z = Math.max(0, Math.min(nz - 1, m[8] * px + m[9] * py + m[10] * pz + m[11]));
-    const i = Math.min(nx - 2, Math.floor(x)), j = Math.min(ny - 2, Math.floor(y)), k = Math.min(nz - 2, Math.floor(z));
-    const a = x - i, b = y - j, c = z - k;
-    const first = i + nx * (j + ny * (k + nz * component));
-    const along = (from) => values[from] * (1 - a) + values[from + 1] * a;
-    const layer = (from) => along(from) * (1 - b) + along(from + nx) * b;
-    return layer(first) * (1 - c) + layer(first + nx * ny) * c;
-  }
-
-  const nearest = (grid, values, place) => {
-    const [i, j, k] = transformed(grid.to_index, place).map(Math.round);
-    return values[i + grid.size[0] * (j + grid.size[1] * k)];
+  let clicked = run.focus;
+  const describe = (place) => {
+    clicked = place;
+    element("readout").textContent = wordsOf(run, place, isAfter());
+  };
+  const draw = () => {
+    const kind = run.kinds[element("colours").value];
+    drawImages(run, shown);
+    drawBar(kind);
+    drawOverlay(run, kind, shown);
+    drawSurface(run, kind, shown);
+    if (points) points.visible = element("points_shown").checked;
+    nv.updateGLVolume();
+    describe(clicked);
+    document.body.dataset.view = `drawn at ${element("slider").value}`; // viewer_test.py waits for it
   };
 
-  // --- The view ---
-
-  // Evenly spaced colours, as NiiVue takes them.
-  const colourMap = (colours) => ({
-    R: colours.map((c) => c[0]), G: colours.map((c) => c[1]), B: colours.map((c) => c[2]), A: colours.map(() => 255),
-    I: colours.map((_, i) => Math.round((255 * i) / (colours.length - 1))),
-  });
-
-  const mixed = (a, b, share) => a.map((from, i) => from + (b[i] - from) * share);
-
-  function colourOf({ colours, low, high }, value) {
-    const place = Math.max(0, Math.min(1, (value - low) / (high - low))) * (colours.length - 1);
-    const below = Math.min(Math.floor(place), colours.length - 2);
-    return mixed(colours[below], colours[below + 1], place - below);
+  let asked = null; // many inputs between two frames are drawn once
+  const drawLater = () => {
+    cancelAnimationFrame(asked);
+    asked = requestAnimationFrame(draw);
+  };
+  for (const control of ["slider", "colours", "labels_shown", "points_shown"]) {
+    element(control).addEventListener("input", drawLater);
   }
+  nv.onLocationChange = ({ mm: place }) => describe(flipped(place));
+  // NiiVue picks a place of the surface on a double click, and tells nobody.
+  element("canvas").addEventListener("dblclick", () => describe(flipped(nv.frac2mm(nv.scene.crosshairPos))));
+  look(nv, run);
+  draw();
+}
 
-  async function show(facts) {
-    const { images, fields } = facts;
-    const numbers = async (name, Type) => (element(name) ? new Type(await unpacked(name)) : null);
-    const t1 = await numbers("image", Uint8Array);
-    const change = await numbers("image_change", Uint8Array);
-    const brain = await numbers("brain", Uint8Array);
-    const steps = await numbers("displacement", Int16Array);
-    const voxels = brain.length;
-    const displacementAt = (place) =>
-      [0, 1, 2].map((axis) => facts.steps.displacement * valueAt(fields, steps, place, axis));
-    // Where the tissue was that now lies at a place: x + u(x) = place.
-    const cameFrom = (place) => {
-      let x = place;
-      for (let i = 0; i < 20; ++i) {
-        const u = displacementAt(x);
-        const next = place.map((y, axis) => y - u[axis]);
-        const moved = Math.max(...next.map((y, axis) => Math.abs(y - x[axis])));
-        x = next;
-        if (moved < 0.01) break;
-      }
-      return x;
-    };
+async function load(kind, id) {
+  const library = document.createElement(kind);
+  library.textContent = await unpackedText(id);
+  document.head.append(library);
+}
 
-    const scaled = async (name) =>
-      Float32Array.from(await numbers(name, Int16Array), (value) => value * facts.steps[name]);
-    const quantile = (values, share) => {
-      const inside = values.filter((_, voxel) => brain[voxel]).sort();
-      return inside[Math.floor(share * (inside.length - 1))];
-    };
-    const rounded = (value) => Number(value.toPrecision(1)) || 1;
-    // What may be shown as colours: values on the grid of the fields, and the one where nothing happens.
-    const kinds = [{ name: "none" }, {
-      name: "displacement", unit: "mm", low: 0, high: facts.largest, neutral: 0, colours: facts.sequential,
-      values: Float32Array.from(brain, (_, voxel) =>
-        facts.steps.displacement * Math.hypot(steps[voxel], steps[voxel + voxels], steps[voxel + 2 * voxels])),
-    }];
-    if (facts.steps.error) {
-      const values = await scaled("error");
-      const high = rounded(quantile(values, 0.99));
-      kinds.push({ ...kinds[1], name: "estimated error", high, values });
-    }
-    if (facts.steps.ratio) {
-      const values = await scaled("ratio");
-      const reach = Math.max(0.02, rounded(quantile(values.map((value) => Math.abs(value - 1)), 0.99)));
-      const [low, high] = [1 - reach, 1 + reach];
-      kinds.push({ name: "volume ratio", unit: "", low, high, neutral: 1, colours: facts.diverging, values });
-    }
-
-    const nv = new niivue.Niivue({
-      backColor: [0, 0, 0, 1], fontColor: [0.9, 0.9, 0.9, 1], crosshairColor: [0.3, 1, 0.4, 1], crosshairWidth: 0.4,
-      crosshairGap: 8, show3Dcrosshair: true,
-      isRadiologicalConvention: true, sagittalNoseLeft: true, isSliceMM: true, multiplanarForceRender: true,
-      multiplanarShowRender: niivue.SHOW_RENDER.ALWAYS, multiplanarLayout: niivue.MULTIPLANAR_TYPE.GRID,
-      meshThicknessOn2D: 0.7, dragAndDropEnabled: false, logLevel: "error",
-    });
-    await nv.attachToCanvas(element("canvas"));
-    nv.drawImage3D = () => {}; // in 3-D the image's block would hide the surface
-
-    const addVolume = async (name, grid, type, values, more) => {
-      const m = [...grid.to_world.map((value, i) => (i < 8 ? -value : value)), 0, 0, 0, 1];
-      const spacing = [0, 1, 2].map((axis) => Math.hypot(m[axis], m[axis + 4], m[axis + 8]));
-      const bytes = niivue.NVImage.createNiftiArray(grid.size, spacing, m, type, values);
-      const volume = await niivue.NVImage.loadFromFile({ file: new File([bytes], `${name}.nii`), name, ...more });
-      nv.addVolume(volume);
-      return volume;
-    };
-    const uint8 = 2, float32 = 16;
-    const image = await addVolume("image", images, uint8, t1, { colormap: "gray", cal_min: 0, cal_max: 252 });
-    const overlay = await addVolume("overlay", fields, float32, new Float32Array(voxels), {});
-    const opacity = await addVolume("opacity", fields, float32, new Float32Array(voxels), { opacity: 0 });
-    Object.assign(opacity, { cal_min: 0, cal_max: 1 });
-    Object.assign(overlay, { modulationImage: nv.volumes.indexOf(opacity), modulateAlpha: 1 });
-    for (const kind of kinds.slice(1)) nv.addColormap(kind.name, colourMap(kind.colours));
-
-    // NiiVue's palettes have 256 places: a label is shown by its place among those that there are.
-    const labels = [await numbers("labels", Uint16Array), await numbers("labels_after", Uint16Array)];
-    const known = labels[0] ? [...new Set(labels[0])].sort((a, b) => a - b) : [];
-    const places = new Map(known.map((label, place) => [label, place]));
-    const labelled = labels.map((map) => map && Uint8Array.from(map, (label) => places.get(label) || 0));
-    const labelName = (label) => {
-      const name = facts.options.tissues?.[label]?.name;
-      return `label ${label}${name ? ` (${name})` : ""}`;
-    };
-    element("labels_shown").disabled = known.length < 2;
-    let labelVolume = null;
-    if (known.length > 1) {
-      const palette = [[255, 150, 60], [255, 80, 80], [80, 200, 255], [255, 210, 60], [120, 230, 120], [220, 120, 255]];
-      const colours = known.map((_, place) => palette[place % palette.length]);
-      labelVolume = await addVolume("labels", images, uint8, labelled[0], { opacity: 0 });
-      const opacities = known.map((label) => (label ? 255 : 0));
-      labelVolume.setColormapLabel({ ...colourMap(colours), A: opacities, I: [...known.keys()] });
-    }
-
-    const vertices = await numbers("vertices", Float32Array);
-    const shifts = new Float32Array(vertices.length);
-    const vertex = (i) => [vertices[i], vertices[i + 1], vertices[i + 2]];
-    for (let i = 0; i < vertices.length; i += 3) shifts.set(displacementAt(vertex(i)), i);
-    const triangles = new Uint32Array(await unpacked("triangles"));
-    const addSurface = (name, colour, share) => {
-      const moved = vertices.map((x, i) => (i % 3 < 2 ? -1 : 1) * (x + share * shifts[i]));
-      const mesh = new niivue.NVMesh(moved, triangles, name, new Uint8Array([...colour, 255]), 1, true, nv.gl);
-      nv.addMesh(mesh);
-      return mesh;
-    };
-    const flesh = [220, 200, 190], blue = [90, 200, 250], orange = [255, 150, 60];
-    const surface = addSurface("brain", flesh, 0);
-    for (const outline of [addSurface("before", blue, 0), addSurface("after", orange, 1)]) {
-      nv.setMeshShader(outline.id, "Crosscut"); // its cut by the planes, as a line
-    }
-
-    const load = facts.load ? table(facts.load) : { x: [] };
-    const measured = load.x.map((x, i) => ({
-      at: [x, load.y[i], load.z[i]], shift: [load.ux[i], load.uy[i], load.uz[i]],
-      deviation: load.sigma?.[i] ?? (load.sigma_x && length([load.sigma_x[i], load.sigma_y[i], load.sigma_z[i]])),
-    }));
-    const drawn = measured.filter((_, i) => i % Math.ceil(measured.length / 250) === 0);
-    nv.addColormap("points", colourMap([blue, orange]));
-    const ends = drawn.flatMap(({ at, shift }) => [at, at.map((x, axis) => x + shift[axis])]);
-    const points = nv.loadConnectomeAsMesh({
-      name: "points", showLegend: false, nodeColormap: "points", nodeMinColor: 0, nodeMaxColor: 1, nodeScale: 1.2,
-      edgeColormap: "points", edgeMin: -1, edgeMax: 1, edgeScale: 0.3,
-      nodes: ends.map(flipped).map(([x, y, z], i) => ({ name: "", x, y, z, colorValue: i % 2, sizeValue: 1 })),
-      edges: drawn.map((_, i) => ({ first: 2 * i, second: 2 * i + 1, colorValue: 1 })),
-    });
-    nv.addMesh(points);
-    element("points_shown").disabled = measured.length === 0;
-    const asked = facts.uncertainty ? table(facts.uncertainty) : { x: [] };
-    const deviations = asked.x.map((x, i) => ({
-      at: [x, asked.y[i], asked.z[i]], deviation: Math.sqrt(asked.xx[i] + asked.yy[i] + asked.zz[i]),
-    }));
-
-    // --- What the controls do ---
-
-    const slider = element("slider"), colours = element("colours");
-    const shareAfter = () => slider.value / 100;
-    const isAfter = () => slider.value >= 50;
-    let sources = null; // where each voxel's tissue was
-    const sourceOf = (voxel) => {
-      sources ??= Array.from(brain, (_, v) => {
-        const [nx, ny] = fields.size;
-        return cameFrom(transformed(fields.to_world, [v % nx, Math.floor(v / nx) % ny, Math.floor(v / (nx * ny))]));
-      });
-      return sources[voxel];
-    };
-
-    // 0 where nothing happens, so that the image or the bare surface is seen.
-    const strength = (kind, value) => Math.min(1, 3 * Math.abs(value - kind.neutral) / (kind.high - kind.neutral));
-
-    function drawImage() {
-      const after = shareAfter();
-      for (let i = 0; i < t1.length; ++i) {
-        const warped = (t1[i] + change[i]) & 255; // as viewer_data.cpp took the difference
-        image.img[i] = t1[i] + after * (warped - t1[i]);
-      }
-      if (labelVolume) labelVolume.img.set(labelled[isAfter() ? 1 : 0]);
-    }
-
-    function drawColours() {
-      const kind = kinds[colours.value];
-      element("bar").style.background = kind.values
-        ? `linear-gradient(to right, ${kind.colours.map((c) => `rgb(${c})`).join()})` : "none";
-      element("low").textContent = kind.values ? Number(kind.low.toPrecision(3)) : "";
-      element("high").textContent = kind.values ? `${Number(kind.high.toPrecision(3))} ${kind.unit}` : "";
-      opacity.img.fill(0);
-      if (!kind.values) return;
-      const moved = isAfter();
-      for (let v = 0; v < voxels; ++v) {
-        const place = moved && sourceOf(v);
-        const inside = moved ? valueAt(fields, brain, place) > 0.5 : brain[v];
-        overlay.img[v] = moved ? valueAt(fields, kind.values, place) : kind.values[v];
-        opacity.img[v] = inside ? 0.7 * strength(kind, overlay.img[v]) : 0;
-      }
-      overlay.colormap = kind.name;
-      overlay.cal_min = kind.low;
-      overlay.cal_max = kind.high;
-    }
-
-    function drawSurface() {
-      const kind = kinds[colours.value];
-      const after = shareAfter();
-      const rgba = new Uint8Array((vertices.length / 3) * 4).fill(255);
-      for (let i = 0; i < vertices.length; i += 3) {
-        const value = kind.values && valueAt(fields, kind.values, vertex(i));
-        rgba.set(kind.values ? mixed(flesh, colourOf(kind, value), strength(kind, value)) : flesh, (i / 3) * 4);
-        surface.pts.set(flipped(vertex(i).map((x, axis) => x + after * shifts[i + axis])), i);
-      }
-      surface.rgba255 = rgba;
-      surface.updateMesh(nv.gl);
-    }
-
-    function draw() {
-      drawImage();
-      drawColours();
-      drawSurface();
-      if (labelVolume) labelVolume.opacity = element("labels_shown").checked ? 0.5 : 0;
-      points.visible = element("points_shown").checked;
-      nv.updateGLVolume();
-      describe(clicked);
-      document.body.dataset.view = `drawn at ${slider.value}`;
-    }
-
-    // --- What a click says ---
-
-    let clicked = facts.focus;
-    const mm = (value) => `${value.toFixed(Math.abs(value) < 1 ? 2 : 1)} mm`;
-    const directions = (u) => [["to the left", "to the right"], ["backwards", "forwards"], ["up", "down"]]
-      .map(([plus, minus], axis) => `${mm(Math.abs(u[axis]))} ${u[axis] < 0 ? minus : plus}`).join(", ");
-    function describe(place) {
-      clicked = place;
-      const source = isAfter() ? cameFrom(place) : place;
-      const u = displacementAt(source);
-      const parts = [`At ${place.map((x) => x.toFixed(1)).join(", ")} (LPS, mm), ${isAfter() ? "after" : "before"}:`];
-      if (valueAt(fields, brain, source) > 0) { // its surface, too
-        const tissue = isAfter() ? "the tissue that lies here came" : "the tissue here moves";
-        parts.push(`${tissue} ${mm(length(u))}: ${directions(u)}.`);
-        for (const kind of kinds.slice(2)) {
-          const value = valueAt(fields, kind.values, source);
-          parts.push(kind.unit ? `Estimated error of the computation: ${mm(value)}.`
-            : `Its volume becomes ${value.toFixed(3)} of what it was.`);
-        }
-      } else {
-        parts.push("outside the brain, where nothing is predicted.");
-      }
-      const label = labels[0] && nearest(images, labels[0], source);
-      if (label) parts.push(`${labelName(label)}.`);
-      const nearestOf = (all) => all
-        .map((point) => ({ ...point, far: length(point.at.map((x, axis) => x - source[axis])) }))
-        .filter(({ far }) => far < 20).sort((a, b) => a.far - b.far)[0];
-      const landmark = nearestOf(deviations);
-      if (landmark) {
-        parts.push(`Standard deviation, at a landmark ${mm(landmark.far)} away: ${mm(landmark.deviation)}.`);
-      }
-      const near = nearestOf(measured);
-      if (near) {
-        const computed = displacementAt(near.at);
-        parts.push(`Nearest measured point, ${mm(near.far)} away: measured ${mm(length(near.shift))}`,
-          near.deviation ? `(standard deviation ${mm(near.deviation)}),` : "and",
-          `computed ${mm(length(computed))}; they differ by ${mm(length(computed.map((x, i) => x - near.shift[i])))}.`);
-      }
-      element("readout").textContent = parts.join(" ");
-    }
-
-    for (const [i, kind] of kinds.entries()) colours.add(new Option(kind.name, i, i === 1, i === 1));
-    let waiting = false;
-    const later = () => {
-      if (waiting) return;
-      waiting = true;
-      requestAnimationFrame(() => {
-        waiting = false;
-        draw();
-      });
-    };
-    for (const control of ["slider", "colours", "labels_shown", "points_shown"]) {
-      element(control).addEventListener("input", later);
-    }
-    nv.onLocationChange = ({ mm: place }) => describe(flipped(place));
-    // NiiVue picks a place of the surface on a double click, and tells nobody.
-    element("canvas").addEventListener("dblclick", () =>
-      describe(flipped([...nv.frac2mm(nv.scene.crosshairPos, 0, true)].slice(0, 3))));
-    nv.scene.crosshairPos = nv.mm2frac(flipped(facts.focus));
-    const [x, y, z] = flipped(facts.inward).map((part) => -part); // from the brain to the eye
-    nv.scene.volScaleMultiplier = 1.3;
-    nv.setRenderAzimuthElevation((Math.atan2(-x, -y) * 180) / Math.PI, (Math.asin(z) * 180) / Math.PI);
-    draw();
+async function begin(says) {
+  element("licences").textContent = await unpackedText("copyright");
+  const facts = JSON.parse(await unpackedText("facts"));
+  await load("style", "uplot_style");
+  await load("script", "uplot");
+  if (facts.history) drawCurves(facts.history, facts.options.solve ?? {});
+  if (!says) return; // there was nothing to turn
+  if (!document.createElement("canvas").getContext("webgl2")) {
+    says.textContent = "This browser has no WebGL2, or it is switched off, so nothing can be turned here. The "
+      + "pictures below show the same run. Another browser, or hardware acceleration switched on in this one's "
+      + "settings, brings the view.";
+    return;
   }
+  element("controls").hidden = element("frame").hidden = false;
+  await load("script", "niivue");
+  await show(await unpackedRun(facts));
+  says.textContent = "Click or drag in a plane, or double-click on the brain, to read what happens there; drag the "
+    + "brain to turn it; scroll to zoom it or to go through the slices. The slider takes image, labels and surface "
+    + "from before the operation to after it; in between the image is only faded. From its middle on, colours and "
+    + "words are those of the tissue as it lies after. Lines: the brain's surface before (blue) and after (orange).";
+}
 
-  // --- Begin ---
-
-  const says = element("says");
-  try {
-    element("licences").textContent = await unpackedText("copyright");
-    const facts = JSON.parse(await unpackedText("facts"));
-    const style = document.createElement("style");
-    style.textContent = await unpackedText("uplot_style");
-    document.head.append(style);
-    await loadLibrary("uplot");
-    if (facts.history) drawCurves(facts.history, facts.options.solve ?? {});
-    if (!says) return;
-    if (!document.createElement("canvas").getContext("webgl2")) {
-      says.textContent = "This browser has no WebGL2, or it is switched off, so nothing can be turned here. The "
-        + "pictures below show the same run. Another browser, or hardware acceleration switched on in this one's "
-        + "settings, brings the view.";
-      return;
-    }
-    element("controls").hidden = element("frame").hidden = false;
-    await loadLibrary("niivue");
-    await show(facts);
-    says.textContent = "Click or drag in a plane, or double-click on the brain, to read what happens there; drag the "
-      + "brain to turn it; scroll to zoom it or to go through the slices. The slider takes image, labels and surface "
-      + "from before the operation to after it; in between the image is only faded. From its middle on, colours and "
-      + "words are those of the tissue as it lies after. Lines: the brain's surface before (blue) and after (orange).";
-  } catch (error) {
-    console.error(error);
-    if (says) says.textContent = `The view cannot be drawn (${error.message}). The pictures below show the same run.`;
-  }
-})();
+begin(element("says")).catch((error) => {
+  console.error(error);
+  if (!element("says")) return;
+  element("controls").hidden = element("frame").hidden = true;
+  element("says").textContent = `The view cannot be drawn (${error.message}). The pictures below show the same run.`;
+});
