@@ -133,8 +133,11 @@ function addSurfaces(nv, { vertices, triangles, displacementAt }) {
   return { surface, shifts };
 }
 
-// Measured points, 250 at most: a ball before, one after, and a line between them.
+// Measured points, 250 at most: a ball before, one after, and a line between them. Nothing where there are none, as
+// NiiVue loses its places with an empty mesh.
 function addPoints(nv, measured) {
+  element("points_shown").disabled = measured.length === 0;
+  if (measured.length === 0) return null;
   const drawn = measured.filter((_, i) => i % Math.ceil(measured.length / 250) === 0);
   const ends = drawn.flatMap(({ at, shift }) => [at, at.map((x, axis) => x + shift[axis])]);
   nv.addColormap("points", colourMap([blue, orange]));
@@ -145,7 +148,6 @@ function addPoints(nv, measured) {
     edges: drawn.map((_, i) => ({ first: 2 * i, second: 2 * i + 1, colorValue: 1 })),
   });
   nv.addMesh(points);
-  element("points_shown").disabled = measured.length === 0;
   return points;
 }
 
@@ -226,7 +228,7 @@ async function show(run) {
     drawBar(kind);
     drawOverlay(run, kind, shown);
     drawSurface(run, kind, shown);
-    points.visible = element("points_shown").checked;
+    if (points) points.visible = element("points_shown").checked;
     nv.updateGLVolume();
     describe(clicked);
     document.body.dataset.view = `drawn at ${element("slider").value}`; // viewer_test.py waits for it

@@ -62,23 +62,19 @@ void ExternalForce::subtract(double fraction, NodalVectors& force) const {
 }
 
 double ExternalForce::work(double from, double to, const NodalVectors& start, const NodalVectors& end) const {
-  if (empty()) {
-    return 0;
-  }
-  std::vector<double> share(at_.size(), 0.0);  // of each entry in the mean force
-  for (const double fraction : {from, to}) {
-    const Between between(fraction, at_.size());
-    share[between.upper] += between.share / 2;
-    if (between.upper > 0) {
-      share[between.upper - 1] += (1 - between.share) / 2;
-    }
+  const auto work_of = [&](std::size_t entry, double share) {
+    const NodalVectors& force = at_[entry];
+    return share *
+           sum_over_nodes(force.size() / 4, [&](std::size_t a) { return at(force, a).dot(at(end, a) - at(start, a)); });
+  };
+  if (at_.size() < 2) {
+    return empty() ? 0 : work_of(0, (from + to) / 2);
   }
   double work = 0;
-  for (std::size_t k = 0; k < at_.size(); ++k) {
-    if (share[k] != 0) {
-      work += share[k] * sum_over_nodes(at_[k].size() / 4,
-                                        [&](std::size_t a) { return at(at_[k], a).dot(at(end, a) - at(start, a)); });
-    }
+  for (const double fraction : {from, to}) {
+    const Between between(fraction, at_.size());
+    work += work_of(between.upper, between.share / 2);
+    work += between.upper > 0 ? work_of(between.upper - 1, (1 - between.share) / 2) : 0;
   }
   return work;
 }
