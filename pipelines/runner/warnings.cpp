@@ -114,8 +114,6 @@ Warnings warnings_of(const solve::Model& model, const Points& displacement) {
           " mm); in a patient the skull holds it: add <contact/>, unless that is meant"};
 }
 
-/// Measured on a cube between frictionless plates under MMLS: 1.25 points a node are exact down to 0.8 of its height
-/// and wholly wrong at 0.7, although the steps end; 1.9 are exact at 0.6.
 Warnings warnings_of_weight(const solve::Model& model) {
   if (model.gravity.isZero() || !model.skull) {
     return {};
@@ -125,6 +123,8 @@ Warnings warnings_of_weight(const solve::Model& model) {
       "from the truth than no gravity; for a head take <gravity> with a level of the fluid"};
 }
 
+/// Measured on a cube between frictionless plates under MMLS: 1.25 points a node are exact down to 0.8 of its height
+/// and wholly wrong at 0.7, although the steps end; 1.9 are exact at 0.6.
 Warnings warnings_of(const solve::SolveMeasures& measures) {
   constexpr double enough = 1.6, little_compression = 0.8;
   const double points_per_node = static_cast<double>(measures.integration_points) / static_cast<double>(measures.nodes);

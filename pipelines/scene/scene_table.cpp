@@ -148,29 +148,6 @@ Element cuts_element() {
                                     "whether the faces of cuts are kept from passing through each other")});
 }
 
-/// A vector of <gravity> that may be absent.
-Option<Scene> gravity_vector(std::string name, std::optional<Eigen::Vector3d> Gravity::*member, std::string unit,
-                             std::string help) {
-  const auto read = [member](Scene& scene, const std::string& words) {
-    const auto values = read_numbers<double>(words);
-    const bool three = values && values->size() == 3;
-    if (three) {
-      (*scene.gravity).*member = Eigen::Vector3d((*values)[0], (*values)[1], (*values)[2]);
-    }
-    return three || words.empty();
-  };
-  const auto given = [member](const Scene& scene) -> const auto& {
-    return (*scene.gravity).*member;
-  };
-  return {.name = std::move(name),
-          .allowed = "three numbers, or nothing",
-          .unit = std::move(unit),
-          .help = std::move(help),
-          .read = read,
-          .holds = [given](const Scene& scene) { return !given(scene) || given(scene)->allFinite(); },
-          .get = [given](const Scene& scene) { return given(scene) ? write_numbers(*given(scene)) : std::string(); }};
-}
-
 Element gravity_element() {
   return part(
       "gravity", "The fluid round the brain drains: tissue above its level loses its buoyancy.", &Scene::gravity,
@@ -181,12 +158,13 @@ Element gravity_element() {
                             "drained and fluid_point says the level"),
        number_option<Scene>("drained", MEMBER(gravity->drained), {.low = 0, .high = 100}, "%",
                             "of the brain's height that lies above the fluid"),
-       gravity_vector("fluid_point", &Gravity::fluid_point, "mm, LPS", "a point on the fluid's surface"),
+       vector_option<Scene>("fluid_point", MEMBER(gravity->fluid_point), "mm, LPS", "a point on the fluid's surface"),
        number_option<Scene>("fluid_density", MEMBER(gravity->fluid_density), {.low = 0, .high = 2000}, "kg/m3",
                             "of cerebrospinal fluid or what it was replaced by"),
-       gravity_vector("image_direction", &Gravity::image_direction, "LPS",
-                      "in which things fell when the image was taken, where the patient was turned since: tissues then "
-                      "need their own densities (brain 1040); absent: the same direction")});
+       vector_option<Scene>(
+           "image_direction", MEMBER(gravity->image_direction), "LPS",
+           "in which things fell when the image was taken, where the patient was turned since: tissues then "
+           "need their own densities (brain 1040); absent: the same direction")});
 }
 
 Element resection_element() {

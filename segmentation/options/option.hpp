@@ -277,10 +277,16 @@ Option<T> label_ranges_option(std::string name, Access access, std::string help)
   return option;
 }
 
-/// A vector of the world, three numbers.
+/// A vector of the world, three numbers, or one that may be absent.
 template <class T, class Access>
 Option<T> vector_option(std::string name, Access access, std::string unit, std::string help) {
+  using Stored = detail::Accessed<T, Access>;
+  constexpr bool optional = detail::Unwrapped<Stored>::optional;
   const auto read = [access](T& target, const std::string& words) {
+    if (optional && words.empty()) {
+      std::invoke(access, target) = Stored{};
+      return true;
+    }
     const auto values = read_numbers<double>(words);
     if (!values || values->size() != 3) {
       return false;
@@ -288,13 +294,22 @@ Option<T> vector_option(std::string name, Access access, std::string unit, std::
     std::invoke(access, target) = Eigen::Vector3d((*values)[0], (*values)[1], (*values)[2]);
     return true;
   };
+  /// The vector, or null.
+  const auto given = [access](const T& target) -> const Eigen::Vector3d* {
+    const Stored& stored = std::invoke(access, target);
+    if constexpr (optional) {
+      return stored ? &*stored : nullptr;
+    } else {
+      return &stored;
+    }
+  };
   return {.name = std::move(name),
-          .allowed = "three numbers",
+          .allowed = optional ? "three numbers, or nothing" : "three numbers",
           .unit = std::move(unit),
           .help = std::move(help),
           .read = read,
-          .holds = [access](const T& target) { return std::invoke(access, target).allFinite(); },
-          .get = [access](const T& target) { return write_numbers(std::invoke(access, target)); }};
+          .holds = [given](const T& target) { return given(target) == nullptr || given(target)->allFinite(); },
+          .get = [given](const T& target) { return given(target) ? write_numbers(*given(target)) : ""; }};
 }
 
 /// A list of pairs of numbers, kept as structs of two: "a,b; a,b".

@@ -65,8 +65,8 @@ ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamic
   for (int k = 1; k <= levels; ++k) {
     const double fraction = static_cast<double>(k) / levels;
     DrainedFluid fluid = *model.fluid;
-    const bool covered =
-        fluid.level <= top;  // points on the surface may stand out, as the cubes that they are taken for
+    // A covered body stays covered: of its points at the surface, taken for cubes, a part may stand above the top.
+    const bool covered = fluid.level <= top;
     fluid.level = covered ? -std::numeric_limits<double>::infinity() : top + fraction * (fluid.level - top);
     fluid.gravity_of_image = fluid.gravity + fraction * (fluid.gravity_of_image - fluid.gravity);
     NodalVectors& total = at_levels.emplace_back(force);

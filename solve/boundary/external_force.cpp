@@ -18,18 +18,6 @@ void spread(const Eigen::Vector3d& force, const ShapeRows& rows, std::size_t row
   }
 }
 
-}  // namespace
-
-ExternalForce::ExternalForce(NodalVectors full) {
-  if (!full.empty()) {
-    at_.push_back(std::move(full));
-  }
-}
-
-ExternalForce::ExternalForce(std::vector<NodalVectors> at_fractions) : at_(std::move(at_fractions)) {}
-
-namespace {
-
 /// Weights of two neighbouring entries of a table over (0, 1] in equal steps, whose entry before the first is nothing.
 struct Between {
   std::size_t upper;  ///< entry; the lower is the one before it
@@ -43,6 +31,14 @@ struct Between {
 };
 
 }  // namespace
+
+ExternalForce::ExternalForce(NodalVectors full) {
+  if (!full.empty()) {
+    at_.push_back(std::move(full));
+  }
+}
+
+ExternalForce::ExternalForce(std::vector<NodalVectors> at_fractions) : at_(std::move(at_fractions)) {}
 
 void ExternalForce::subtract(double fraction, NodalVectors& force) const {
   if (empty()) {

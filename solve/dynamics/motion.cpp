@@ -284,6 +284,7 @@ void Motion::go_on_with(ChangedBody changed, const PointLaws& laws) {
   good_reactions_.conservativeResize(nodes, 3);
   good_reactions_.bottomRows(more).setZero();
   ForceScratch fresh(body.points, laws);
+  fresh.swell(laws, fraction_);
   fresh.parameters = changed.parameters(scratch.parameters);
   fresh.remember(scratch, changed.point_from);
   scratch = std::move(fresh);

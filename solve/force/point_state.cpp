@@ -23,9 +23,9 @@ void add_patch(const PointBlocks& points, const Patch& patch, const ElasticLaw& 
     const double volume = points.volume[static_cast<std::size_t>(p)];
     state.strain_energy += volume * volume_at_rest * (law.isochoric_energy(d) + volumetric);
     state.smallest_jacobian = lesser(state.smallest_jacobian, volume_at_rest * d.jacobian);
-    const Eigen::Vector3d stretches = growth * principal_stretches(d.gradient);
-    state.largest_stretch = std::max(state.largest_stretch, stretches.maxCoeff());
-    state.compressed_share += stretches.minCoeff() < crease_stretch ? volume : 0;
+    const Eigen::Vector3d elastic_stretches = principal_stretches(d.gradient);
+    state.largest_stretch = std::max(state.largest_stretch, growth * elastic_stretches.maxCoeff());
+    state.compressed_share += elastic_stretches.minCoeff() < crease_stretch ? volume : 0;
   }
 }
 

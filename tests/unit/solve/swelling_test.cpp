@@ -35,6 +35,15 @@ TEST_P(Swelling, LeavesAFreeBodyWithoutStressAtItsNewSize) {
   }
 }
 
+/// Tissue creases by what presses it elastically, not by having shrunk.
+TEST(SwellingWithoutStress, MakesNoCreases) {
+  Specimen body = grown(Material{}, -0.9, 1);
+  const double less = std::cbrt(0.1) - 1;
+  ASSERT_LT(1 + less, crease_stretch);
+  body.force(body.linear(less * Eigen::Matrix3d::Identity()));
+  EXPECT_EQ(point_state(body.points, body.laws, body.scratch).compressed_share, 0);
+}
+
 TEST_P(Swelling, ForceIsTheSlopeOfTheEnergy) {
   Specimen body = grown(GetParam(), 0.4, 0.5);
   const NodalVectors at_rest = body.random_parameters(0.5);

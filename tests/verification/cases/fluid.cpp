@@ -8,7 +8,7 @@
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
-#include "tests/verification/reference.hpp"
+#include "tests/verification/cases/relative_figures.hpp"
 
 namespace brainshift::verification::fluid_cases {
 
@@ -23,21 +23,6 @@ const solve::Material tissue = {.youngs_modulus = 3000, .poisson_ratio = 0.499};
 solve::DrainedFluid drained_to(double z) {
   const Eigen::Vector3d down(0, 0, -gravity);
   return {.gravity = down, .gravity_of_image = down, .level = -z, .density = 1007};
-}
-
-/// In per cent of the largest displacement of the reference.
-std::vector<Figure> against(const std::string& name, const solve::Model& model, double most_mean) {
-  const Reference reference = read_reference(name, "");
-  const solve::SolveResult result = solved(model, steady_options());
-  const Differences apart = differences(result.solution, reference.positions, reference.displacement);
-  const double largest = reference.displacement.rowwise().norm().maxCoeff();
-  const double seconds = result.measures.seconds_setup + result.measures.seconds_stepping;
-  const std::string nodes = std::to_string(result.measures.nodes) + " nodes: ";
-  const auto figure = [&](const std::string& what, double millimetres, std::optional<double> most) {
-    return Figure{nodes + what, "", 100 * millimetres / largest, "%", most, {}, reference.error, seconds};
-  };
-  return {figure("largest difference", apart.largest, {}), figure("95 %", apart.percentile95, 2),
-          figure("mean", apart.mean, most_mean)};
 }
 
 }  // namespace
@@ -61,7 +46,7 @@ Outcome wet_block(bool small) {
   }
   model.materials[1] = tissue;
   model.fluid = drained_to(20);
-  return {against("wet_block", model, 1.5), {}};
+  return {relative_figures(solved(model, steady_options()), read_reference("wet_block", ""), 1.5), {}};
 }
 
 Outcome wet_ball(bool small) {
@@ -78,7 +63,7 @@ Outcome wet_ball(bool small) {
   }
   model.materials[1] = tissue;
   model.fluid = drained_to(15);
-  return {against("wet_ball", model, 1), {}};
+  return {relative_figures(solved(model, steady_options()), read_reference("wet_ball", ""), 1), {}};
 }
 
 }  // namespace brainshift::verification::fluid_cases

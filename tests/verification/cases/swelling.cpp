@@ -7,7 +7,7 @@
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
-#include "tests/verification/reference.hpp"
+#include "tests/verification/cases/relative_figures.hpp"
 
 namespace brainshift::verification::swelling_cases {
 
@@ -37,20 +37,9 @@ Outcome bilayer(bool small) {
   }
   model.materials[1] = {.youngs_modulus = 3000, .poisson_ratio = 0.49, .swelling = 0.01};
   model.materials[2] = {.youngs_modulus = 3000, .poisson_ratio = 0.49};
-  const Reference reference = read_reference("bilayer", "");
   solve::SolveOptions options = steady_options();
   options.tolerance = 1e-4;  // of a quarter of a millimetre
-  const solve::SolveResult result = solved(model, options);
-  const Differences apart = differences(result.solution, reference.positions, reference.displacement);
-  const double largest = reference.displacement.rowwise().norm().maxCoeff();
-  const double seconds = result.measures.seconds_setup + result.measures.seconds_stepping;
-  const std::string nodes = std::to_string(result.measures.nodes) + " nodes: ";
-  const auto figure = [&](const std::string& what, double millimetres, std::optional<double> most) {
-    return Figure{nodes + what, "", 100 * millimetres / largest, "%", most, {}, reference.error, seconds};
-  };
-  return {{figure("largest difference", apart.largest, {}), figure("95 %", apart.percentile95, 2),
-           figure("mean", apart.mean, 1)},
-          {}};
+  return {relative_figures(solved(model, options), read_reference("bilayer", ""), 1), {}};
 }
 
 }  // namespace brainshift::verification::swelling_cases

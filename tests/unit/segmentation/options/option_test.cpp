@@ -12,6 +12,7 @@ struct Paint {
   std::optional<int> coats = {};
   Shade shade = Shade::light;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d> drip = {};
   std::vector<std::uint16_t> labels = {1};
   std::vector<std::pair<double, double>> stripes = {};
 };
@@ -25,6 +26,7 @@ OptionTable<Paint> paint_options() {
           number_option<Paint>("coats", &Paint::coats, {.low = 1, .high = 3}, "", "how often"),
           choice_option<Paint>("shade", &Paint::shade, {{"light", Shade::light}, {"dark", Shade::dark}}, "which"),
           vector_option<Paint>("place", &Paint::place, "mm", "where"),
+          vector_option<Paint>("drip", &Paint::drip, "mm", "where it ran to"),
           labels_option<Paint>("labels", &Paint::labels, "of what"),
           pairs_option<Paint>("stripes", &Paint::stripes, "pairs from,to", "mm", "from where to where")};
 }
@@ -45,6 +47,8 @@ TEST(Option, TheCheckOfAStructSaysWhatReadingItsTextSays) {
   EXPECT_EQ(complaint({.coats = 4}), "coats is '4', but must be a whole number from 1 to 3, or nothing");
   EXPECT_EQ(complaint({.shade = Shade::unnamed}), "shade is '2', but must be light | dark");
   EXPECT_EQ(complaint({.place = {0, nan, 0}}), "place is '0 nan 0', but must be three numbers (mm)");
+  EXPECT_EQ(complaint({.drip = Eigen::Vector3d(0, nan, 0)}),
+            "drip is '0 nan 0', but must be three numbers, or nothing (mm)");
   EXPECT_EQ(complaint({.labels = {1, 0}}),
             "labels is '1 0', but must be whole numbers from 1 to 65535, separated by blanks");
   EXPECT_EQ(complaint({.stripes = {{1, nan}}}), "stripes is '1,nan', but must be pairs from,to (mm)");
@@ -59,6 +63,7 @@ TEST(Option, WhatItWritesItReadsBack) {
                     .coats = 3,
                     .shade = Shade::dark,
                     .place = {1, -2, 0.5},
+                    .drip = Eigen::Vector3d(0, 0, -3),
                     .labels = {7, 9},
                     .stripes = {{1, 2}, {3, 4}}};
   Paint copy;
@@ -70,10 +75,13 @@ TEST(Option, WhatItWritesItReadsBack) {
   EXPECT_EQ(copy.coats, 3);
   EXPECT_EQ(copy.shade, Shade::dark);
   EXPECT_EQ(copy.place, paint.place);
+  EXPECT_EQ(copy.drip, paint.drip);
   EXPECT_EQ(copy.labels, paint.labels);
   EXPECT_EQ(copy.stripes, paint.stripes);
   EXPECT_TRUE(set_option(*find_option(paint_options(), "coats"), copy, ""));
   EXPECT_FALSE(copy.coats);
+  EXPECT_TRUE(set_option(*find_option(paint_options(), "drip"), copy, ""));
+  EXPECT_FALSE(copy.drip);
 }
 
 TEST(Option, ATextOfAnotherKindLeavesTheValue) {
@@ -93,7 +101,7 @@ TEST(Option, OfAPartIsOneOfTheWhole) {
   EXPECT_EQ(find_option(table, "litres")->get(wall), "5");
   wall.paint.coats = 0;
   EXPECT_THROW(check_table(table, wall), std::invalid_argument);
-  EXPECT_EQ(option_names(table), "litres, coats, shade, place, labels, stripes");
+  EXPECT_EQ(option_names(table), "litres, coats, shade, place, drip, labels, stripes");
   EXPECT_EQ(find_option(table, "colour"), nullptr);
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <numeric>
 
 #include "solve/force/largest_eigenvalue.hpp"
@@ -14,6 +15,20 @@ namespace brainshift::solve::motion_test {
 
 constexpr double side = 30;
 
+Body pulled_body(const Specimen& box, double pull) {
+  Body body;
+  body.original.resize(box.cloud.size());
+  std::iota(body.original.begin(), body.original.end(), 0);
+  body.points = box.points;
+  body.laws = box.laws;
+  NodalVectors external = box.rest();
+  for (std::size_t a = 0; a < box.cloud.size(); ++a) {
+    external[4 * a + 2] = pull * (box.cloud.positions(static_cast<Eigen::Index>(a), 2) - side / 2);
+  }
+  body.external = ExternalForce(std::move(external));
+  return body;
+}
+
 /// A box under forces that pull its top, `pull` times as large as its spacing asks for, marched with a step of
 /// `of_critical` times the true critical one.
 struct Marched {
@@ -23,7 +38,7 @@ struct Marched {
 
   explicit Marched(double of_critical, double pull = 1) {
     const std::vector<double> mass = physical_mass(box.points, std::vector<double>{1e-3});
-    Motion motion(pulled_body(pull), 0);
+    Motion motion(pulled_body(box, pull), 0);
     const PointLaws& laws = motion.body.laws;
     motion.weigh(mass);
     const double h = of_critical * 2 / std::sqrt(largest_eigenvalue(box.points, laws, mass, 300));
@@ -35,21 +50,6 @@ struct Marched {
       }
     }
     result = motion.finish();
-  }
-
- private:
-  Body pulled_body(double pull) const {
-    Body body;
-    body.original.resize(box.cloud.size());
-    std::iota(body.original.begin(), body.original.end(), 0);
-    body.points = box.points;
-    body.laws = box.laws;
-    NodalVectors external = box.rest();
-    for (std::size_t a = 0; a < box.cloud.size(); ++a) {
-      external[4 * a + 2] = pull * (box.cloud.positions(static_cast<Eigen::Index>(a), 2) - side / 2);
-    }
-    body.external = ExternalForce(std::move(external));
-    return body;
   }
 };
 
@@ -79,6 +79,26 @@ TEST(Motion, IsFoundUnstableJustAboveTheCriticalStepAndKeepsTheLastGoodState) {
     }
     EXPECT_LT(largest, side / 10);
   }
+}
+
+TEST(Motion, KeepsTheSwellingOfTheMomentWhenItsBodyChanges) {
+  const Specimen box{
+      test::irregular_box(4, side), test::box_cells(3, side), {Material{.swelling = 0.3}}, SpecimenOptions{}};
+  Motion motion(pulled_body(box, 1), 0);
+  const PointLaws laws = motion.body.laws;
+  const std::vector<double> mass = physical_mass(box.points, std::vector<double>{1e-3});
+  motion.weigh(mass);
+  const double h = 0.1 / std::sqrt(largest_eigenvalue(box.points, laws, mass, 300));
+  motion.step(laws, mass, h * h, 1, h, 0.5);
+  BodyChange change;
+  change.next = [](const Moment& moment) {
+    std::vector<std::int32_t> point_from(moment.body.points.volume.size());
+    std::iota(point_from.begin(), point_from.end(), 0);
+    return moment.first ? std::optional<ChangedBody>({moment.body, std::identity(), std::move(point_from)})
+                        : std::nullopt;
+  };
+  ASSERT_TRUE(motion.change(change, laws, motion.time, true));
+  EXPECT_NEAR(motion.scratch.growth_of(0), std::cbrt(1 + 0.5 * 0.3), 1e-14);
 }
 
 }  // namespace brainshift::solve::motion_test

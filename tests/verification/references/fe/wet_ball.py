@@ -5,7 +5,7 @@ import sys
 import numpy as np
 from scipy.stats import qmc
 
-from . import ccx, cylinders, deck, evaluate, meshes, tables
+from . import ccx, cylinders, deck, evaluate, meshes, study, tables
 
 RADIUS, LEVEL = 30.0, 15.0  # mm
 DENSITY, GRAVITY = 1007e-6, 9806.65  # g/mm3, mm/s2
@@ -61,26 +61,17 @@ def at_points(mesh, field, points):
 def main(folder, out):
     material = deck.NeoHookean.from_young(3000, 0.499)
     points = sample_points()
-    samples, lowest = [], []
-    for cells in LEVELS:
-        mesh, solution = solve(cells, folder, material)
-        field = solution.fields[1.0]
-        samples.append(at_points(mesh, field, points))
-        lowest.append(field[:, 1].min())
-        print(f"wet_ball: {len(mesh.elements)} CAX8R, reached {solution.reached}, lowest uz {lowest[-1]:.5f} mm, "
-              f"{solution.seconds:.0f} s", flush=True)
-    force, lengths, lines = tables.convergence(lowest, samples, LEVELS)
+    finest, lines = study.converged("wet_ball", "CAX8R", LEVELS, lambda cells: solve(cells, folder, material),
+                                    lambda mesh, field: at_points(mesh, field, points),
+                                    lambda _, field: field[:, 1].min(), "lowest uz, mm")
     about = ["Finite-element reference: a half ball whose fluid has drained to half its height",
              "lengths mm; x, y, z is the undeformed place",
              "geometry: radius 30 about the origin, z > 0; z = 0 is held; the fluid stands at z = 15",
              f"material: {material}, E = 3000 Pa, nu = 0.499",
              f"load: weight of {1e6 * DENSITY:g} kg/m3 with {1e-3 * GRAVITY:g} m/s2 along -z on all of it, and the pressure of a "
              "fluid of that density on the surface below z = 15, which follows it",
-             f"made by fe/wet_ball.py with {tables.versions()}",
-             f"finest mesh: {len(mesh.elements)} CAX8R on {len(mesh.nodes)} nodes; in place of a force the lines below have the "
-             "lowest uz, mm",
-             *lines, tables.error_line(force, lengths)]
-    tables.write_samples(f"{out}/wet_ball.csv", about, points, samples[-1])
+             *lines]
+    tables.write_samples(f"{out}/wet_ball.csv", about, points, finest)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import sys
 import numpy as np
 from scipy.stats import qmc
 
-from . import ccx, deck, evaluate, meshes, tables
+from . import ccx, deck, evaluate, meshes, study, tables
 
 HALF, HEIGHT, LEVEL = 20.0, 40.0, 20.0  # mm
 DENSITY, GRAVITY = 1007e-6, 9806.65  # g/mm3, mm/s2
@@ -52,15 +52,9 @@ def solve(cells, folder, material):
 def main(folder, out):
     material = deck.NeoHookean.from_young(3000, 0.499)
     points = np.round(qmc.Sobol(3, seed=31).random(512) * [HALF, HALF, HEIGHT], 4)
-    samples, forces = [], []
-    for cells in LEVELS:
-        mesh, solution = solve(cells, folder, material)
-        field = solution.fields[1.0]
-        samples.append(evaluate.Interpolator(mesh, points)(field))
-        forces.append(4e-6 * solution.forces["BASE"][1.0][2])
-        print(f"wet_block: {len(mesh.elements)} C3D20R, reached {solution.reached}, {forces[-1]:.6f} N on the base, "
-              f"lowest uz {field[:, 2].min():.5f} mm, {solution.seconds:.0f} s", flush=True)
-    force, lengths, lines = tables.convergence(forces, samples, LEVELS)
+    finest, lines = study.converged("wet_block", "C3D20R", LEVELS, lambda cells: solve(cells, folder, material),
+                                    lambda mesh, field: evaluate.Interpolator(mesh, points)(field),
+                                    lambda solution, _: 4e-6 * solution.forces["BASE"][1.0][2])
     about = ["Finite-element reference: a block whose fluid has drained to half its height",
              "lengths mm, force N (of the whole block on its base); x, y, z is the undeformed place",
              "geometry: a quarter, 0 <= x <= 20, 0 <= y <= 20, 0 <= z <= 40; the fluid stands at z = 20",
@@ -68,10 +62,8 @@ def main(folder, out):
              f"load: weight of {1e6 * DENSITY:g} kg/m3 with {1e-3 * GRAVITY:g} m/s2 along -z on all of it, and the pressure of a "
              "fluid of that density on the sides below z = 20, which follows them",
              "boundary: u = 0 on z = 0, ux = 0 on x = 0, uy = 0 on y = 0 (mirrors); static, large strain",
-             f"made by fe/wet_block.py with {tables.versions()}",
-             f"finest mesh: {len(mesh.elements)} C3D20R on {len(mesh.nodes)} nodes",
-             *lines, tables.error_line(force, lengths)]
-    tables.write_samples(f"{out}/wet_block.csv", about, points, samples[-1])
+             *lines]
+    tables.write_samples(f"{out}/wet_block.csv", about, points, finest)
 
 
 if __name__ == "__main__":
