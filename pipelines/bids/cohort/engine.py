@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calls Snakemake and tells how far it is."""
+import argparse
 import contextlib
 import fcntl
 import os
@@ -15,6 +16,20 @@ from . import plan, program
 
 STEPS = re.compile(r"^(\d+) of (\d+) steps")
 WHOLE = ("report",)  # the run to its end in one rule
+
+
+class SayVersion(argparse.Action):
+    """The version is the program's: it is asked only where somebody wants to know."""
+
+    def __call__(self, parser, options, *_):
+        print(program.version(program.find(options.brainshift)).replace("brainshift", parser.prog, 1))
+        parser.exit()
+
+
+def parser_of(about):
+    """about: the command's documentation, which holds its usage."""
+    return argparse.ArgumentParser(description=about, usage=argparse.SUPPRESS,
+                                   formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
 def add_options(parser):
@@ -33,6 +48,7 @@ def add_options(parser):
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
                         help="an option of all scenes, as discretise.nodes=6000 or solve.command='my_own {in} {out}'")
     parser.add_argument("--brainshift", metavar="FILE", help="the program, if it is not on the path")
+    parser.add_argument("--version", "-v", action=SayVersion, nargs=0, help="say the program's version, and stop")
     parser.add_argument("--work-dir", "-w", type=Path, metavar="DIR", help="for the runs; OUT/work if absent")
     parser.add_argument("--snakemake", action="append", default=[], metavar="WORD",
                         help="a further word to Snakemake, as --snakemake=--printshellcmds")
