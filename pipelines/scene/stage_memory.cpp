@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "pipelines/scene/scene_labels.hpp"
+
 namespace brainshift::pipelines {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr double reading_labels = 13;  // bytes a voxel: doubles, the file's own
 double segment_memory(const Scene& scene, const RunSize& size) {
   // Images and masks; of a mask the tissues are classified, with an image of each class's memberships.
   const bool classified = scene.image.labels.empty();
-  const double voxel = classified ? 33 + 4.0 * scene.segment.classes : 18;
+  const double voxel = classified ? 40 + 4.0 * scene.segment.classes : label_reading(scene).by_class ? 27 : 22;
   const double other_grid = size.label_voxels == size.voxels ? 0 : size.label_voxels * reading_labels;
   return program + fine_surface + 4 + (size.voxels * voxel + other_grid) / mb;
 }
@@ -41,12 +43,12 @@ double solve_memory(const Scene& scene, const RunSize& size) {
 
 double register_memory(const RunSize& size) {
   // Two fields, a copy of each while it is written, one beside the other where there are threads; images, zones.
-  constexpr double voxel = 82, least = 42;
+  constexpr double voxel = 86, least = 42;
   return program + std::max(least, 9 + size.voxels * voxel / mb);
 }
 
 double report_memory(const RunSize& size) {
-  constexpr double pictures = 34, voxel = 41;
+  constexpr double pictures = 34, voxel = 44;
   return program + pictures + size.voxels * voxel / mb;
 }
 

@@ -15,10 +15,10 @@ struct RunSize {
   double label_voxels = 0;  ///< of the label map or mask as it is read
 };
 
-/// The most memory that a stage of ours holds at once, MB (10⁶ bytes), with the program and its libraries, on any
-/// number of threads: no less than it takes, and no more than half above. Empty where nobody can know: adaptive
-/// integration adds points as it goes. Not counted: further files to be warped, cuts, and loads with noise of thousands
-/// of points.
+/// The most memory that a stage of ours holds at once, as run.json's peak_memory_mb counts it (MiB, the program and its
+/// libraries with it), on any number of threads: no less than it takes, and no more than half above. Empty where nobody
+/// can know: adaptive integration adds points as it goes. Not counted are further files that are to be warped, and
+/// cuts.
 std::optional<double> stage_memory(StageId stage, const Scene& scene, const RunSize& size);
 
 }  // namespace brainshift::pipelines

@@ -4,6 +4,7 @@
 
   app_test.py PROGRAM     ends with 77 where Snakemake is not installed
 """
+import json
 import os
 import pathlib
 import shutil
@@ -61,7 +62,11 @@ class AppTest(unittest.TestCase):
             derivative = pathlib.Path(stem + ending)
             self.assertEqual(derivative.read_bytes(), (single / "register" / made).read_bytes(), ending)
         self.assertIn("3\ttumour\n", pathlib.Path(stem + "space-intraop_dseg.tsv").read_text())
-        self.assertIn('"GeneratedBy"', (self.out / "dataset_description.json").read_text())
+        about = json.loads((self.out / "dataset_description.json").read_text())
+        self.assertEqual((about["DatasetType"], about["DatasetLinks"]), ("derivative", {"raw": self.bids.as_uri()}))
+        sources = json.loads(pathlib.Path(stem + "space-intraop_dseg.json").read_text())["Sources"]
+        self.assertEqual(sources[0], "bids:raw:sub-00001/anat/sub-00001_T1w.nii.gz")
+        self.assertIn("bids:raw:derivatives/planning/sub-00001/anat/sub-00001_dseg.nii.gz", sources)
 
     def test_the_same_command_makes_again_what_changed_and_nothing_else(self):
         load = self.bids / "derivatives/planning/sub-00001/anat/sub-00001_desc-cortex_points.csv"

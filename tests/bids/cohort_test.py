@@ -9,7 +9,7 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipelines/bids"))
 
-from cohort import derivatives, marks, measures, names, pages, plan  # noqa: E402
+from cohort import dataset, derivatives, marks, measures, names, pages, plan  # noqa: E402
 from cohort.finder import Finder  # noqa: E402
 
 POINTS = "derivatives/plan/sub-01/anat/sub-01_desc-cortex_points.csv"
@@ -196,9 +196,18 @@ class NamesTest(unittest.TestCase):
         self.assertEqual(name, ({"sub": "01", "ses": "a", "desc": "before"}, "points", ".mrk.json"))
         self.assertIsNone(names.parse("sub-01_thing_T1w.nii.gz"))
 
-    def test_the_table_of_labels_has_the_names_of_the_tissues(self):
-        table = derivatives.label_table({"1": {"name": ""}, "12": {"name": "falx"}}).splitlines()
-        self.assertEqual((table[0], table[1], table[-1]), ("index\tname", "1\tparenchyma", "12\tfalx"))
+    def test_the_table_of_labels_is_in_the_order_of_their_numbers(self):
+        table = derivatives.label_table({"12": "falx", "2": "ventricles"})
+        self.assertEqual(table, "index\tname\n2\tventricles\n12\tfalx\n")
+
+    def test_sources_are_named_by_the_deepest_folder_that_holds_them(self):
+        bids, elsewhere = pathlib.Path("/data/study"), pathlib.Path("/scratch/labels")
+        known = dataset.links(bids, [bids / "derivatives/plan", elsewhere])
+        self.assertEqual(known, {"raw": bids, "derivatives1": elsewhere})
+        for file, uri in (("/data/study/derivatives/plan/sub-01/a.csv", "bids:raw:derivatives/plan/sub-01/a.csv"),
+                          ("/scratch/labels/sub-01/b.nii.gz", "bids:derivatives1:sub-01/b.nii.gz"),
+                          ("/data/study2/c d.csv", "file:///data/study2/c%20d.csv")):
+            self.assertEqual(dataset.uri(file, known), uri)
 
 
 if __name__ == "__main__":

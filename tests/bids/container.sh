@@ -82,8 +82,8 @@ mkdir -m 777 "$out/study"
 container=$(own_buildah from --pull-never brainshift)
 run_app python3 /tests/make_cohort.py brainshift /study/bids 2 0
 # What buildah runs is not the image's ENTRYPOINT, which docker begins with.
-entry=$(own_buildah inspect --format '{{join .OCIv1.Config.Entrypoint " "}}' brainshift)
-run_app $entry /study/bids /study/out participant --set discretise.nodes=300 --set segment.edge_length=11
+entry=$(own_buildah inspect --format '{{index .OCIv1.Config.Entrypoint 0}}' brainshift)
+run_app "$entry" /study/bids /study/out participant --set discretise.nodes=300 --set segment.edge_length=11
 own_buildah rm "$container"
 test -s "$out/study/out/group.html"
 echo "The image is built and the App ran in it: $out/study/out/group.html"

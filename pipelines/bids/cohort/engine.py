@@ -125,21 +125,31 @@ def in_queue(options, threads):
     return jobs + ["--cores", str(threads), "--group-components", f"case={options.per_job}"]
 
 
+@contextlib.contextmanager
+def signals_passed_to(child):
+    """To Snakemake and its jobs, which then end; so does who waits for them."""
+    numbers = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
+    before = [signal.signal(number, lambda number, _: os.killpg(child.pid, number)) for number in numbers]
+    try:
+        yield
+    finally:
+        for number, handler in zip(numbers, before):
+            signal.signal(number, handler)
+
+
 def run(command, own, lock, tell):
     """Snakemake's exit code. What it prints goes to snakemake.log."""
     begin = time.monotonic()
     environment = {**os.environ, "XDG_CACHE_HOME": str(own / ".cache")}
     child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
                              pass_fds=(lock.fileno(),), env=environment, start_new_session=True)
-    for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):  # to Snakemake and its jobs; then this loop ends
-        signal.signal(number, lambda number, _: os.killpg(child.pid, number))
-    with open(own / "snakemake.log", "wb", buffering=0) as stream:
+    with signals_passed_to(child), open(own / "snakemake.log", "wb", buffering=0) as stream:
         for line in child.stdout:
             with contextlib.suppress(OSError):  # a full disk; Snakemake is not left alone for it
                 stream.write(line.encode())
             if step := STEPS.match(line):
                 tell(int(step[1]), int(step[2]), time.monotonic() - begin)
-    return child.wait()
+        return child.wait()
 
 
 class Progress:

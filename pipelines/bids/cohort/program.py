@@ -10,6 +10,11 @@ class Unusable(Exception):
     """A sentence: why nothing can be run."""
 
 
+def exit_code(engine, without_result):
+    """1 where Snakemake failed, 4 where some have no result."""
+    return 1 if engine else 4 if without_result else 0
+
+
 def guarded(name, main):
     """What main says is the exit code; of what cannot be run or written, a sentence."""
     try:
