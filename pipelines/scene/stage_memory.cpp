@@ -41,9 +41,10 @@ double solve_memory(const Scene& scene, const RunSize& size) {
   return program + std::max(size.voxels * reading_labels / mb, surfaces + bytes / mb);
 }
 
-double register_memory(const RunSize& size) {
+double register_memory(const Scene& scene, const RunSize& size) {
   // Two fields, a copy of each while it is written, one beside the other where there are threads; images, zones.
-  constexpr double voxel = 86, least = 42;
+  const double voxel = scene.registration.interpolation == registration::Interpolation::bspline ? 98 : 90;
+  constexpr double least = 42;
   return program + std::max(least, 9 + size.voxels * voxel / mb);
 }
 
@@ -63,7 +64,7 @@ std::optional<double> stage_memory(StageId stage, const Scene& scene, const RunS
     case StageId::solve:
       return scene.solve.integration_tolerance > 0 ? std::nullopt : std::optional(solve_memory(scene, size));
     case StageId::registration:
-      return register_memory(size);
+      return register_memory(scene, size);
     case StageId::report:
       return report_memory(size);
   }

@@ -59,9 +59,10 @@ run_app() { # WORD... ; in a container of the image, as docker run does with --u
     --volume "$root/tests/bids:/tests:ro" "$container" -- "$@"
 }
 
-mapfile -t wanted < <(sed -n 's/.*apt-get install --yes --no-install-recommends//p' "$root/pipelines/bids/Dockerfile" |
-  tr ' ' '\n' | grep '^[a-z]')
-first_stage=()
+installs='s/.*apt-get install --yes --no-install-recommends//p'
+begin=1 first_stage=()
+[ -z "$package" ] || begin='/^FROM debian:bookworm-slim/'
+mapfile -t wanted < <(sed -n "$begin,\$ $installs" "$root/pipelines/bids/Dockerfile" | tr ' ' '\n' | grep '^[a-z]')
 if [ -n "$package" ]; then
   mapfile -t -O ${#wanted[@]} wanted < <(dpkg-deb --field "$package" Depends | sed 's/([^)]*)//g; s/:any//g' | tr -d ' ' |
     tr ',' '\n')
