@@ -5,11 +5,12 @@ import pathlib
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipelines/bids"))
 
-from cohort import dataset, derivatives, marks, measures, names, pages, plan  # noqa: E402
+from cohort import dataset, derivatives, files, marks, measures, names, pages, plan  # noqa: E402
 from cohort.finder import Finder  # noqa: E402
 
 POINTS = "derivatives/plan/sub-01/anat/sub-01_desc-cortex_points.csv"
@@ -157,6 +158,26 @@ class PlanTest(Folder):
     def test_a_mark_that_the_disk_cut_off_is_none(self):
         self.make("marks/solve", text="1.0\n2.")
         self.assertIsNone(marks.read(self.root, "solve"))
+
+
+class FilesTest(Folder):
+    def test_two_calls_may_write_the_same_file_at_the_same_time(self):
+        target = self.root / "dataset_description.json"
+        with files.replaced(target) as one:
+            one.write_text("one")
+            with mock.patch("os.getpid", return_value=1), files.replaced(target) as other:
+                other.write_text("other")
+            self.assertEqual(target.read_text(), "other")
+        self.assertEqual(target.read_text(), "one")
+        self.assertEqual(list(self.root.iterdir()), [target])
+
+    def test_a_file_that_cannot_be_written_whole_leaves_the_old_one_and_is_named(self):
+        target = self.root / "table.tsv"
+        files.replace_text(target, "old")
+        with self.assertRaises(OSError) as fault, files.replaced(target):
+            raise OSError(28, "No space left on device")
+        self.assertEqual((target.read_text(), fault.exception.filename), ("old", str(target)))
+        self.assertEqual(list(self.root.iterdir()), [target])
 
 
 class GroupTest(unittest.TestCase):

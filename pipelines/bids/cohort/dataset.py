@@ -6,7 +6,7 @@ from .files import as_json, replace_text
 
 ABOUT = ("Computed brain shift of each participant: the preoperative T1w and its labels, warped to the intraoperative "
          "brain, and the transforms between them. group.html lists all.\n")
-# Names that the standard has not: pages, tables of the group, and, as yet, transforms and points.
+# The standard has no names for pages, for a group's table and, as yet, for transforms and points.
 NOT_OF_BIDS = "work/\n*.html\ngroup_measures.*\n*_run.json\n*_xfm.*\n*_map.nii.gz\n*_points.csv\n"
 
 

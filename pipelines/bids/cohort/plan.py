@@ -21,8 +21,8 @@ from .files import replace_text
 
 HOME = Path(__file__).resolve().parent.parent
 STAGES = ("segment", "discretise", "solve", "register", "report")
-# scene --explain says no less than a stage holds. In a job of a queue Snakemake runs beside it, for 1,000 participants
-# with 141 MB.
+# scene --explain says no less than a stage holds. Snakemake runs beside it in a job of a queue: planning 1,000
+# participants takes it 141 MB.
 SPARE_MB = 200
 UNKNOWN_MB = 2000  # of another program in a stage, and where the scene cannot be explained: its run will say why
 OF_MEMORY = ("image.", "discretise.", "solve.points_per_cell", "solve.basis", "solve.dilatation")

@@ -10,9 +10,9 @@ class Unusable(Exception):
     """A sentence: why nothing can be run."""
 
 
-def exit_code(engine, without_result):
-    """1 where Snakemake failed, 4 where some have no result."""
-    return 1 if engine else 4 if without_result else 0
+def exit_code(snakemake, without_result):
+    """snakemake: its own exit code; without_result: those that have none."""
+    return 1 if snakemake else 4 if without_result else 0
 
 
 def guarded(name, main):
