@@ -8,8 +8,8 @@
 namespace brainshift::pipelines {
 namespace {
 
-// /usr/bin/time measured phantoms of 24³ to 192³ voxels and the demo's head of 7.1 million, with 300 to 48,000 nodes, on
-// one to four threads. The constants are such that no run held more; the figures stand in stage_memory_test.cpp.
+// /usr/bin/time measured phantoms of 24³ to 192³ voxels and the demo's head of 7.1 million, with 300 to 48,000 nodes,
+// on one to four threads. The constants are such that no run held more; the figures stand in stage_memory_test.cpp.
 constexpr double mb = 1e6;
 constexpr double program = 66;         // MB: what is loaded before there is any data
 constexpr double fine_surface = 26;    // MB: of 27,000 vertices, as coarse voxels have them: edges follow the voxel
