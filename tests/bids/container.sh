@@ -36,6 +36,7 @@ fetch_packages() { # PACKAGE...
   local nothing=$out/nothing_is_installed
   mkdir -p "$out/debs/partial"
   : > "$nothing"
+  apt-get --quiet update
   apt-get -o Dir::State::status="$nothing" -o Dir::Cache::archives="$out/debs" -o APT::Keep-Downloaded-Packages=true \
     --quiet --yes --no-install-recommends --download-only install "$@"
   (cd "$out/debs" && dpkg-scanpackages --multiversion . > Packages 2>/dev/null)
