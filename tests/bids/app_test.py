@@ -96,7 +96,7 @@ class AppTest(unittest.TestCase):
         row = dict(zip(rows[0], rows[1]))
         self.assertEqual((row["tissues.1.youngs_modulus"], row["status"]), ("2000", "done"))
         self.assertLess(float(row["largest_shift_mm"]), 20)
-        self.assertTrue((self.root / "sweep/work/1/run/discretise/command.log").exists())
+        self.assertTrue((self.root / "sweep" / "work" / "1/run/discretise/command.log").exists())
 
     def test_a_dry_run_names_the_rules_and_runs_none(self):
         dry = call("brainshift-bids", self.bids, self.root / "dry", "participant", "--dry-run", *FAST)
