@@ -36,15 +36,27 @@ foreach(command brainshift-bids brainshift-sweep)
   install(FILES ${PROJECT_BINARY_DIR}/${command} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 endforeach()
 
-# help2man writes the page from the program's own help.
+# help2man writes the pages from the commands' own help; those of the BIDS App ask the program for the version.
 find_program(HELP2MAN help2man)
+function(man_page name command sentence)
+  set(page ${PROJECT_BINARY_DIR}/${name}.1.gz)
+  add_custom_command(OUTPUT ${page}
+    COMMAND ${CMAKE_COMMAND} -E env BRAINSHIFT=$<TARGET_FILE:brainshift>
+      bash ${PROJECT_SOURCE_DIR}/pipelines/package/man_page.sh ${HELP2MAN} ${command} ${sentence} ${page}
+    DEPENDS brainshift ${PROJECT_SOURCE_DIR}/pipelines/package/man_page.sh ${ARGN} VERBATIM)
+  set_property(GLOBAL APPEND PROPERTY brainshift_man_pages ${page})
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+endfunction()
 if(HELP2MAN)
-  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/brainshift.1.gz
-    COMMAND bash ${PROJECT_SOURCE_DIR}/pipelines/package/man_page.sh ${HELP2MAN} $<TARGET_FILE:brainshift>
-      ${PROJECT_BINARY_DIR}/brainshift.1.gz
-    DEPENDS brainshift ${PROJECT_SOURCE_DIR}/pipelines/package/man_page.sh VERBATIM)
-  add_custom_target(man_page ALL DEPENDS ${PROJECT_BINARY_DIR}/brainshift.1.gz)
-  install(FILES ${PROJECT_BINARY_DIR}/brainshift.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  man_page(brainshift $<TARGET_FILE:brainshift> "computes how the brain moved in an operation and warps its MRI")
+  set(app ${PROJECT_SOURCE_DIR}/pipelines/bids)
+  file(GLOB parts ${app}/cohort/*.py)
+  man_page(brainshift-bids ${app}/brainshift-bids "computes the brain shift of the participants of a BIDS folder"
+    ${app}/brainshift-bids ${parts})
+  man_page(brainshift-sweep ${app}/brainshift-sweep "computes the brain shift of a table of scenes and options"
+    ${app}/brainshift-sweep ${parts})
+  get_property(pages GLOBAL PROPERTY brainshift_man_pages)
+  add_custom_target(man_pages ALL DEPENDS ${pages})
 endif()
 
 set(CPACK_PACKAGE_NAME brainshift)

@@ -30,7 +30,7 @@ done
 [ $install = no ] || install_packages help2man lintian dpkg-dev fakeroot mmdebstrap
 mkdir -p "$out"
 build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release
-cmake --build "$root/build" --target man_page
+cmake --build "$root/build" --target man_pages
 
 (cd "$root" && git archive --prefix=brainshift/ --output="$out/brainshift-source.tar.gz" HEAD)
 cpack --config "$root/build/CPackConfig.cmake" -G DEB -B "$out"

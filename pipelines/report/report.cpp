@@ -94,6 +94,7 @@ void write_report(const fs::path& run_folder, const fs::path& out, const Progres
   }
   content.viewer.facts["history"] = run.history;
   content.viewer.facts["options"] = run.record.value("options", nlohmann::json::object());
+  content.viewer.facts["label_names"] = run.record.value("label_names", nlohmann::json::object());
   for (const auto* figures : all_figures(content)) {
     for (const Figure& figure : *figures) {
       write_bytes(out / (figure.name + ".svg"), figure.svg);

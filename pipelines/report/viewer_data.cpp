@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "pipelines/report/canvas.hpp"
+#include "pipelines/show/shown_fields.hpp"
 #include "segmentation/geometry/grid_cell.hpp"
-#include "segmentation/geometry/point_tree.hpp"
 
 namespace brainshift::pipelines {
 
@@ -145,10 +145,8 @@ void add_fields(ViewerData& data, const RunData& run, const ImageGeometry& grid)
     add_field(data, "ratio", 0.002, 1, grid, [&](auto& place, int) { return value_at(*run.jacobian, place); });
   }
   if (!run.solution->estimated_error.empty()) {
-    const PointTree nodes(run.solution->positions);
-    add_field(data, "error", 0.005, 1, grid, [&](const Eigen::Vector3d& place, int) {
-      return run.solution->estimated_error[nodes.nearest(place.data()).first];
-    });
+    const ScalarImage error = estimated_error_on(*run.solution, false, grid);
+    add_field(data, "error", 0.005, 1, grid, [&](auto& place, int) { return value_at(error, place); });
   }
   data.arrays.push_back({"brain", packed_numbers(inside(*run.brain, grid))});
 }

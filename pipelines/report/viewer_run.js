@@ -136,7 +136,7 @@ function wordsOfTissue(run, source, after) {
 
 function wordsOfLabel(run, source) {
   const label = run.labels.length > 0 && nearest(run.images, run.labels[0], source);
-  const name = run.options.tissues?.[label]?.name;
+  const name = run.label_names[label];
   return label ? [`label ${label}${name ? ` (${name})` : ""}.`] : [];
 }
 

@@ -9,6 +9,7 @@
 #include "pipelines/runner/libraries.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/scene/describe_scene.hpp"
+#include "pipelines/scene/scene_labels.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -65,10 +66,15 @@ nlohmann::ordered_json begin_run_record(const Scene& scene, InputStates& states)
                       {"path", std::filesystem::absolute(file.path).lexically_normal().string()},
                       {"sha256", states.sha256(file.path)}});
   }
+  nlohmann::ordered_json names = nlohmann::ordered_json::object();
+  for (const auto& [label, name] : label_names(scene)) {
+    names[std::to_string(label)] = name;
+  }
   return {{"version", BRAINSHIFT_VERSION},
           {"scene", std::filesystem::absolute(scene.source.file).lexically_normal().string()},
           {"inputs", std::move(inputs)},
           {"options", effective_options(scene)},
+          {"label_names", std::move(names)},
           {"threads", threads_in_use()},
           {"stages", nlohmann::ordered_json::object()}};
 }

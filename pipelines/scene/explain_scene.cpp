@@ -9,7 +9,7 @@
 
 #include "pipelines/scene/scene_labels.hpp"
 #include "pipelines/scene/scene_table.hpp"
-#include "pipelines/scene/solve_cost.hpp"
+#include "pipelines/scene/stage_memory.hpp"
 #include "solve/shape/node_supports.hpp"
 #include "solve/shape/shape_functions.hpp"
 
@@ -18,14 +18,6 @@ namespace {
 
 constexpr double typical_brain_volume = 1.4e6;  // mm³
 
-struct Cost {
-  double volume = typical_brain_volume;  ///< mm³
-  double voxels = 0;
-  double nodes = 0;
-  double points = 0;
-  double pairs = 0;
-};
-
 bool is_brain(const Scene& scene, std::uint16_t value, bool mask) {
   if (mask) {
     return value != 0;
@@ -33,32 +25,36 @@ bool is_brain(const Scene& scene, std::uint16_t value, bool mask) {
   return std::any_of(scene.tissues.begin(), scene.tissues.end(), [&](const Tissue& t) { return t.label == value; });
 }
 
-void measure_brain(const Scene& scene, Cost& cost) {
+RunSize image_size(const Scene& scene) {
+  RunSize size{.solve = {.volume = typical_brain_volume}};
   const bool mask = scene.image.labels.empty();
   const auto& file = mask ? scene.image.brain_mask : scene.image.labels;
-  if (file.empty()) {
-    return;
+  if (!file.empty()) {
+    const LabelMap map = mask ? read_label_map(file) : read_labels(scene.image, label_reading(scene)).map;
+    const auto count = std::count_if(map.voxels.begin(), map.voxels.end(),
+                                     [&](std::uint16_t value) { return is_brain(scene, value, mask); });
+    size.label_voxels = static_cast<double>(map.voxels.size());
+    size.solve.volume = static_cast<double>(count) * map.geometry.voxel_volume();
   }
-  const LabelMap map = mask ? read_label_map(file) : read_labels(scene.image, label_reading(scene)).map;
-  const auto count = std::count_if(map.voxels.begin(), map.voxels.end(),
-                                   [&](std::uint16_t value) { return is_brain(scene, value, mask); });
-  cost.voxels = static_cast<double>(map.voxels.size());
-  cost.volume = static_cast<double>(count) * map.geometry.voxel_volume();
+  const auto& t1 = scene.image.t1;
+  size.voxels =
+      t1.empty() || t1 == file ? size.label_voxels : static_cast<double>(read_image(t1).geometry.voxel_count());
+  return size;
 }
 
-Cost estimate(const Scene& scene) {
-  Cost cost;
-  measure_brain(scene, cost);
+RunSize estimate(const Scene& scene) {
+  RunSize size = image_size(scene);
+  SolveSize& solve = size.solve;
   const auto& discretise = scene.discretise;
-  cost.nodes = discretise.spacing ? cost.volume / std::pow(*discretise.spacing, 3)
-                                  : static_cast<double>(discretise.nodes.value_or(12000));
+  solve.nodes = discretise.spacing ? solve.volume / std::pow(*discretise.spacing, 3)
+                                   : static_cast<double>(discretise.nodes.value_or(12000));
   const bool hexahedra = discretise.cells == CellKind::hexahedron;
   // Delaunay tetrahedra of a cloud: about six a node.
-  const double cells = cost.nodes * (hexahedra ? discretise.cells_per_node : 6);
+  const double cells = solve.nodes * (hexahedra ? discretise.cells_per_node : 6);
   const int points_a_cell = scene.solve.points_per_cell.value_or(hexahedra ? 8 : 4);
-  cost.points = cells * points_a_cell;
-  cost.pairs = cost.points * 4 * std::numbers::pi / 3 * std::pow(solve::dilatation(scene.solve.shape), 3);
-  return cost;
+  solve.points = cells * points_a_cell;
+  solve.pairs = solve.points * 4 * std::numbers::pi / 3 * std::pow(solve::dilatation(scene.solve.shape), 3);
+  return size;
 }
 
 std::string round_number(double value) {
@@ -66,24 +62,25 @@ std::string round_number(double value) {
   return write_number(static_cast<long>(std::round(value / digits) * digits));
 }
 
-std::string stage_cost(StageId stage, const Cost& cost) {
-  // Bytes: an image of floats with two copies; a pair with its index and derivatives, in the solver's store and while
-  // it is made; three images and two fields of three floats.
-  const auto megabytes = [](double bytes) { return ", about " + round_number(50 + bytes / 1e6) + " MB"; };
+std::string stage_work(StageId stage, const RunSize& size) {
   switch (stage) {
     case StageId::segment:
-      return round_number(cost.voxels) + " voxels" + megabytes(cost.voxels * 12);
-    case StageId::discretise:
-      return round_number(cost.nodes) + " nodes" + megabytes(cost.nodes * 2000);
-    case StageId::solve:
-      return round_number(cost.points) + " integration points, " + round_number(cost.pairs) + " pairs" +
-             megabytes(cost.pairs * 60);
     case StageId::registration:
-      return round_number(cost.voxels) + " voxels" + megabytes(cost.voxels * 50);
+      return round_number(size.voxels) + " voxels";
+    case StageId::discretise:
+      return round_number(size.solve.nodes) + " nodes";
+    case StageId::solve:
+      return round_number(size.solve.points) + " integration points, " + round_number(size.solve.pairs) + " pairs";
     case StageId::report:
-      return "pictures" + megabytes(cost.voxels * 30);
+      return "pictures";
   }
   return {};
+}
+
+std::string stage_cost(StageId stage, const Scene& scene, const RunSize& size) {
+  const std::optional<double> memory = stage_memory(stage, scene, size);
+  return stage_work(stage, size) + (memory ? ", about " + write_number(static_cast<long>(std::ceil(*memory))) + " MB"
+                                           : ", and more of both, and memory, for adaptive integration");
 }
 
 /// Why a part is there: the line that names it.
@@ -192,8 +189,8 @@ void explain_physics(const Scene& scene, std::ostringstream& text) {
 }
 
 /// The active parts of the solve stage, what each asks for of its memory and of the time of its steps.
-void explain_shares(const Scene& scene, const Cost& cost, std::ostringstream& text) {
-  const std::vector<PartCost> parts = solve_costs(scene, {cost.volume, cost.nodes, cost.points, cost.pairs});
+void explain_shares(const Scene& scene, const SolveSize& size, std::ostringstream& text) {
+  const std::vector<PartCost> parts = solve_costs(scene, size);
   double bytes = 0, time = 0;
   for (const PartCost& part : parts) {
     bytes += part.bytes;
@@ -209,7 +206,7 @@ void explain_shares(const Scene& scene, const Cost& cost, std::ostringstream& te
 }  // namespace
 
 std::string explain_scene(const Scene& scene) {
-  const Cost cost = estimate(scene);
+  const RunSize size = estimate(scene);
   std::ostringstream text;
   text << "parts\n";
   explain_parts(scene, text);
@@ -217,7 +214,7 @@ std::string explain_scene(const Scene& scene) {
     text << "physics\n";
     explain_physics(scene, text);
   }
-  text << "stages (estimates for a brain of " << round_number(cost.volume / 1000) << " ml)\n";
+  text << "stages (estimates for a brain of " << round_number(size.solve.volume / 1000) << " ml)\n";
   for (const StageId stage : all_stages) {
     const std::string& command = scene.commands[index_of(stage)];
     text << "  " << stage_name(stage) << ": ";
@@ -226,11 +223,11 @@ std::string explain_scene(const Scene& scene) {
     } else if (!is_active(stage, scene)) {
       text << "not built (no t1 and no labels)\n";
     } else {
-      text << stage_cost(stage, cost) << "\n";
+      text << stage_cost(stage, scene, size) << "\n";
     }
   }
   if (scene.commands[index_of(StageId::solve)].empty()) {
-    explain_shares(scene, cost, text);
+    explain_shares(scene, size.solve, text);
   }
   return text.str();
 }

@@ -95,6 +95,19 @@ bool are_named(const ImageInputs& image) {
 
 }  // namespace
 
+std::map<std::uint16_t, std::string> label_names(const Scene& scene) {
+  namespace label = sg::default_label;
+  std::map<std::uint16_t, std::string> names = {{label::parenchyma, "parenchyma"}, {label::ventricles, "ventricles"},
+                                                {label::tumour, "tumour"},         {label::csf, "fluid"},
+                                                {label::skull, "skull"},           {label::skin, "skin"}};
+  for (const Tissue& tissue : scene.tissues) {
+    if (!tissue.name.empty()) {
+      names[tissue.label] = tissue.name;
+    }
+  }
+  return names;
+}
+
 LabelReading label_reading(const Scene& scene) {
   LabelReading reading;
   reading.by_class =

@@ -16,6 +16,9 @@ struct LabelReading {
 };
 LabelReading label_reading(const Scene& scene);
 
+/// What the labels of the segment stage's map are called: by the scene's tissues, else by segmentation::default_label.
+std::map<std::uint16_t, std::string> label_names(const Scene& scene);
+
 /// Whether the label map's classes are known without a tissue for each number: by labels_are, names of segments, or
 /// numbers that are unmistakable. Reads the map.
 bool classes_are_told(const ImageInputs& image);

@@ -33,29 +33,34 @@ def show(run, pv):
         skull = pv.XMLPolyDataReader(registrationName="Skull", FileName=[str(skull_file)])
         pv.Show(skull, view, Opacity=0.2, Visibility=0)
     if brain_file.is_file():
-        brain = pv.XMLPolyDataReader(registrationName="Brain warped", FileName=[str(brain_file)])
-        display = pv.Show(brain, view)
-        pv.ColorBy(display, ("POINTS", "displacement_mm"))
-        largest = brain.PointData["displacement_mm"].GetRange()[1]
-        colours = pv.GetColorTransferFunction("displacement_mm")
-        colours.ApplyPreset("Viridis (matplotlib)", True)
-        colours.RescaleTransferFunction(0, largest or 1)
-        bar = pv.GetScalarBar(colours, view)
-        bar.Title, bar.ComponentTitle, bar.Visibility = "Displacement (mm)", "", 1
-        bar.AutomaticLabelFormat, bar.LabelFormat, bar.RangeLabelFormat = 0, "%.1f", "%.1f"
-        bar.TitleFontSize = bar.LabelFontSize = 12
-        if largest > 0:
-            contours = pv.Contour(registrationName="Contours (mm)", Input=brain)
-            contours.ContourBy = ["POINTS", "displacement_mm"]
-            contours.Isosurfaces = contour_levels(largest)
-            lines = pv.Show(contours, view, LineWidth=2)
-            lines.ColorArrayName = ["POINTS", ""]
-            lines.DiffuseColor = lines.AmbientColor = [0, 0, 0]
+        show_brain(brain_file, view, pv)
     if load_file.is_file():
         rows = read_load(load_file)
         show_load(rows, view, pv)
         look_from([fmean(column) for column in zip(*rows)][:3], view)
     return view
+
+
+def show_brain(file, view, pv):
+    """Coloured by the length of its displacement, with contours in mm."""
+    brain = pv.XMLPolyDataReader(registrationName="Brain warped", FileName=[str(file)])
+    display = pv.Show(brain, view)
+    pv.ColorBy(display, ("POINTS", "displacement_mm"))
+    largest = brain.PointData["displacement_mm"].GetRange()[1]
+    colours = pv.GetColorTransferFunction("displacement_mm")
+    colours.ApplyPreset("Viridis (matplotlib)", True)
+    colours.RescaleTransferFunction(0, largest or 1)
+    bar = pv.GetScalarBar(colours, view)
+    bar.Title, bar.ComponentTitle, bar.Visibility = "Displacement (mm)", "", 1
+    bar.AutomaticLabelFormat, bar.LabelFormat, bar.RangeLabelFormat = 0, "%.1f", "%.1f"
+    bar.TitleFontSize = bar.LabelFontSize = 12
+    if largest > 0:
+        contours = pv.Contour(registrationName="Contours (mm)", Input=brain)
+        contours.ContourBy = ["POINTS", "displacement_mm"]
+        contours.Isosurfaces = contour_levels(largest)
+        lines = pv.Show(contours, view, LineWidth=2)
+        lines.ColorArrayName = ["POINTS", ""]
+        lines.DiffuseColor = lines.AmbientColor = [0, 0, 0]
 
 
 def read_load(file):

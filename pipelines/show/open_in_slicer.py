@@ -24,7 +24,6 @@ FILES = {
     "report": "report/index.html",
 }
 COLOURS = "vtkMRMLColorTableNodeFileViridis.txt"
-NAMES = {"1": "parenchyma", "2": "ventricles", "3": "tumour", "4": "fluid", "5": "skull", "6": "skin"}
 
 
 def record_of(run):
@@ -64,12 +63,6 @@ def contour_levels(largest):
     """About eight whole steps of 0.5, 1, 2 or 5 mm."""
     step = next((step for step in (0.5, 1, 2, 5) if largest <= 8 * step), 10)
     return " ".join(f"{step * i:g}" for i in range(1, int(largest / step) + 1)) or f"{largest / 2:.3g}"
-
-
-def segment_names(record):
-    """{label: name}, by the scene's tissues."""
-    tissues = record.get("options", {}).get("tissues", {})
-    return {**NAMES, **{label: tissue["name"] for label, tissue in tissues.items() if tissue.get("name")}}
 
 
 def _show_brain(slicer, node, largest):
@@ -137,7 +130,7 @@ def show(run, slicer, t1=None):
             nodes[what] = slicer.util.loadVolume(str(files[what]), {"name": name, "show": False})
     if "labels" in files:
         nodes["labels"] = slicer.util.loadSegmentation(str(files["labels"]), {"name": "Segmentation warped"})
-        _name_segments(nodes["labels"], segment_names(record))
+        _name_segments(nodes["labels"], record.get("label_names", {}))
         nodes["labels"].GetDisplayNode().SetVisibility(False)
     if "transform" in files:
         nodes["transform"] = slicer.util.loadTransform(str(files["transform"]))

@@ -42,26 +42,16 @@ void write_brain(const fs::path& file, const Solution& solution, Surface brain, 
   vtu::write(file, *data);
 }
 
-ScalarImage error_image(const Solution& solution) {
+/// Around the nodes as they lie intraop.
+ImageGeometry error_grid(const Solution& solution) {
   const Points nodes = solution.positions + solution.displacement;
   const Eigen::Vector3d low = nodes.colwise().minCoeff();
   const Eigen::Vector3d high = nodes.colwise().maxCoeff();
-  ScalarImage image;
-  image.geometry.spacing.setConstant(voxel);
-  image.geometry.origin = low.array() - voxel;
-  image.geometry.size = ((high - low) / voxel).array().ceil().cast<int>() + 3;
-  Points places(static_cast<Eigen::Index>(image.geometry.voxel_count()), 3);
-  for (int k = 0; k < image.geometry.size.z(); ++k) {
-    for (int j = 0; j < image.geometry.size.y(); ++j) {
-      for (int i = 0; i < image.geometry.size.x(); ++i) {
-        places.row(static_cast<Eigen::Index>(image.geometry.offset(i, j, k))) =
-            image.geometry.to_world({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
-      }
-    }
-  }
-  const std::vector<double> error = estimated_error_at(solution, true, places);
-  image.voxels.assign(error.begin(), error.end());
-  return image;
+  ImageGeometry grid;
+  grid.spacing.setConstant(voxel);
+  grid.origin = low.array() - voxel;
+  grid.size = ((high - low) / voxel).array().ceil().cast<int>() + 3;
+  return grid;
 }
 
 }  // namespace
@@ -90,11 +80,25 @@ std::vector<double> estimated_error_at(const Solution& solution, bool moved, con
   return result;
 }
 
+ScalarImage estimated_error_on(const Solution& solution, bool moved, const ImageGeometry& grid) {
+  Points places(static_cast<Eigen::Index>(grid.voxel_count()), 3);
+  for (int k = 0; k < grid.size.z(); ++k) {
+    for (int j = 0; j < grid.size.y(); ++j) {
+      for (int i = 0; i < grid.size.x(); ++i) {
+        places.row(static_cast<Eigen::Index>(grid.offset(i, j, k))) =
+            grid.to_world({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+      }
+    }
+  }
+  const std::vector<double> error = estimated_error_at(solution, moved, places);
+  return {grid, std::vector<float>(error.begin(), error.end())};
+}
+
 void write_shown_fields(const fs::path& folder, const Solution& solution, const Surface& brain,
                         const VectorImage& forward) {
   write_brain(folder / "brain_intraop.vtp", solution, brain, forward);
   if (!solution.estimated_error.empty()) {
-    write_image(folder / "estimated_error.nii.gz", error_image(solution));
+    write_image(folder / "estimated_error.nii.gz", estimated_error_on(solution, true, error_grid(solution)));
   }
 }
 

@@ -20,4 +20,7 @@ void write_shown_fields(const std::filesystem::path& folder, const Solution& sol
 /// over the eight nearest nodes. 0 at a point farther than the spacing from every node.
 std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points);
 
+/// The same at the voxels of a grid.
+ScalarImage estimated_error_on(const Solution& solution, bool moved, const ImageGeometry& grid);
+
 }  // namespace brainshift::pipelines

@@ -44,6 +44,11 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
         self.layout.addWidget(box)
         return qt.QFormLayout(box)
 
+    @staticmethod
+    def _add_rows(form, rows):
+        for name, widget in rows:
+            form.addRow(name, widget)
+
     def _node_selector(self, types):
         selector = slicer.qMRMLNodeComboBox()
         selector.nodeTypes = types
@@ -66,13 +71,8 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
         self.labels = self._node_selector(["vtkMRMLSegmentationNode", "vtkMRMLLabelMapVolumeNode"])
         self.before = self._point_list((50, 100, 255))
         self.after = self._point_list((255, 80, 50))
-        for name, widget in (
-            ("T1:", self.t1),
-            ("Segmentation:", self.labels),
-            ("Points before:", self.before),
-            ("The same after:", self.after),
-        ):
-            form.addRow(name, widget)
+        points = [("Points before:", self.before), ("The same after:", self.after)]
+        self._add_rows(form, [("T1:", self.t1), ("Segmentation:", self.labels), *points])
 
     def _set_up_run(self):
         form = self._section("Run")
@@ -97,13 +97,8 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
         self.progress.setRange(0, 1000)
         self.log = qt.QPlainTextEdit()
         self.log.readOnly = True
-        for name, widget in (
-            ("Program:", self.program),
-            ("Run folder:", self.folder),
-            ("Preset:", self.preset),
-            ("Noise (mm):", self.noise),
-        ):
-            form.addRow(name, widget)
+        self._add_rows(form, [("Program:", self.program), ("Run folder:", self.folder)])
+        self._add_rows(form, [("Preset:", self.preset), ("Noise (mm):", self.noise)])
         for widget in (self.apply, self.cancel, self.progress, self.log):
             form.addRow(widget)
         self.apply.clicked.connect(self.on_apply)

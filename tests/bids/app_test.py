@@ -4,6 +4,7 @@
 
   app_test.py PROGRAM     ends with 77 where Snakemake is not installed
 """
+import json
 import os
 import pathlib
 import shutil
@@ -61,7 +62,11 @@ class AppTest(unittest.TestCase):
             derivative = pathlib.Path(stem + ending)
             self.assertEqual(derivative.read_bytes(), (single / "register" / made).read_bytes(), ending)
         self.assertIn("3\ttumour\n", pathlib.Path(stem + "space-intraop_dseg.tsv").read_text())
-        self.assertIn('"GeneratedBy"', (self.out / "dataset_description.json").read_text())
+        about = json.loads((self.out / "dataset_description.json").read_text())
+        self.assertEqual((about["DatasetType"], about["DatasetLinks"]), ("derivative", {"raw": self.bids.as_uri()}))
+        sources = json.loads(pathlib.Path(stem + "space-intraop_dseg.json").read_text())["Sources"]
+        self.assertEqual(sources[0], "bids:raw:sub-00001/anat/sub-00001_T1w.nii.gz")
+        self.assertIn("bids:raw:derivatives/planning/sub-00001/anat/sub-00001_dseg.nii.gz", sources)
 
     def test_the_same_command_makes_again_what_changed_and_nothing_else(self):
         load = self.bids / "derivatives/planning/sub-00001/anat/sub-00001_desc-cortex_points.csv"
@@ -91,7 +96,7 @@ class AppTest(unittest.TestCase):
         row = dict(zip(rows[0], rows[1]))
         self.assertEqual((row["tissues.1.youngs_modulus"], row["status"]), ("2000", "done"))
         self.assertLess(float(row["largest_shift_mm"]), 20)
-        self.assertTrue((self.root / "sweep/work/1/run/discretise/command.log").exists())
+        self.assertTrue((self.root / "sweep" / "work" / "1/run/discretise/command.log").exists())
 
     def test_a_dry_run_names_the_rules_and_runs_none(self):
         dry = call("brainshift-bids", self.bids, self.root / "dry", "participant", "--dry-run", *FAST)

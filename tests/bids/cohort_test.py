@@ -5,11 +5,12 @@ import pathlib
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipelines/bids"))
 
-from cohort import derivatives, marks, measures, names, pages, plan  # noqa: E402
+from cohort import dataset, derivatives, files, marks, measures, names, pages, plan  # noqa: E402
 from cohort.finder import Finder  # noqa: E402
 
 POINTS = "derivatives/plan/sub-01/anat/sub-01_desc-cortex_points.csv"
@@ -159,6 +160,26 @@ class PlanTest(Folder):
         self.assertIsNone(marks.read(self.root, "solve"))
 
 
+class FilesTest(Folder):
+    def test_two_calls_may_write_the_same_file_at_the_same_time(self):
+        target = self.root / "dataset_description.json"
+        with files.replaced(target) as one:
+            one.write_text("one")
+            with mock.patch("os.getpid", return_value=1), files.replaced(target) as other:
+                other.write_text("other")
+            self.assertEqual(target.read_text(), "other")
+        self.assertEqual(target.read_text(), "one")
+        self.assertEqual(list(self.root.iterdir()), [target])
+
+    def test_a_file_that_cannot_be_written_whole_leaves_the_old_one_and_is_named(self):
+        target = self.root / "table.tsv"
+        files.replace_text(target, "old")
+        with self.assertRaises(OSError) as fault, files.replaced(target):
+            raise OSError(28, "No space left on device")
+        self.assertEqual((target.read_text(), fault.exception.filename), ("old", str(target)))
+        self.assertEqual(list(self.root.iterdir()), [target])
+
+
 class GroupTest(unittest.TestCase):
     def rows(self):
         rows = [{"name": f"sub-{i:02d}", "status": "done", "largest_shift_mm": 8 + 0.1 * (i % 5), "folded_voxels": 0,
@@ -196,9 +217,18 @@ class NamesTest(unittest.TestCase):
         self.assertEqual(name, ({"sub": "01", "ses": "a", "desc": "before"}, "points", ".mrk.json"))
         self.assertIsNone(names.parse("sub-01_thing_T1w.nii.gz"))
 
-    def test_the_table_of_labels_has_the_names_of_the_tissues(self):
-        table = derivatives.label_table({"1": {"name": ""}, "12": {"name": "falx"}}).splitlines()
-        self.assertEqual((table[0], table[1], table[-1]), ("index\tname", "1\tparenchyma", "12\tfalx"))
+    def test_the_table_of_labels_is_in_the_order_of_their_numbers(self):
+        table = derivatives.label_table({"12": "falx", "2": "ventricles"})
+        self.assertEqual(table, "index\tname\n2\tventricles\n12\tfalx\n")
+
+    def test_sources_are_named_by_the_deepest_folder_that_holds_them(self):
+        bids, elsewhere = pathlib.Path("/data/study"), pathlib.Path("/scratch/labels")
+        known = dataset.links(bids, [bids / "derivatives/plan", elsewhere])
+        self.assertEqual(known, {"raw": bids, "derivatives1": elsewhere})
+        for file, uri in (("/data/study/derivatives/plan/sub-01/a.csv", "bids:raw:derivatives/plan/sub-01/a.csv"),
+                          ("/scratch/labels/sub-01/b.nii.gz", "bids:derivatives1:sub-01/b.nii.gz"),
+                          ("/data/study2/c d.csv", "file:///data/study2/c%20d.csv")):
+            self.assertEqual(dataset.uri(file, known), uri)
 
 
 if __name__ == "__main__":

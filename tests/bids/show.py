@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs cohorts of phantoms, disturbs them, and says what was kept; called by show.sh."""
 import argparse
-import contextlib
 import hashlib
 import os
 import pathlib
 import random
 import resource
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -20,6 +18,7 @@ sys.path[:0] = [str(APP), str(HERE)]
 
 import make_cohort  # noqa: E402
 from cohort import marks, plan  # noqa: E402
+from processes import end_orphans, kill_engine, kill_jobs, start, wait_for  # noqa: E402
 from slurm import Slurm  # noqa: E402
 
 OPTIONS = ("--set", "discretise.nodes=300", "--set", "segment.edge_length=11")
@@ -116,8 +115,8 @@ def singles(show, out, sample):
     expected, same, used = results(out), True, 0.0
     for folder in (f.parent for f in chosen):
         single = fresh(show.out / "single")
-        *_, processor = measured([show.program, "--quiet", "--threads", "1", "run", folder / "scene.xml",
-                                             "--out", single, *OPTIONS])
+        *_, processor = measured([show.program, "--quiet", "--threads", "1", "run", folder / "scene.xml", "--out", single,
+                                  *OPTIONS])
         used += processor
         for file in single.rglob("*"):
             if file.is_file() and file.name not in STAMPED:
@@ -125,46 +124,6 @@ def singles(show, out, sample):
                 same = same and expected.get(name) == hashlib.sha256(file.read_bytes()).digest()
     show.say("the bytes of single runs", same, f"{len(chosen)} runs")
     return used / len(chosen), len(folders)
-
-
-def descendants(process):
-    """Of a process, the deepest last."""
-    found, queue = [], [process]
-    while queue:
-        children = pathlib.Path(f"/proc/{queue.pop(0)}/task").glob("*/children")
-        with contextlib.suppress(OSError):  # it may end while it is looked at
-            new = [int(number) for file in children for number in file.read_text().split()]
-            found += new
-            queue += new
-    return found
-
-
-def name_of(process):
-    with contextlib.suppress(OSError):
-        return pathlib.Path(f"/proc/{process}/comm").read_text().strip()
-    return ""
-
-
-def kill_jobs(process, times, pause):
-    """Kills a job's shell or its brainshift at random, some times; how many were killed."""
-    killed = 0
-    for _ in range(times):
-        time.sleep(pause)
-        jobs = [p for p in descendants(process) if name_of(p) in ("stage.sh", "brainshift")]
-        if jobs:
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(random.choice(jobs), signal.SIGKILL)
-                killed += 1
-    return killed
-
-
-def kill_engine(app):
-    """The command and Snakemake at once, as a lost login does; the jobs on this machine live on as orphans."""
-    engine = [p for p in descendants(app.pid) if name_of(p) == "snakemake"]
-    for process in (app.pid, *engine):
-        with contextlib.suppress(ProcessLookupError):
-            os.kill(process, signal.SIGKILL)
-    app.wait()
 
 
 def finish(show, command, out, whole, expected, what):
@@ -178,10 +137,6 @@ def finish(show, command, out, whole, expected, what):
     show.say(what, code == 0 and again == 0 and results(out) == expected,
              f"{len(whole)} stages were whole, {again} made again, the others in {wall:.0f} s, exit code {code}"
              + (f": {errors.strip()}" if code else ""))
-
-
-def start(command):
-    return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def killed_runs(show, bids, more, expected, label, pause, slurm=None):
@@ -200,12 +155,6 @@ def killed_runs(show, bids, more, expected, label, pause, slurm=None):
     whole = whole_stages(out)
     finish(show, command, out, whole, expected,
            f"{label}: {killed} jobs killed, then the engine{' and the controller of the queue' if slurm else ''}")
-
-
-def wait_for(condition, seconds=300):
-    end = time.monotonic() + seconds
-    while not condition() and time.monotonic() < end:
-        time.sleep(0.05)
 
 
 def full_disk(show, bids, expected):
@@ -269,15 +218,6 @@ def in_one_job(show, bids, arguments, cores):
     above = (used - single * done) / done
     show.say("a job a participant: s of a core above its run", above <= OVERHEAD, f"{above:.2f} s; its run "
              f"{single:.2f} s")
-
-
-def end_orphans(folder):
-    """The Snakemake of a job that was killed: this Slurm has no control groups, and loses it."""
-    for process in pathlib.Path("/proc").glob("[0-9]*"):
-        with contextlib.suppress(OSError):
-            words = (process / "cmdline").read_text().split("\0")
-            if "snakemake" in words and any(word.startswith(str(folder)) for word in words):
-                os.kill(int(process.name), signal.SIGKILL)
 
 
 def on_slurm(show, arguments, cores, faulted, expected):

@@ -112,6 +112,24 @@ TEST_F(Run, ExplainsWhatEachPartChanged) {
   EXPECT_EQ(run_shell(command + "--after " + head_folder()).code, 2) << "a folder that is no run";
 }
 
+/// Of a stage, as explained.
+double megabytes(const std::string& text, const std::string& stage) {
+  const std::size_t line = text.find("\n  " + stage + ": "), about = text.find("about ", line);
+  return about == std::string::npos ? 0 : std::stod(text.substr(about + 6));
+}
+
+TEST_F(Run, ExplainsNoLessMemoryThanEachStageHoldsAndAtMostHalfAbove) {
+  const ProgramResult said = run_shell("brainshift scene --explain " + head_folder() + "/scene.xml" + small);
+  const fs::path out = *scratch / "memory";
+  for (const std::string stage : {"segment", "discretise", "solve", "register", "report"}) {
+    // Each in a process of its own, as a cohort runs them: what an earlier stage left in the heap would count.
+    ASSERT_EQ(run(out, "--until " + stage).code, 0);
+    const double held = record(out)["stages"][stage]["peak_memory_mb"];
+    EXPECT_GE(megabytes(said.out, stage), held) << stage;
+    EXPECT_LE(megabytes(said.out, stage), 1.5 * held) << stage;
+  }
+}
+
 TEST_F(Run, RunsNothingAgainThatHasNotChanged) {
   const fs::path out = copy_of_finished("unchanged");
   const std::string before = contents_of(out / "solve/stage.json");

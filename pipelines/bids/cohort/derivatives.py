@@ -2,6 +2,7 @@
 """A finished run's files under the names of BIDS derivatives."""
 import json
 
+from . import dataset
 from .files import as_json, place, replace_text
 from .names import case_name
 
@@ -21,7 +22,6 @@ RECORD = FILES["run.json"]
 LABEL_TABLE = "space-intraop_dseg.tsv"
 ABOUT_IMAGE = "space-intraop_desc-brainshift_T1w.json"
 ABOUT_LABELS = "space-intraop_dseg.json"
-LABEL_NAMES = {"1": "parenchyma", "2": "ventricles", "3": "tumour", "4": "fluid", "5": "skull", "6": "skin"}
 
 
 def file_of(out, participant, session, ending):
@@ -33,8 +33,8 @@ def page_of(out, name):
     return out / f"{name}.html"
 
 
-def publish(out, participant, session, run):
-    """run: the folder of a finished run."""
+def publish(out, participant, session, run, known):
+    """run: the folder of a finished run; known: the folders that BIDS URIs name. What the run says of itself."""
     def target(ending):
         return file_of(out, participant, session, ending)
 
@@ -45,9 +45,9 @@ def publish(out, participant, session, run):
         else:
             target(ending).unlink(missing_ok=True)
     record = json.loads((run / "run.json").read_text(encoding="utf-8"))
-    about = {"Sources": [item["path"] for item in record["inputs"]],
+    about = {"Sources": [dataset.uri(item["path"], known) for item in record["inputs"]],
              "SpatialReference": "the intraoperative brain, on the grid of the preoperative image"}
-    replace_text(target(LABEL_TABLE), label_table(record["options"].get("tissues", {})))
+    replace_text(target(LABEL_TABLE), label_table(record.get("label_names", {})))
     replace_text(target(ABOUT_IMAGE), as_json({**about, "SkullStripped": False}))
     replace_text(target(ABOUT_LABELS), as_json(about))
     place(run / "report/index.html", page_of(out, case_name(participant, session)))
@@ -60,7 +60,6 @@ def withdraw(out, participant, session):
         file_of(out, participant, session, ending).unlink(missing_ok=True)
 
 
-def label_table(tissues):
-    named = {**LABEL_NAMES, **{label: tissue["name"] for label, tissue in tissues.items() if tissue.get("name")}}
-    rows = [f"{label}\t{named[label]}" for label in sorted(named, key=int)]
+def label_table(names):
+    rows = [f"{label}\t{names[label]}" for label in sorted(names, key=int)]
     return "\n".join(["index\tname", *rows]) + "\n"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calls Snakemake and tells how far it is."""
+import argparse
 import contextlib
 import fcntl
 import os
@@ -15,6 +16,20 @@ from . import plan, program
 
 STEPS = re.compile(r"^(\d+) of (\d+) steps")
 WHOLE = ("report",)  # the run to its end in one rule
+
+
+class SayVersion(argparse.Action):
+    """The version is the program's: it is asked only where somebody wants to know."""
+
+    def __call__(self, parser, options, *_):
+        print(program.version(program.find(options.brainshift)).replace("brainshift", parser.prog, 1))
+        parser.exit()
+
+
+def parser_of(about):
+    """about: the command's documentation, which holds its usage."""
+    return argparse.ArgumentParser(description=about, usage=argparse.SUPPRESS,
+                                   formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
 def add_options(parser):
@@ -33,6 +48,7 @@ def add_options(parser):
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
                         help="an option of all scenes, as discretise.nodes=6000 or solve.command='my_own {in} {out}'")
     parser.add_argument("--brainshift", metavar="FILE", help="the program, if it is not on the path")
+    parser.add_argument("--version", "-v", action=SayVersion, nargs=0, help="say the program's version, and stop")
     parser.add_argument("--work-dir", "-w", type=Path, metavar="DIR", help="for the runs; OUT/work if absent")
     parser.add_argument("--snakemake", action="append", default=[], metavar="WORD",
                         help="a further word to Snakemake, as --snakemake=--printshellcmds")
@@ -109,21 +125,31 @@ def in_queue(options, threads):
     return jobs + ["--cores", str(threads), "--group-components", f"case={options.per_job}"]
 
 
+@contextlib.contextmanager
+def signals_passed_to(child):
+    """To Snakemake and its jobs, which then end; so does who waits for them."""
+    numbers = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
+    before = [signal.signal(number, lambda number, _: os.killpg(child.pid, number)) for number in numbers]
+    try:
+        yield
+    finally:
+        for number, handler in zip(numbers, before):
+            signal.signal(number, handler)
+
+
 def run(command, own, lock, tell):
     """Snakemake's exit code. What it prints goes to snakemake.log."""
     begin = time.monotonic()
     environment = {**os.environ, "XDG_CACHE_HOME": str(own / ".cache")}
     child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
                              pass_fds=(lock.fileno(),), env=environment, start_new_session=True)
-    for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):  # to Snakemake and its jobs; then this loop ends
-        signal.signal(number, lambda number, _: os.killpg(child.pid, number))
-    with open(own / "snakemake.log", "wb", buffering=0) as stream:
+    with signals_passed_to(child), open(own / "snakemake.log", "wb", buffering=0) as stream:
         for line in child.stdout:
             with contextlib.suppress(OSError):  # a full disk; Snakemake is not left alone for it
                 stream.write(line.encode())
             if step := STEPS.match(line):
                 tell(int(step[1]), int(step[2]), time.monotonic() - begin)
-    return child.wait()
+        return child.wait()
 
 
 class Progress:

@@ -21,8 +21,8 @@ from .files import replace_text
 
 HOME = Path(__file__).resolve().parent.parent
 STAGES = ("segment", "discretise", "solve", "register", "report")
-# scene --explain estimates what a stage's own arrays take. On a real head and on phantoms a stage held up to 3.1 times
-# as much where that was below 150 MB and 1.8 times above: twice the estimate and this covers both.
+# scene --explain says no less than a stage holds. Snakemake runs beside it in a job of a queue: planning 1,000
+# participants takes it 141 MB.
 SPARE_MB = 200
 UNKNOWN_MB = 2000  # of another program in a stage, and where the scene cannot be explained: its run will say why
 OF_MEMORY = ("image.", "discretise.", "solve.points_per_cell", "solve.basis", "solve.dilatation")
@@ -88,7 +88,7 @@ def explained(program, work, case):
     scene = case.scene or str(work / case.name / "scene.xml")
     done = subprocess.run([program, "scene", "--explain", scene, *set_words(case)], capture_output=True, text=True,
                           check=False)
-    return {stage: 2 * int(mb) + SPARE_MB for stage, mb in COST.findall(done.stdout)} if done.returncode == 0 else {}
+    return {stage: int(mb) + SPARE_MB for stage, mb in COST.findall(done.stdout)} if done.returncode == 0 else {}
 
 
 def memory(program, work, cases, workers):

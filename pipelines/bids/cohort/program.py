@@ -10,6 +10,11 @@ class Unusable(Exception):
     """A sentence: why nothing can be run."""
 
 
+def exit_code(snakemake, without_result):
+    """snakemake: its own exit code; without_result: those that have none."""
+    return 1 if snakemake else 4 if without_result else 0
+
+
 def guarded(name, main):
     """What main says is the exit code; of what cannot be run or written, a sentence."""
     try:

@@ -61,6 +61,18 @@ TEST_F(SceneLabels, OtherNumbersNeedATable) {
   EXPECT_TRUE(own.notes.empty());
 }
 
+TEST(LabelNames, AreThoseOfTheTissuesElseTheUsualOnes) {
+  Scene scene;
+  scene.tissues.resize(2);
+  scene.tissues[0].label = 1;
+  scene.tissues[1].label = 12;
+  scene.tissues[1].name = "falx";
+  const auto names = label_names(scene);
+  EXPECT_EQ(names.at(1), "parenchyma") << "this tissue has no name of its own";
+  EXPECT_EQ(names.at(4), "fluid");
+  EXPECT_EQ(names.at(12), "falx");
+}
+
 TEST_F(SceneLabels, WhatIsNoLabelMapIsRefusedWithASentence) {
   struct Case {
     float value;
