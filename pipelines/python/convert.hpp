@@ -57,6 +57,9 @@ py::array_t<double> affine_of(const ImageGeometry& geometry);
 /// Adds ScalarImage, LabelMap, VectorImage and Surface to the module, with their readers and writers.
 void add_images(py::module_& module);
 
+/// Adds Load, and what the stages return: Segmentation, Body, Solution, Registration.
+void add_results(py::module_& module);
+
 /// A Python value as the text of an option: True is "yes", a list "1 2 3", None nothing.
 std::string option_text(const py::handle& value);
 

@@ -1,7 +1,8 @@
 # Where Debian's Python looks for the modules of packages, and the package of its own that Debian asks for.
 set(BRAINSHIFT_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Folder of Python modules under the prefix")
 install(TARGETS brainshift_python LIBRARY DESTINATION ${BRAINSHIFT_PYTHON_DIR}/brainshift COMPONENT python)
-install(FILES pipelines/python/brainshift/__init__.py DESTINATION ${BRAINSHIFT_PYTHON_DIR}/brainshift COMPONENT python)
+install(FILES pipelines/python/init.py DESTINATION ${BRAINSHIFT_PYTHON_DIR}/brainshift RENAME __init__.py
+  COMPONENT python)
 install(FILES pipelines/package/copyright ${PROJECT_BINARY_DIR}/changelog.gz
   DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-brainshift COMPONENT python)
 

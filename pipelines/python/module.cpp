@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The Python module brainshift._core: the stages on arrays, and the runner. brainshift/__init__.py stands before it.
+// The Python module brainshift._core: the stages on arrays, and the runner. init.py stands before it.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -10,7 +10,6 @@
 #include "pipelines/phantom/phantom.hpp"
 #include "pipelines/python/convert.hpp"
 #include "pipelines/runner/libraries.hpp"
-#include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/run.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/runner/warp_files.hpp"
@@ -46,10 +45,6 @@ Progress attentive(const Listener& listener) {
       listener(fraction, std::string(what));
     }
   };
-}
-
-py::object measures_of(const pipelines::StageReport& report) {
-  return py::module_::import("json").attr("loads")(report.measures.dump());
 }
 
 template <class T>
@@ -102,27 +97,15 @@ solve::Material material_of(const py::handle& given) {
   return material;
 }
 
-solve::CraniotomyLoad load_of(const RowMajor<double>& positions, const RowMajor<double>& displacement,
-                              const std::optional<RowMajor<double>>& sigma) {
-  solve::CraniotomyLoad load{points_of(positions, "positions"), points_of(displacement, "displacement")};
-  if (sigma) {
-    load.sigma = points_of(*sigma, "sigma");
-  }
-  if (load.displacement.rows() != load.positions.rows() || (sigma && load.sigma.rows() != load.positions.rows())) {
-    throw std::invalid_argument("positions, displacement and sigma must have as many rows");
-  }
-  if (sigma && load.sigma.size() > 0 && load.sigma.minCoeff() < solve::smallest_noise) {
-    throw std::invalid_argument("sigma must be positive, mm; leave it out for a load that is held exactly");
-  }
-  return load;
-}
-
 solve::SolveResult solve_model(const discretise::Discretisation& body, const py::dict& materials,
                                const solve::CraniotomyLoad& load, const LabelMap* labels, const Surface* skull,
                                const Surface* boundary, const Listener& progress, const py::kwargs& named) {
-  solve::SolveOptions options;
+  solve::SolveOptions options = pipelines::quickest();  // as a scene
   set_options(solve::solve_options(), named, options);
-  solve::Model model{.cloud = body.cloud, .cells = body.cells, .labels = copy_if(labels), .materials = {}};
+  solve::Model model;
+  model.cloud = body.cloud;
+  model.cells = body.cells;
+  model.labels = copy_if(labels);
   for (const auto& [label, material] : materials) {
     model.materials[label.cast<std::int32_t>()] = material_of(material);
   }
@@ -207,88 +190,11 @@ std::vector<std::string> warp_files(const std::filesystem::path& run, const std:
   return notes;
 }
 
-void add_results(py::module_& m) {
-  using segmentation::Segmentation;
-  py::class_<Segmentation>(m, "Segmentation", "What segment() found. Surfaces are closed, outward, mm, LPS.")
-      .def_readonly("labels", &Segmentation::labels, "LabelMap; None where a surface came in")
-      .def_readonly("brain", &Segmentation::brain, "Surface of all the brain's tissues")
-      .def_readonly("skull", &Segmentation::skull, "Surface of the skull's inside")
-      .def_readonly("tissues", &Segmentation::tissues, "{label: Surface}, with tissue_surfaces=True")
-      .def_readonly("notes", &Segmentation::notes, "sentences: what was dropped, filled or not reached")
-      .def_property_readonly("measures", [](const Segmentation& s) { return measures_of(pipelines::report_of(s)); });
-
-  using discretise::Discretisation;
-  const auto of_cloud = [](auto member) {
-    return [member](const py::object& self) { return view(self, self.cast<Discretisation&>().cloud.*member); };
-  };
-  const auto of_cells = [](auto member) {
-    return [member](const py::object& self) { return view(self, self.cast<Discretisation&>().cells.*member); };
-  };
-  py::class_<Discretisation>(m, "Body", "Nodes and background cells of a brain; n nodes, m cells, mm, LPS.")
-      .def_property_readonly("nodes", of_cloud(&NodeCloud::positions), "(n, 3) float64")
-      .def_property_readonly("spacing", of_cloud(&NodeCloud::spacing), "(n,) float64, to the neighbours, mm")
-      .def_property_readonly("on_surface", of_cloud(&NodeCloud::on_surface), "(n,) uint8, 1 on the brain's surface")
-      .def_property_readonly("vertices", of_cells(&BackgroundCells::vertices), "(k, 3) float64, of the cells")
-      .def_property_readonly(
-          "cells",
-          [](const py::object& self) {
-            const BackgroundCells& cells = self.cast<Discretisation&>().cells;
-            return view(self, cells.connectivity, cells.corners());
-          },
-          "(m, 8) or (m, 4) int32, rows of vertices in VTK's order")
-      .def_property_readonly("inside_fraction", of_cells(&BackgroundCells::inside_fraction), "(m,) float64, 0 to 1")
-      .def_property_readonly("cell_label", of_cells(&BackgroundCells::label), "(m,) int32")
-      .def_property_readonly("measures",
-                             [](const Discretisation& d) { return measures_of(pipelines::report_of(d.measures)); });
-
-  using solve::SolveResult;
-  const auto of_solution = [](auto member) {
-    return [member](const py::object& self) { return view(self, self.cast<SolveResult&>().solution.*member); };
-  };
-  py::class_<SolveResult>(m, "Solution", "Displacements at the n nodes, mm, LPS.")
-      .def_property_readonly("positions", of_solution(&Solution::positions), "(n, 3) float64, undeformed, mm")
-      .def_property_readonly("displacement", of_solution(&Solution::displacement), "(n, 3) float64, mm")
-      .def_property_readonly("reaction_force", of_solution(&Solution::reaction_force), "(n, 3) float64, N")
-      .def_property_readonly("estimated_error", of_solution(&Solution::estimated_error),
-                             "(n,) float64, mm, of the displacement for want of nodes; (0,) without an estimate")
-      .def_property_readonly("converged", [](const SolveResult& r) { return r.failure.empty(); })
-      .def_readonly("failure", &SolveResult::failure, "why it did not converge; empty where it did")
-      .def_property_readonly("measures", [](const SolveResult& r) {
-        return measures_of(pipelines::report_of(r, solve::Dynamics::relaxation));
-      });
-
-  using registration::Registration;
-  py::class_<Registration>(m, "Registration", "Fields and images on the T1's grid.")
-      .def_readonly("forward", &Registration::forward, "VectorImage at preop places: moves points, warp_points()")
-      .def_readonly("resampling", &Registration::resampling, "VectorImage at intraop places: moves images, warp()")
-      .def_readonly("warped", &Registration::warped, "ScalarImage: the T1 as the operated brain would show")
-      .def_readonly("warped_labels", &Registration::warped_labels, "LabelMap, or None")
-      .def_readonly("jacobian", &Registration::jacobian, "ScalarImage: how much the volume grows there")
-      .def_property_readonly("landmarks", viewed<Registration>(&Registration::landmarks), "(n, 3) mm, LPS, intraop")
-      .def_property_readonly("measures", [](const Registration& r) { return measures_of(pipelines::report_of(r)); });
-}
-
-void add_load(py::module_& m) {
-  using solve::CraniotomyLoad;
-  py::class_<CraniotomyLoad>(
-      m, "Load",
-      "Displacements measured on the exposed cortex, mm, LPS.\n\n  Load(positions, displacement, "
-      "sigma=None): (n, 3) each; sigma: standard deviations along the axes. Without sigma the "
-      "load is held exactly.")
-      .def(py::init(&load_of), py::arg("positions"), py::arg("displacement"), py::arg("sigma") = py::none())
-      .def_property_readonly("positions", viewed<CraniotomyLoad>(&CraniotomyLoad::positions), "(n, 3) preop, mm")
-      .def_property_readonly("displacement", viewed<CraniotomyLoad>(&CraniotomyLoad::displacement), "(n, 3) mm")
-      .def_property_readonly("sigma", viewed<CraniotomyLoad>(&CraniotomyLoad::sigma), "(n, 3) mm, or (0, 3)");
-  m.def("read_load", &solve::read_craniotomy_csv, py::arg("file"), py::call_guard<Free>(),
-        "Reads a craniotomy.csv, x,y,z,ux,uy,uz with '# frame: LPS' or RAS before it, as a Load.");
-}
-
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
   const auto none = py::none();
   add_images(m);
-  add_load(m);
   add_results(m);
   m.def("segment", &segment, py::arg("labels") = none, py::arg("t1") = none, py::arg("brain_mask") = none,
         py::arg("surface") = none, py::arg("brain_labels") = none, py::arg("skull_label") = none,
@@ -307,7 +213,7 @@ PYBIND11_MODULE(_core, m) {
         ("Computes how a Body moves under a Load. materials: {label: name or options}, as {1: 'brain', 2: "
          "dict(youngs_modulus=3000, poisson_ratio=0.49)}.\nlabels: tissue at each place, a LabelMap; skull: a Surface "
          "that holds the brain; boundary: the brain's own." +
-         options_help(solve::solve_options(), solve::SolveOptions{}))
+         options_help(solve::solve_options(), pipelines::quickest()))
             .c_str());
   m.def("register", &register_images, py::arg("solution"), py::arg("brain"), py::arg("t1"), py::arg("labels") = none,
         py::arg("landmarks") = none, py::arg("progress") = none,

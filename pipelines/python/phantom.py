@@ -31,7 +31,7 @@ print(head.brain, f"{len(body.nodes)} nodes, {len(body.cells)} cells", sep="\n")
 
 # %% How the brain moves
 materials = {1: "brain", 2: "ventricle", 3: "tumour"}
-moved = brainshift.solve(body, materials, load, labels, head.skull, start="coarse")
+moved = brainshift.solve(body, materials, load, labels, head.skull)
 print(f"the nodes move by {np.linalg.norm(moved.displacement, axis=1).max():.2f} mm at most, "
       f"{np.percentile(moved.estimated_error, 95):.2f} mm of it uncertain for want of nodes")
 

@@ -10,7 +10,7 @@ namespace brainshift::registration {
 
 namespace {
 
-constexpr double voxel = 4;  // mm; nodes are as far apart, and more
+constexpr double error_voxel = 4;  // mm; nodes are as far apart, and more
 
 Points places_of_nodes(const Solution& solution, bool moved) {
   return moved ? Points(solution.positions + solution.displacement) : solution.positions;
@@ -47,9 +47,9 @@ ScalarImage estimated_error_image(const Solution& solution, bool moved) {
   const Eigen::Vector3d low = nodes.colwise().minCoeff();
   const Eigen::Vector3d high = nodes.colwise().maxCoeff();
   ScalarImage image;
-  image.geometry.spacing.setConstant(voxel);
-  image.geometry.origin = low.array() - voxel;
-  image.geometry.size = ((high - low) / voxel).array().ceil().cast<int>() + 3;
+  image.geometry.spacing.setConstant(error_voxel);
+  image.geometry.origin = low.array() - error_voxel;
+  image.geometry.size = ((high - low) / error_voxel).array().ceil().cast<int>() + 3;
   Points places(static_cast<Eigen::Index>(image.geometry.voxel_count()), 3);
   for (int k = 0; k < image.geometry.size.z(); ++k) {
     for (int j = 0; j < image.geometry.size.y(); ++j) {

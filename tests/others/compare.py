@@ -105,14 +105,16 @@ def by_workbench(head):
 
 
 def by_plastimatch(head):
-    """Its .fcsv is in RAS, whatever the file says."""
+    """Its .fcsv is in RAS, whatever the file says. Points it moves by the displacement of the nearest voxel."""
     with open(head.folder / "in.fcsv", "w") as file:
         file.write("# Markups fiducial file version = 4.6\n# CoordinateSystem = RAS\n# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label\n")
         file.writelines("%d,%.6f,%.6f,%.6f,0,0,0,1,1,1,0,p\n" % (i, *p) for i, p in enumerate(head.points * TO_RAS))
     quietly("plastimatch", "convert", "--input", head.folder / "in.fcsv", "--xf", head.forward_file, "--output-pointset",
             head.folder / "out.fcsv")
     lines = [line.split(",") for line in open(head.folder / "out.fcsv") if not line.startswith("#")]
-    yield "points", points_apart(head, np.array([[float(word) for word in line[1:4]] for line in lines]) * TO_RAS)
+    moved = np.array([[float(word) for word in line[1:4]] for line in lines]) * TO_RAS
+    nearest = head.points + head.forward[tuple(np.rint(head.to_index(head.points)).astype(int).T)]
+    yield f"points (not ours, {points_apart(head, moved)[1]:.1f})", (len(moved), np.abs(moved - nearest).max())
     yield "image", head.ramps_apart(lambda image, out: quietly(
         "plastimatch", "convert", "--input", image, "--xf", head.resampling_file, "--interpolation", "linear", "--output-img", out))
 
