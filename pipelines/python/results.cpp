@@ -98,7 +98,9 @@ void add_solution(py::module_& m) {
       .def_property_readonly("converged", [](const SolveResult& r) { return r.failure.empty(); })
       .def_readonly("failure", &SolveResult::failure, "why it did not converge; empty where it did")
       .def_property_readonly("measures", [](const SolveResult& r) {
-        return measures_of(pipelines::report_of(r, solve::Dynamics::relaxation));
+        const bool transient = r.measures.critical_step > 0;
+        return measures_of(
+            pipelines::report_of(r, transient ? solve::Dynamics::transient : solve::Dynamics::relaxation));
       });
 }
 

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/files/warp_gii.hpp"
 
+#include <gifti_io.h>
+
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
-
-#include <gifti_io.h>
 
 #include "register/files/warped_name.hpp"
 #include "segmentation/files/readable_file.hpp"
@@ -30,9 +32,17 @@ GiftiFile read_gifti(const fs::path& file, bool with_data) {
   return {gifti_read_image(file.c_str(), with_data ? 1 : 0), gifti_free_image};
 }
 
+/// Of text that is cut off the library tells in words of its own.
+bool ends_as_gifti(const fs::path& file) {
+  constexpr std::streamoff tail = 64;  // blank lines may follow
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(-std::min(tail, static_cast<std::streamoff>(fs::file_size(file))), std::ios::end);
+  return std::string(std::istreambuf_iterator<char>(in), {}).find("</GIFTI>") != std::string::npos;
+}
+
 /// Before memory is taken for what a damaged header says: deflated bytes become a thousand times as many at most.
 void check_claims(const fs::path& file) {
-  const GiftiFile header = read_gifti(file, false);
+  const GiftiFile header = ends_as_gifti(file) ? read_gifti(file, false) : GiftiFile(nullptr, gifti_free_image);
   if (!header || header->numDA < 1) {
     refuse(file, "is no GIFTI file, or is damaged or truncated; copy it again");
   }
