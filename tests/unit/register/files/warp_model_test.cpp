@@ -62,7 +62,8 @@ TEST_F(WarpModel, TheErrorIsThatOfThePlacesBeforeTheyMove) {
     return std::vector<double>(places.col(2).begin(), places.col(2).end());
   });
   warp_model(folder_.write("tract.vtp", tract_vtp("RAS")), mover, folder_ / "moved.vtp");
-  vtkDataArray* error = read_model(folder_ / "moved.vtp")->GetPointData()->GetArray("estimated_error");
+  const auto moved = read_model(folder_ / "moved.vtp");
+  vtkDataArray* const error = moved->GetPointData()->GetArray("estimated_error");
   ASSERT_NE(error, nullptr);
   EXPECT_EQ(error->GetTuple1(0), 8);
   EXPECT_EQ(error->GetTuple1(3), 1000);
