@@ -3,7 +3,6 @@
 
 #include <Eigen/SVD>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <stdexcept>
 
@@ -31,7 +30,7 @@ template <class T>
 std::vector<py::ssize_t> shape_of(const Image<T>& image) {
   const Eigen::Array3i& size = image.geometry.size;
   std::vector<py::ssize_t> shape = {size.x(), size.y(), size.z()};
-  if (components < T >> 1) {
+  if (components<T> != 1) {
     shape.push_back(components<T>);
   }
   return shape;
@@ -43,7 +42,7 @@ std::vector<py::ssize_t> strides_of(const Image<T>& image) {
   const Eigen::Array3i& size = image.geometry.size;
   const py::ssize_t voxel = sizeof(T), row = voxel * size.x(), slice = row * size.y();
   std::vector<py::ssize_t> strides = {voxel, row, slice};
-  if (components < T >> 1) {
+  if (components<T> != 1) {
     strides.push_back(sizeof(typename Number<T>::type));
   }
   return strides;

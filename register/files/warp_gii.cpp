@@ -88,7 +88,7 @@ std::optional<Eigen::Affine3d> by_freesurfers_volume(const giiMetaData& metadata
 }
 
 /// From the coordinates of the points to the scanner's RAS, mm.
-Eigen::Affine3d to_scanner(const fs::path& file, const giiDataArray& points) {
+Eigen::Affine3d to_scanner(const giiDataArray& points) {
   const std::string scanner = "NIFTI_XFORM_SCANNER_ANAT";
   const auto is_scanner = [&](const char* space) { return space != nullptr && scanner == space; };
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
@@ -101,9 +101,6 @@ Eigen::Affine3d to_scanner(const fs::path& file, const giiDataArray& points) {
     if (is_scanner(points.coordsys[c]->xformspace)) {
       result.matrix() =
           Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(&points.coordsys[c]->xform[0][0]);
-      if (!result.matrix().allFinite() || !(std::abs(result.linear().determinant()) > 0)) {
-        refuse(file, "the matrix of its coordinate system cannot be inverted; repair the file");
-      }
       return result;
     }
   }
@@ -127,7 +124,10 @@ template <class Number>
 void move_array(const fs::path& file, giiDataArray& array, PointMover& mover, Points& places) {
   const Coordinates<Number> x{static_cast<Number*>(array.data), array.dims[0],
                               array.ind_ord == GIFTI_IND_ORD_COL_MAJOR};
-  const Eigen::Affine3d to_lps = Eigen::Scaling(-1.0, -1.0, 1.0) * to_scanner(file, array);
+  const Eigen::Affine3d to_lps = Eigen::Scaling(-1.0, -1.0, 1.0) * to_scanner(array);
+  if (!to_lps.matrix().allFinite() || !(std::abs(to_lps.linear().determinant()) > 0)) {
+    refuse(file, "the matrix of its coordinate system cannot be inverted; repair the file");
+  }
   const Eigen::Matrix3d turned_back = to_lps.linear().inverse();
   const Eigen::Index before = places.rows();
   places.conservativeResize(before + x.points, 3);
