@@ -27,31 +27,35 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-[ $install = no ] || install_packages help2man lintian dpkg-dev fakeroot mmdebstrap
+[ $install = no ] || install_packages help2man lintian dpkg-dev fakeroot mmdebstrap pybind11-dev python3-dev
 mkdir -p "$out"
-build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release
-cmake --build "$root/build" --target man_pages
+build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release -DBRAINSHIFT_PYTHON=ON
+cmake --build "$root/build" --target man_pages brainshift_python
 
 (cd "$root" && git archive --prefix=brainshift/ --output="$out/brainshift-source.tar.gz" HEAD)
 cpack --config "$root/build/CPackConfig.cmake" -G DEB -B "$out"
 package=$(ls -t "$out"/brainshift_*.deb | head -n 1)
-echo "Checking $package"
-lintian --fail-on error "$package"
+module=$(ls -t "$out"/python3-brainshift_*.deb | head -n 1)
+echo "Checking $package and $module"
+lintian --fail-on error "$package" "$module"
 
 if [ $try = yes ]; then
   chroot=$(mktemp -d)
   trap 'rm -rf "$chroot"' EXIT
-  depends=$(dpkg-deb --field "$package" Depends | sed 's/([^)]*)//g; s/|[^,]*//g; s/ //g')
+  depends=$(for file in "$package" "$module"; do dpkg-deb --field "$file" Depends; done | paste -sd, |
+    sed 's/([^)]*)//g; s/|[^,]*//g; s/ //g')
   mmdebstrap --variant=minbase --include="$depends" bookworm "$chroot"
   cp "$package" "$chroot/tmp/brainshift.deb"
-  chroot "$chroot" dpkg -i /tmp/brainshift.deb
+  cp "$module" "$chroot/tmp/module.deb"
+  chroot "$chroot" dpkg -i /tmp/brainshift.deb /tmp/module.deb
   chroot "$chroot" sh -ec 'cd /tmp
     brainshift --version
     brainshift phantom --size 48 --out head
     brainshift run head/scene.xml --out run --set discretise.nodes=1000
     test -s run/register/warped.nii.gz -a -s run/report/index.html
-    dpkg --purge brainshift
-    test ! -e /usr/bin/brainshift -a ! -e /usr/share/doc/brainshift'
-  echo "The package installs, runs a phantom and leaves nothing behind."
+    python3 -B -c "import brainshift; print(brainshift.segment(brainshift.read_label_map(\"head/labels.nii.gz\")).brain)"
+    dpkg --purge python3-brainshift brainshift
+    test ! -e /usr/bin/brainshift -a ! -e /usr/share/doc/brainshift -a ! -e /usr/lib/python3/dist-packages/brainshift'
+  echo "The packages install, run a phantom and leave nothing behind."
 fi
 echo "Done: $out"

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "pipelines/report/canvas.hpp"
-#include "pipelines/show/shown_fields.hpp"
+#include "register/field/nodal_values.hpp"
 #include "segmentation/geometry/grid_cell.hpp"
 
 namespace brainshift::pipelines {
@@ -145,7 +145,7 @@ void add_fields(ViewerData& data, const RunData& run, const ImageGeometry& grid)
     add_field(data, "ratio", 0.002, 1, grid, [&](auto& place, int) { return value_at(*run.jacobian, place); });
   }
   if (!run.solution->estimated_error.empty()) {
-    const ScalarImage error = estimated_error_on(*run.solution, false, grid);
+    const ScalarImage error = registration::nodal_values_on(*run.solution, run.solution->estimated_error, false, grid);
     add_field(data, "error", 0.005, 1, grid, [&](auto& place, int) { return value_at(error, place); });
   }
   data.arrays.push_back({"brain", packed_numbers(inside(*run.brain, grid))});

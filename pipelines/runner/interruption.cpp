@@ -32,6 +32,9 @@ Interruption::Interruption(std::function<void(int)> farewell) : farewell_(std::m
 }
 
 Interruption::~Interruption() {
+  if (!watcher_.joinable()) {
+    return;
+  }
   stop_ = true;
   watcher_.join();
   const sigset_t signals = watched_signals();

@@ -17,6 +17,8 @@ namespace brainshift::pipelines {
 /// and once.
 class Interruption {
  public:
+  /// Takes no signal: for a program that has its own way, an interpreter, which interrupts by an exception.
+  Interruption() = default;
   explicit Interruption(std::function<void(int signal)> farewell);
   ~Interruption();
   Interruption(const Interruption&) = delete;

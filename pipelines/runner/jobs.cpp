@@ -385,7 +385,7 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
   StageReport said = report_of(result);
   warn(warnings_of(result.measures), said);
   if (!job.warp.empty() || !job.warp_labels.empty()) {
-    registration::RegisterFields fields(out, registration::Towards::intraop);
+    registration::RegisterFields fields(out, registration::Towards::intraop, job.solution);
     registration::WarpAnyOptions options{.interpolation = job.options.interpolation, .grid = {}};
     add(warp_files(job.warp, fields, out, options), said);
     options.values = registration::Values::labels;

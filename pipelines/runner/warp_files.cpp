@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "register/files/warped_name.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/image/image_series.hpp"
 #include "segmentation/options/values.hpp"
@@ -30,12 +31,14 @@ std::string told(const fs::path& file, const registration::WarpedFile& warped) {
 void check_names(const std::vector<fs::path>& files, const fs::path& out) {
   std::set<fs::path> names;
   for (const fs::path& file : files) {
-    const fs::path name = registration::warped_name(file);
+    const fs::path warped = registration::warped_name(file);
     if (!fs::exists(file)) {
       refuse(file, "no such file; check the path");
     }
-    if (fs::exists(out / name) || !names.insert(name).second) {
-      refuse(file, "there is a " + name.string() + " already; rename the file that is to be warped");
+    for (const fs::path& name : {warped, registration::error_name(warped)}) {
+      if (fs::exists(out / name) || !names.insert(name).second) {
+        refuse(file, "there is a " + name.string() + " already; rename the file that is to be warped");
+      }
     }
   }
 }
@@ -54,7 +57,8 @@ std::vector<std::string> warp_files(const std::vector<fs::path>& files, registra
 
 std::vector<std::string> warp_files(const WarpJob& job, const fs::path& out) {
   const fs::path stage = job.run / "register";
-  registration::RegisterFields fields(fs::is_directory(stage) ? stage : job.run, job.towards);
+  const fs::path folder = fs::is_directory(stage) ? stage : job.run;
+  registration::RegisterFields fields(folder, job.towards, folder / "../solve/solution.vtu");
   registration::WarpAnyOptions options = job.options;
   if (!job.like.empty()) {
     options.grid = is_image_series(job.like) ? read_image_series(job.like).volumes.front().geometry

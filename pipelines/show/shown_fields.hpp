@@ -16,11 +16,4 @@ namespace brainshift::pipelines {
 void write_shown_fields(const std::filesystem::path& folder, const Solution& solution, const Surface& brain,
                         const VectorImage& forward);
 
-/// The solution's estimated error at points of the preop or, with `moved`, the intraop brain: weights 1 / distance²
-/// over the eight nearest nodes. 0 at a point farther than the spacing from every node.
-std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points);
-
-/// The same at the voxels of a grid.
-ScalarImage estimated_error_on(const Solution& solution, bool moved, const ImageGeometry& grid);
-
 }  // namespace brainshift::pipelines

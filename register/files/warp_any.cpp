@@ -7,9 +7,11 @@
 #include <string_view>
 #include <utility>
 
+#include "register/files/warp_gii.hpp"
 #include "register/files/warp_mesh.hpp"
 #include "register/files/warp_model.hpp"
 #include "register/files/warp_tracts.hpp"
+#include "register/files/warped_name.hpp"
 #include "register/warp/recognise_labels.hpp"
 #include "register/warp/warp.hpp"
 #include "segmentation/files/lower_case.hpp"
@@ -26,7 +28,8 @@ namespace fs = std::filesystem;
 
 void warp_points(const fs::path& in, PointMover& mover, const fs::path& out) {
   const PointsFile points(in);
-  points.write_moved(out, move_points(mover, points.positions()));
+  const Points moved = move_points(mover, points.positions());
+  points.write_moved(out, moved, mover.error(points.positions()).value_or(std::vector<double>{}));
 }
 
 void warp_surface(const fs::path& in, PointMover& mover, const fs::path& out) {
@@ -42,9 +45,10 @@ MoveFile mover_of(const fs::path& file) {
   if (is_points_file(file)) {
     return warp_points;
   }
-  constexpr std::array<std::pair<std::string_view, MoveFile>, 8> movers = {{{".vtp", warp_model},
+  constexpr std::array<std::pair<std::string_view, MoveFile>, 9> movers = {{{".vtp", warp_model},
                                                                             {".vtu", warp_model},
                                                                             {".vtk", warp_model},
+                                                                            {".gii", warp_gii},
                                                                             {".tck", warp_tck},
                                                                             {".trk", warp_trk},
                                                                             {".obj", warp_obj},
@@ -56,8 +60,11 @@ MoveFile mover_of(const fs::path& file) {
   return found == movers.end() ? nullptr : found->second;
 }
 
-void warp_labels(const LabelMap& labels, const VectorImage& field, const fs::path& out, const WarpAnyOptions& options) {
-  write_image(out, warp(labels, field, options.grid.value_or(labels.geometry)));
+WarpedFile warp_labels(const LabelMap& labels, const VectorImage& field, const fs::path& out,
+                       const WarpAnyOptions& options) {
+  const ImageGeometry grid = options.grid.value_or(labels.geometry);
+  write_image(out, warp(labels, field, grid));
+  return {.is_image = true, .is_label_map = true, .grid = grid, .moved = {}};
 }
 
 /// Volume by volume, interpolated: labels in time are rare.
@@ -71,7 +78,7 @@ WarpedFile warp_series(const fs::path& in, const VectorImage& field, const fs::p
     volume = warp(volume, field, options.interpolation, options.grid.value_or(volume.geometry));
   }
   write_image_series(out, series);
-  return {.is_image = true, .is_label_map = false, .moved = {}};
+  return {.is_image = true, .is_label_map = false, .grid = series.volumes.front().geometry, .moved = {}};
 }
 
 /// Whether the name is one of an image, as image readers take it; a folder may hold DICOM.
@@ -88,16 +95,15 @@ WarpedFile warp_image(const fs::path& in, const VectorImage& field, const fs::pa
     return warp_series(in, field, out, options);
   }
   if (options.values == Values::labels) {
-    warp_labels(read_label_map(in), field, out, options);
-    return {.is_image = true, .is_label_map = true, .moved = {}};
+    return warp_labels(read_label_map(in), field, out, options);
   }
   const ScalarImage image = read_image(in);
   if (options.values == Values::recognised && looks_like_labels(image)) {
-    warp_labels(read_label_map(in), field, out, options);
-    return {.is_image = true, .is_label_map = true, .moved = {}};
+    return warp_labels(read_label_map(in), field, out, options);
   }
-  write_image(out, warp(image, field, options.interpolation, options.grid.value_or(image.geometry)));
-  return {.is_image = true, .is_label_map = false, .moved = {}};
+  const ImageGeometry grid = options.grid.value_or(image.geometry);
+  write_image(out, warp(image, field, options.interpolation, grid));
+  return {.is_image = true, .is_label_map = false, .grid = grid, .moved = {}};
 }
 
 }  // namespace
@@ -107,29 +113,22 @@ WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& 
   if (move == nullptr && fs::exists(in) && !may_be_image(in)) {
     refuse(in,
            "its ending is none that is known; give an image (.nii, .nii.gz, .nrrd, .mha, .mgz, a folder with DICOM), a "
-           "model (.vtp, .vtu, .vtk, .stl, .ply, .obj), tracts (.tck, .trk) or points (.mrk.json, .fcsv, .csv)");
+           "model (.vtp, .vtu, .vtk, .gii, .stl, .ply, .obj), tracts (.tck, .trk) or points (.mrk.json, .fcsv, .csv)");
   }
   if (move == nullptr) {
-    return warp_image(in, fields.of_images(), out, options);
+    const WarpedFile warped = warp_image(in, fields.of_images(), out, options);
+    if (const auto error = fields.error_on(warped.grid)) {
+      write_image(error_name(out), *error);
+    }
+    return warped;
   }
   if (mover_of(out) != move || ending_of(out) != ending_of(in)) {
     refuse(out,
            "the moved points of " + in.string() + " keep its format; write to a " + in.extension().string() + " file");
   }
-  PointMover mover(fields.of_points());
+  PointMover mover(fields.of_points(), [&](const Points& places) { return fields.error_of_points(places); });
   move(in, mover, out);
-  return {.is_image = false, .is_label_map = false, .moved = mover.moved()};
-}
-
-fs::path warped_name(const fs::path& in) {
-  const fs::path file = in.has_filename() ? in.filename() : in.parent_path().filename();
-  std::string name = "warped_" + file.string();
-  if (ending_of(file) == ".mgz" || ending_of(file) == ".mgh") {
-    name = fs::path(name).replace_extension(".nii.gz").string();
-  } else if (fs::is_directory(in)) {
-    name += ".nii.gz";
-  }
-  return name;
+  return {.is_image = false, .is_label_map = false, .grid = {}, .moved = mover.moved()};
 }
 
 }  // namespace brainshift::registration

@@ -23,23 +23,23 @@ struct WarpAnyOptions {
 
 struct WarpedFile {
   bool is_image = false, is_label_map = false;
-  MovedPoints moved;  ///< of what is no image
+  ImageGeometry grid;  ///< of a warped image
+  MovedPoints moved;   ///< of what is no image
 };
 
 /// Takes a file from one brain to the other with the fields of a register folder; what it is, its ending says:
 /// - .nii, .nii.gz, .nrrd, .mha, .mgz, a DICOM folder: an image or label map on any grid; a 4-D NIfTI volume by volume;
 /// - .vtp, .vtu, .vtk: surfaces, lines, points and grids; all arrays stay, "displacement" (mm) joins them;
 /// - .tck, .trk: tracts, with all that is kept beside their points;
+/// - .gii: GIFTI surfaces, all arrays, metadata and coordinate systems stay;
 /// - .obj, .ply: models, all else in them stays; .stl: a surface;
 /// - .csv (`x,y,z` among its columns, frame named by a line "# frame: LPS" or "# frame: RAS"), .mrk.json, .fcsv:
 /// points. Images are resampled, all else is moved, in the frame of its file, and keeps what else it holds. `out` must
-/// have the same ending. Throws std::invalid_argument, naming the file, when it cannot be used, and std::runtime_error
-/// when `out` cannot be written whole.
+/// have the same ending. Where the run has an estimate of its error (mm), models of VTK get it as the array
+/// "estimated_error", a .csv as a column, and images and .gii as a file beside, warped_name.hpp. Throws
+/// std::invalid_argument, naming the file, when it cannot be used, and std::runtime_error when `out` cannot be written
+/// whole.
 WarpedFile warp_any(const std::filesystem::path& in, RegisterFields& fields, const std::filesystem::path& out,
                     const WarpAnyOptions& options = {});
-
-/// The name under which a moved file is written: "warped_" and its own, an image that cannot be written in its own
-/// format as .nii.gz.
-std::filesystem::path warped_name(const std::filesystem::path& in);
 
 }  // namespace brainshift::registration

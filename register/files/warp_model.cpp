@@ -7,8 +7,18 @@
 #include <vtkPoints.h>
 
 #include "segmentation/files/model_file.hpp"
+#include "segmentation/files/vtu_file.hpp"
 
 namespace brainshift::registration {
+
+namespace {
+
+/// The name, unless the model has an array of it already.
+std::string free_name(vtkPointData& arrays, const std::string& name) {
+  return arrays.HasArray(name.c_str()) != 0 ? "warp_" + name : name;
+}
+
+}  // namespace
 
 void warp_model(const std::filesystem::path& in, PointMover& mover, const std::filesystem::path& out) {
   const auto model = read_model(in);
@@ -16,18 +26,23 @@ void warp_model(const std::filesystem::path& in, PointMover& mover, const std::f
   vtkPoints& points = *model->GetPoints();
   vtkPointData& arrays = *model->GetPointData();
   vtkNew<vtkFloatArray> displacement;
-  displacement->SetName(arrays.HasArray("displacement") != 0 ? "warp_displacement" : "displacement");
+  displacement->SetName(free_name(arrays, "displacement").c_str());
   displacement->SetNumberOfComponents(3);
   displacement->SetNumberOfTuples(points.GetNumberOfPoints());
+  Points places(points.GetNumberOfPoints(), 3);
   for (vtkIdType p = 0; p < points.GetNumberOfPoints(); ++p) {
     Eigen::Vector3d place;
     points.GetPoint(p, place.data());
-    const Eigen::Vector3d u = to_lps.cwiseProduct(mover.displacement(to_lps.cwiseProduct(place)));
+    places.row(p) = to_lps.cwiseProduct(place);
+    const Eigen::Vector3d u = to_lps.cwiseProduct(mover.displacement(places.row(p)));
     displacement->SetTuple(p, u.data());
     place += u;
     points.SetPoint(p, place.data());
   }
   arrays.AddArray(displacement);
+  if (const auto error = mover.error(places)) {
+    vtu::add_array(arrays, free_name(arrays, "estimated_error").c_str(), *error);
+  }
   write_model(out, *model, in);
 }
 

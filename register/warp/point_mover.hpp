@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "register/field/field_sampler.hpp"
 #include "segmentation/geometry/points.hpp"
@@ -16,11 +20,14 @@ struct MovedPoints {
   double largest = 0;       ///< displacement, mm
 };
 
+/// The estimated error of the displacement, mm, at places (n × 3, mm, LPS) before they move; none: it is not known.
+using ErrorOfPoints = std::function<std::optional<std::vector<double>>(const Points& places)>;
+
 /// Moves points with a field, linear interpolation, and counts them. Zero displacement outside the image; a point on
 /// the outermost half voxel is inside. The field must outlive it.
 class PointMover {
  public:
-  explicit PointMover(const VectorImage& field) : sampler_(field) {}
+  explicit PointMover(const VectorImage& field, ErrorOfPoints error = {}) : sampler_(field), error_(std::move(error)) {}
 
   /// mm, LPS.
   Eigen::Vector3d displacement(const Eigen::Vector3d& place) {
@@ -35,10 +42,15 @@ class PointMover {
     return u;
   }
 
+  std::optional<std::vector<double>> error(const Points& places) const {
+    return error_ ? error_(places) : std::nullopt;
+  }
+
   const MovedPoints& moved() const { return moved_; }
 
  private:
   FieldSampler sampler_;
+  ErrorOfPoints error_;
   MovedPoints moved_;
 };
 

@@ -31,6 +31,7 @@ void read_frame(std::string_view name, std::size_t line, PointTable& table) {
 
 void read_columns(std::string_view names, std::size_t line, PointTable& table) {
   table.columns = split_fields(names);
+  table.header = line - 1;
   for (const char* wanted : {"x", "y", "z"}) {
     if (!table.find_column(wanted)) {
       fail_at_line(table.file, line,
@@ -79,6 +80,20 @@ void check_width(std::string_view text, std::size_t line, const PointTable& tabl
                  std::to_string(table.columns.size()) + " columns are expected as in the header, found \"" +
                      std::string(text) + "\"");
   }
+}
+
+/// One more field at the end of a line.
+void append_field(std::string& line, const std::string& field) {
+  const bool dos = line.ends_with('\r');
+  line.resize(line.size() - (dos ? 1 : 0));
+  line += "," + field + (dos ? "\r" : "");
+}
+
+/// Six decimals, as fine as a file of points needs.
+std::string decimal(double value) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.6f", value);
+  return text.data();
 }
 
 }  // namespace
@@ -139,19 +154,18 @@ std::vector<std::string> texts_in(const PointTable& table, const std::string& na
   return texts;
 }
 
-void write_point_table(const std::filesystem::path& out, const PointTable& table, const Points& places) {
+void write_point_table(const std::filesystem::path& out, const PointTable& table, const Points& places,
+                       std::span<const double> error) {
   Points in_frame = places;
   to_lps(in_frame, *table.frame);  // the way there and back is the same
   std::vector<std::string> lines = table.lines;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     std::string& line = lines[table.rows[row]];
     std::vector<std::string_view> fields = split_raw_fields(line);
-    std::array<std::array<char, 40>, 3> text;
+    std::array<std::string, 3> text;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double value = in_frame(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis));
-      const int length = std::snprintf(text[axis].data(), text[axis].size(), "%.6f", value);
-      fields[*table.find_column(std::string(1, "xyz"[axis]))] =
-          std::string_view(text[axis].data(), static_cast<std::size_t>(length));
+      text[axis] = decimal(in_frame(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis)));
+      fields[*table.find_column(std::string(1, "xyz"[axis]))] = text[axis];
     }
     std::string joined;
     for (const std::string_view field : fields) {
@@ -159,6 +173,13 @@ void write_point_table(const std::filesystem::path& out, const PointTable& table
       joined += field;
     }
     line = std::move(joined);
+  }
+  if (!error.empty() && table.file.extension() == ".csv") {
+    append_field(lines[table.header],
+                 table.find_column("estimated_error") ? "warp_estimated_error" : "estimated_error");
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      append_field(lines[table.rows[row]], decimal(error[row]));
+    }
   }
   std::ofstream stream(out);
   for (const std::string& line : lines) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@ struct PointTable {
   std::vector<std::string> lines;
   std::optional<Frame> frame;        ///< as a comment names it: "# frame: LPS", "# CoordinateSystem = LPS"
   std::vector<std::string> columns;  ///< names, in the order of the fields
+  std::size_t header = 0;            ///< the line that names them; without a meaning where none does
   std::vector<std::size_t> rows;     ///< lines that hold a point
 
   std::optional<std::size_t> find_column(std::string_view name) const;
@@ -37,7 +39,9 @@ Points vectors_in(const PointTable& table, const std::string& x, const std::stri
 std::vector<std::string> texts_in(const PointTable& table, const std::string& column);
 
 /// Writes the table with the columns x, y and z replaced by places (rows × 3), mm, LPS, in the table's frame; all else
-/// stays. Throws std::runtime_error when it cannot be written whole.
-void write_point_table(const std::filesystem::path& out, const PointTable& table, const Points& places);
+/// stays. A .csv gets a last column "estimated_error" (mm, one value a row) unless that is empty. Throws
+/// std::runtime_error when it cannot be written whole.
+void write_point_table(const std::filesystem::path& out, const PointTable& table, const Points& places,
+                       std::span<const double> error = {});
 
 }  // namespace brainshift

@@ -202,9 +202,10 @@ PointsFile::PointsFile(const std::filesystem::path& file) {
   content_ = std::move(content);
 }
 
-void PointsFile::write_moved(const std::filesystem::path& out, const Points& places) const {
+void PointsFile::write_moved(const std::filesystem::path& out, const Points& places,
+                             std::span<const double> error) const {
   if (const auto* table = std::get_if<PointTable>(&content_->as_read)) {
-    write_point_table(out, *table, places);
+    write_point_table(out, *table, places, error);
     return;
   }
   Markups markups = std::get<Markups>(content_->as_read);

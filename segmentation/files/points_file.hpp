@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,9 @@ class PointsFile {
   /// Markup lists in the file; 1 for a table.
   std::size_t lists() const { return lists_; }
 
-  /// Copies the file with its placed points at other places (n × 3), mm, LPS. Throws std::runtime_error when it cannot
-  /// be written whole.
-  void write_moved(const std::filesystem::path& out, const Points& places) const;
+  /// Copies the file with its placed points at other places (n × 3), mm, LPS. A .csv gets a column "estimated_error"
+  /// (mm, one value a point) unless that is empty. Throws std::runtime_error when it cannot be written whole.
+  void write_moved(const std::filesystem::path& out, const Points& places, std::span<const double> error = {}) const;
 
   struct Content;
 

@@ -178,9 +178,9 @@ TEST_F(WarpAny, RefusesToChangeTheFormatOfPoints) {
 }
 
 TEST_F(WarpAny, RefusesAnUnknownEndingAndNamesThoseThatAreKnown) {
-  write("in.gii", "<GIFTI/>");
-  const std::string said = refusal("in.gii", "out.gii");
-  EXPECT_NE(said.find("in.gii: its ending is none that is known"), std::string::npos);
+  write("in.fbx", "a model");
+  const std::string said = refusal("in.fbx", "out.fbx");
+  EXPECT_NE(said.find("in.fbx: its ending is none that is known"), std::string::npos);
   EXPECT_NE(said.find(".trk"), std::string::npos);
 }
 

@@ -57,6 +57,18 @@ std::string legacy(const std::string& version, const std::string& cells) {
          "SCALARS md float 1\nLOOKUP_TABLE default\n5 6 7\n";
 }
 
+TEST_F(WarpModel, TheErrorIsThatOfThePlacesBeforeTheyMove) {
+  PointMover mover(field_, [](const Points& places) -> std::optional<std::vector<double>> {
+    return std::vector<double>(places.col(2).begin(), places.col(2).end());
+  });
+  warp_model(folder_.write("tract.vtp", tract_vtp("RAS")), mover, folder_ / "moved.vtp");
+  const auto moved = read_model(folder_ / "moved.vtp");
+  vtkDataArray* const error = moved->GetPointData()->GetArray("estimated_error");
+  ASSERT_NE(error, nullptr);
+  EXPECT_EQ(error->GetTuple1(0), 8);
+  EXPECT_EQ(error->GetTuple1(3), 1000);
+}
+
 TEST_F(WarpModel, LinesAndPointsMoveAndKeepAllArrays) {
   const auto model = warped("tracts.vtp", tract_vtp("LPS"));
   EXPECT_LT((Eigen::Vector3d(model->GetPoint(1)) - Eigen::Vector3d(4.5, -7, 12)).norm(), 1e-12);

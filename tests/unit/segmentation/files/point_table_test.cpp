@@ -87,6 +87,23 @@ TEST(PointTable, WrittenAgainHasOtherPlacesAndAllElseAsItWas) {
   EXPECT_EQ(vectors_in(read_point_table(folder / "moved.csv"), "x", "y", "z"), places);
 }
 
+TEST(PointTable, ACsvGetsTheErrorAsItsLastColumn) {
+  const ScratchFolder folder;
+  const std::vector<double> error = {0.125, 0.5};
+  const Points places = Points::Zero(2, 3);
+  const auto written = [&](const std::string& name, const std::string& text) {
+    write_point_table(folder / ("moved_" + name), read_point_table(folder.write(name, text)), places, error);
+    return bytes_of(folder / ("moved_" + name));
+  };
+  EXPECT_EQ(written("t.csv", "# frame: LPS\nx,y,z,name\n1,2,3,a\n4,5,6,b\n"),
+            "# frame: LPS\nx,y,z,name,estimated_error\n0.000000,0.000000,0.000000,a,0.125000\n"
+            "0.000000,0.000000,0.000000,b,0.500000\n");
+  EXPECT_NE(written("u.csv", "# frame: LPS\nx,y,z,estimated_error\n1,2,3,9\n4,5,6,9\n").find(",warp_estimated_error\n"),
+            std::string::npos);
+  // 3D Slicer's columns are its own.
+  EXPECT_EQ(written("t.fcsv", "# CoordinateSystem = LPS\na,1,2,3\nb,4,5,6\n").find("0.125"), std::string::npos);
+}
+
 TEST(PointTable, ThatCannotBeWrittenIsAFaultOfOutput) {
   const ScratchFolder folder;
   const PointTable table = read_point_table(folder.write("t.csv", header + "1,2,3\n"));

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The Python module brainshift._core: the stages on arrays, and the runner. init.py stands before it.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "discretise/discretise.hpp"
+#include "discretise/interface/option_table.hpp"
+#include "pipelines/phantom/phantom.hpp"
+#include "pipelines/python/convert.hpp"
+#include "pipelines/runner/libraries.hpp"
+#include "pipelines/runner/run.hpp"
+#include "pipelines/runner/stage_folder.hpp"
+#include "pipelines/runner/warp_files.hpp"
+#include "pipelines/scene/check_scene.hpp"
+#include "pipelines/scene/parse_scene.hpp"
+#include "pipelines/scene/presets.hpp"
+#include "register/interface/option_table.hpp"
+#include "register/registration.hpp"
+#include "register/warp/warp.hpp"
+#include "segmentation/interface/option_table.hpp"
+#include "segmentation/segment.hpp"
+#include "solve/interface/option_table.hpp"
+#include "solve/load/craniotomy_load.hpp"
+#include "solve/load/noisy_load.hpp"
+#include "solve/material/material_options.hpp"
+#include "solve/material/named_materials.hpp"
+#include "solve/solve.hpp"
+
+namespace brainshift::python {
+namespace {
+
+using Listener = std::function<void(double, std::string)>;  // progress(fraction, what) of the caller, or None
+using Free = py::gil_scoped_release;
+
+/// Tells the caller, and looks whether the user interrupts: then KeyboardInterrupt leaves the computation as any fault.
+Progress attentive(const Listener& listener) {
+  return [&listener](double fraction, std::string_view what) {
+    const py::gil_scoped_acquire interpreter;
+    if (PyErr_CheckSignals() != 0) {
+      throw py::error_already_set();
+    }
+    if (listener) {
+      listener(fraction, std::string(what));
+    }
+  };
+}
+
+template <class T>
+std::optional<T> copy_if(const T* given) {
+  return given == nullptr ? std::nullopt : std::optional<T>(*given);
+}
+
+segmentation::Segmentation segment(const LabelMap* labels, const ScalarImage* t1, const LabelMap* brain_mask,
+                                   const Surface* surface,
+                                   const std::optional<std::vector<std::uint16_t>>& brain_labels,
+                                   std::optional<std::uint16_t> skull_label, const Listener& progress,
+                                   const py::kwargs& named) {
+  segmentation::SegmentOptions options;
+  set_options(segmentation::segment_options(), named, options);
+  options.brain_labels = brain_labels.value_or(options.brain_labels);
+  options.skull_label = skull_label;
+  const Free free;
+  return segmentation::segment({.t1 = copy_if(t1),
+                                .labels = copy_if(labels),
+                                .brain_mask = copy_if(brain_mask),
+                                .tumour_mask = {},
+                                .surface = copy_if(surface)},
+                               options, attentive(progress));
+}
+
+discretise::Discretisation discretise(const Surface& brain, const LabelMap* labels,
+                                      const std::optional<std::vector<std::int32_t>>& brain_labels,
+                                      const Listener& progress, const py::kwargs& named) {
+  discretise::DiscretiseOptions options;
+  set_options(discretise::discretise_options(), named, options);
+  options.brain_labels = brain_labels.value_or(options.brain_labels);
+  const Free free;
+  return discretise::discretise(brain, labels, options, attentive(progress));
+}
+
+solve::Material material_of(const py::handle& given) {
+  if (py::isinstance<py::str>(given)) {
+    const auto name = given.cast<std::string>();
+    if (const auto material = solve::named_material(name)) {
+      return *material;
+    }
+    std::string names;
+    for (const std::string& known : solve::material_names()) {
+      names += (names.empty() ? "" : ", ") + known;
+    }
+    throw std::invalid_argument("there is no material '" + name + "'; there are: " + names);
+  }
+  solve::Material material;
+  set_options(solve::material_options(), py::kwargs(given.cast<py::dict>()), material);
+  return material;
+}
+
+solve::SolveResult solve_model(const discretise::Discretisation& body, const py::dict& materials,
+                               const solve::CraniotomyLoad& load, const LabelMap* labels, const Surface* skull,
+                               const Surface* boundary, const Listener& progress, const py::kwargs& named) {
+  solve::SolveOptions options = pipelines::quickest();  // as a scene
+  set_options(solve::solve_options(), named, options);
+  solve::Model model;
+  model.cloud = body.cloud;
+  model.cells = body.cells;
+  model.labels = copy_if(labels);
+  for (const auto& [label, material] : materials) {
+    model.materials[label.cast<std::int32_t>()] = material_of(material);
+  }
+  model.skull = copy_if(skull);
+  model.boundary = copy_if(boundary);
+  const Free free;
+  if (load.sigma.rows() > 0) {
+    model.conditions = solve::noisy_conditions(model.cloud, load);
+  } else {
+    model.conditions.displacement = solve::prescribed_on_surface_nodes(model.cloud, load);
+  }
+  return solve::solve(model, options, attentive(progress));
+}
+
+registration::Registration register_images(const solve::SolveResult& moved, const Surface& brain, const ScalarImage& t1,
+                                           const LabelMap* labels, const std::optional<RowMajor<double>>& landmarks,
+                                           const Listener& progress, const py::kwargs& named) {
+  registration::RegisterOptions options;
+  set_options(registration::register_options(), named, options);
+  registration::RegisterInput input{.solution = moved.solution, .brain = brain, .t1 = t1, .labels = copy_if(labels)};
+  if (landmarks) {
+    input.landmarks = points_of(*landmarks, "landmarks");
+  }
+  const Free free;
+  return registration::register_images(input, options, attentive(progress));
+}
+
+/// The numbers of a matrix that nobody else holds, as an array without a copy.
+py::array_t<double> given_away(Points points) {
+  auto* kept = new Points(std::move(points));
+  return view(py::capsule(kept, [](void* p) { delete static_cast<Points*>(p); }), *kept);
+}
+
+registration::Interpolation interpolation_of(const std::string& name) {
+  registration::RegisterOptions options;
+  const auto* option = find_option(registration::register_options(), "interpolation");
+  if (!set_option(*option, options, name)) {
+    throw std::invalid_argument(refusal(*option, name));
+  }
+  return options.interpolation;
+}
+
+py::tuple run(const std::filesystem::path& scene_file, const std::filesystem::path& out, const std::string& until,
+              bool force, const std::string& preset, const py::dict& set, const Listener& progress) {
+  std::vector<std::string> overrides = pipelines::preset_overrides(preset);
+  for (const auto& [path, value] : set) {
+    overrides.push_back(path.cast<std::string>() + "=" + option_text(value));
+  }
+  pipelines::RunOutcome outcome;
+  {
+    const Free free;
+    const pipelines::Scene scene = pipelines::parse_scene(scene_file, overrides);
+    pipelines::check_scene(scene);
+    pipelines::Interruption interruption;
+    const Progress tell = attentive(progress);
+    outcome =
+        pipelines::run(scene, {.out = out, .until = pipelines::stage_from_name(until), .force = force}, interruption,
+                       [&](const pipelines::RunEvent& event) {
+                         const std::string stage(pipelines::stage_name(event.stage));
+                         tell(event.total_fraction, stage + (event.what.empty() ? "" : ": ") + std::string(event.what));
+                       });
+  }
+  return py::make_tuple(py::module_::import("json").attr("loads")(outcome.record.dump()), outcome.failure);
+}
+
+std::vector<std::string> warp_files(const std::filesystem::path& run, const std::vector<std::filesystem::path>& files,
+                                    const std::filesystem::path& out, bool inverse, const std::filesystem::path& like,
+                                    const std::string& interpolation) {
+  pipelines::WarpJob job{.run = run, .files = files, .like = like, .towards = {}, .options = {}};
+  job.towards = inverse ? registration::Towards::preop : registration::Towards::intraop;
+  if (interpolation == "nearest") {
+    job.options.values = registration::Values::labels;
+  } else if (interpolation != "auto") {
+    job.options.values = registration::Values::intensities;
+    job.options.interpolation = interpolation_of(interpolation);
+  }
+  const Free free;
+  pipelines::Interruption interruption;
+  pipelines::StageFolder folder(out, interruption);
+  const std::vector<std::string> notes = pipelines::warp_files(job, folder.path());
+  folder.merge();
+  return notes;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m) {
+  const auto none = py::none();
+  add_images(m);
+  add_results(m);
+  m.def("segment", &segment, py::arg("labels") = none, py::arg("t1") = none, py::arg("brain_mask") = none,
+        py::arg("surface") = none, py::arg("brain_labels") = none, py::arg("skull_label") = none,
+        py::arg("progress") = none,
+        ("Labels (a LabelMap), or a t1 with a brain_mask, or a surface that may be broken, to closed surfaces.\n"
+         "brain_labels: those of the brain [1, 2, 3]; skull_label: of the skull, whose inside holds the brain." +
+         options_help(segmentation::segment_options(), segmentation::SegmentOptions{}))
+            .c_str());
+  m.def("discretise", &discretise, py::arg("brain"), py::arg("labels") = none, py::arg("brain_labels") = none,
+        py::arg("progress") = none,
+        ("Fills a closed Surface with nodes and background cells. The same input gives the same Body, bit for bit." +
+         options_help(discretise::discretise_options(), discretise::DiscretiseOptions{}))
+            .c_str());
+  m.def("solve", &solve_model, py::arg("body"), py::arg("materials"), py::arg("load"), py::arg("labels") = none,
+        py::arg("skull") = none, py::arg("boundary") = none, py::arg("progress") = none,
+        ("Computes how a Body moves under a Load. materials: {label: name or options}, as {1: 'brain', 2: "
+         "dict(youngs_modulus=3000, poisson_ratio=0.49)}.\nlabels: tissue at each place, a LabelMap; skull: a Surface "
+         "that holds the brain; boundary: the brain's own." +
+         options_help(solve::solve_options(), pipelines::quickest()))
+            .c_str());
+  m.def("register", &register_images, py::arg("solution"), py::arg("brain"), py::arg("t1"), py::arg("labels") = none,
+        py::arg("landmarks") = none, py::arg("progress") = none,
+        ("A Solution to fields on the t1's grid and warped images. landmarks: (n, 3) preop, mm, LPS." +
+         options_help(registration::register_options(), registration::RegisterOptions{}))
+            .c_str());
+  m.def(
+      "warp_points",
+      [](const VectorImage& forward, const RowMajor<double>& points) {
+        const Points given = points_of(points, "points");
+        return given_away(registration::move_points(forward, given));
+      },
+      py::arg("forward"), py::arg("points"),
+      "Points (n, 3), mm, LPS, moved by the field of their own brain: preop points by the forward field. Outside the "
+      "field's grid they stay.");
+  m.def(
+      "warp",
+      [](const ScalarImage& image, const VectorImage& resampling, const std::string& interpolation) {
+        const registration::Interpolation how = interpolation_of(interpolation);
+        const Free free;
+        return registration::warp(image, resampling, how);
+      },
+      py::arg("image"), py::arg("resampling"), py::arg("interpolation") = "linear",
+      "An image resampled on its own grid by the field at the places of the result: preop images by the resampling "
+      "field. interpolation: linear or bspline; a LabelMap takes the nearest label.");
+  m.def(
+      "warp", [](const LabelMap& labels, const VectorImage& field) { return registration::warp(labels, field); },
+      py::arg("labels"), py::arg("resampling"), py::call_guard<Free>());
+  m.def("run", &run, py::arg("scene"), py::arg("out"), py::arg("until"), py::arg("force"), py::arg("preset"),
+        py::arg("set"), py::arg("progress"));
+  m.def(
+      "warp_files", &warp_files, py::arg("run"), py::arg("files"), py::arg("out"), py::arg("inverse") = false,
+      py::arg("like") = "", py::arg("interpolation") = "auto",
+      "Takes files along by a finished run, as `brainshift warp`: images, surfaces, tracts, points. Returns a sentence "
+      "on each. inverse: they are intraoperative. like: image whose grid warped images take. interpolation: auto, "
+      "nearest, linear or bspline.");
+  m.def(
+      "write_phantom",
+      [](const std::filesystem::path& out, const py::kwargs& named) {
+        pipelines::PhantomOptions options;
+        set_options(pipelines::phantom_options(), named, options);
+        pipelines::write_phantom(options, out);
+      },
+      py::arg("out"),
+      ("Writes a synthetic head with its load and its scene.xml into a folder." +
+       options_help(pipelines::phantom_options(), pipelines::PhantomOptions{}))
+          .c_str());
+  m.def("set_threads", &pipelines::set_threads, py::arg("threads"), "Threads to use; results do not depend on it.");
+  m.attr("__version__") = BRAINSHIFT_VERSION;
+}
+
+}  // namespace brainshift::python

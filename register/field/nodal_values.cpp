@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "register/field/nodal_values.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "segmentation/geometry/point_tree.hpp"
+
+namespace brainshift::registration {
+
+namespace {
+
+constexpr double coarse_voxel = 4;  // mm; nodes are as far apart, and more
+
+Points places_of_nodes(const Solution& solution, bool moved) {
+  return moved ? Points(solution.positions + solution.displacement) : solution.positions;
+}
+
+Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+}  // namespace
+
+Eigen::MatrixXd nodal_values_at(const Solution& solution, const Eigen::MatrixXd& values, bool moved,
+                                const Points& points) {
+  constexpr std::size_t neighbours = 8;
+  const Points nodes = places_of_nodes(solution, moved);
+  const PointTree tree(nodes);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), values.cols());
+#pragma omp parallel for schedule(static)
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    std::array<std::size_t, neighbours> index{};
+    std::array<double, neighbours> squared{};
+    const auto found = tree.nearest(points.row(i).data(), neighbours, index.data(), squared.data());
+    if (std::sqrt(squared[0]) > solution.spacing[index[0]]) {
+      continue;
+    }
+    double weights = 0;
+    for (std::size_t n = 0; n < found; ++n) {
+      const double weight = 1.0 / (squared[n] + 1e-12);
+      result.row(i) += weight * values.row(static_cast<Eigen::Index>(index[n]));
+      weights += weight;
+    }
+    result.row(i) /= weights;
+  }
+  return result;
+}
+
+ScalarImage nodal_values_on(const Solution& solution, const std::vector<double>& values, bool moved,
+                            const ImageGeometry& grid) {
+  Points places(static_cast<Eigen::Index>(grid.voxel_count()), 3);
+  for (int k = 0; k < grid.size.z(); ++k) {
+    for (int j = 0; j < grid.size.y(); ++j) {
+      for (int i = 0; i < grid.size.x(); ++i) {
+        places.row(static_cast<Eigen::Index>(grid.offset(i, j, k))) =
+            grid.to_world({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+      }
+    }
+  }
+  const Eigen::VectorXd at_voxels = nodal_values_at(solution, as_vector(values), moved, places);
+  return {grid, std::vector<float>(at_voxels.begin(), at_voxels.end())};
+}
+
+std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points) {
+  const Eigen::VectorXd values = nodal_values_at(solution, as_vector(solution.estimated_error), moved, points);
+  return {values.begin(), values.end()};
+}
+
+ImageGeometry grid_around_nodes(const Solution& solution, bool moved) {
+  const Points nodes = places_of_nodes(solution, moved);
+  const Eigen::Vector3d low = nodes.colwise().minCoeff();
+  const Eigen::Vector3d high = nodes.colwise().maxCoeff();
+  ImageGeometry grid;
+  grid.spacing.setConstant(coarse_voxel);
+  grid.origin = low.array() - coarse_voxel;
+  grid.size = ((high - low) / coarse_voxel).array().ceil().cast<int>() + 3;
+  return grid;
+}
+
+}  // namespace brainshift::registration

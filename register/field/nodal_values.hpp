@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "segmentation/image/image.hpp"
+#include "solve/interface/solution.hpp"
+
+namespace brainshift::registration {
+
+/// Values that are known at the solution's nodes (n × k), at points (m × 3, mm, LPS) of the preop or, with `moved`, the
+/// intraop brain: m × k, weights 1 / distance² over the eight nearest nodes. 0 at a point farther than the spacing from
+/// every node.
+Eigen::MatrixXd nodal_values_at(const Solution& solution, const Eigen::MatrixXd& values, bool moved,
+                                const Points& points);
+
+/// The same of one value a node, at the voxels of a grid.
+ScalarImage nodal_values_on(const Solution& solution, const std::vector<double>& values, bool moved,
+                            const ImageGeometry& grid);
+
+/// The same of the solution's estimated error, mm, at points. The solution must have an estimate.
+std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points);
+
+/// A grid around the nodes of the preop or, with `moved`, the intraop brain: voxels of 4 mm along the axes of LPS.
+ImageGeometry grid_around_nodes(const Solution& solution, bool moved);
+
+}  // namespace brainshift::registration

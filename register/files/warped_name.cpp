@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "register/files/warped_name.hpp"
+
+#include <string>
+#include <string_view>
+
+#include "segmentation/files/lower_case.hpp"
+
+namespace brainshift::registration {
+
+std::filesystem::path error_name(const std::filesystem::path& warped) {
+  std::string name = warped.filename().string();
+  if (ending_of(warped) == ".gii") {  // as programs expect of values at the vertices of a surface
+    for (const std::string_view ending : {".gii", ".surf"}) {
+      name.resize(name.size() - (name.ends_with(ending) ? ending.size() : 0));
+    }
+    name += ".shape.gii";
+  }
+  return warped.parent_path() / ("estimated_error_" + name);
+}
+
+std::filesystem::path warped_name(const std::filesystem::path& in) {
+  const std::filesystem::path file = in.has_filename() ? in.filename() : in.parent_path().filename();
+  std::string name = "warped_" + file.string();
+  if (ending_of(file) == ".mgz" || ending_of(file) == ".mgh") {
+    name = std::filesystem::path(name).replace_extension(".nii.gz").string();
+  } else if (std::filesystem::is_directory(in)) {
+    name += ".nii.gz";
+  }
+  return name;
+}
+
+}  // namespace brainshift::registration
