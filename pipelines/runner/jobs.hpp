@@ -28,13 +28,20 @@ struct DiscretiseJob {
   discretise::Refinement refinement;  ///< without its centres; none where the factor is 1
 };
 
+/// That the answer's uncertainty is wanted.
+struct UncertaintyJob {
+  solve::UncertaintyOptions options;
+  std::filesystem::path samples;                ///< folder where finished samples lie from run to run
+  std::map<std::int32_t, std::string> tissues;  ///< names, by label
+};
+
 struct SolveJob {
   std::filesystem::path nodes;
   std::filesystem::path cells;
   std::filesystem::path labels;
   std::filesystem::path skull;           ///< contact when given
   std::filesystem::path surface;         ///< the brain's: where faces are free, and for a simulated load
-  std::filesystem::path landmarks = {};  ///< of a load with noise: where the spread of the answer is wanted
+  std::filesystem::path landmarks = {};  ///< where the spread of the answer is wanted
   std::optional<Load> load;              ///< absent: what the nodes prescribe; the forces of the nodes act in any case
   std::map<std::int32_t, solve::Material> materials;
   solve::SolveOptions options;
@@ -45,6 +52,7 @@ struct SolveJob {
   std::vector<solve::Cut> cut_paths = {};  ///< of a plane problem, those that are in no file
   std::optional<solve::Rupture> rupture = {};
   std::optional<solve::Resection> resection = {};
+  std::optional<UncertaintyJob> uncertainty = {};  ///< absent: not wanted
 };
 
 struct RegisterJob {
@@ -53,6 +61,7 @@ struct RegisterJob {
   std::filesystem::path t1;       ///< empty: the fields take the grid of the labels, and only these are warped
   std::filesystem::path labels;
   std::filesystem::path landmarks;
+  std::filesystem::path uncertainty = {};          ///< uncertainty.vtu of the solve stage; empty: there is none
   std::vector<std::filesystem::path> warp;         ///< images, surfaces and points to move with the same map
   std::vector<std::filesystem::path> warp_labels;  ///< label maps
   registration::RegisterOptions options;

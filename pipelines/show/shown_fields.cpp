@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "register/warp/point_mover.hpp"
+#include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtk_bridge.hpp"
 #include "segmentation/files/vtu_file.hpp"
 #include "segmentation/geometry/point_tree.hpp"
@@ -42,7 +43,7 @@ void write_brain(const fs::path& file, const Solution& solution, Surface brain, 
   vtu::write(file, *data);
 }
 
-ScalarImage error_image(const Solution& solution) {
+ScalarImage nodal_image(const Solution& solution, std::span<const double> values) {
   const Points nodes = solution.positions + solution.displacement;
   const Eigen::Vector3d low = nodes.colwise().minCoeff();
   const Eigen::Vector3d high = nodes.colwise().maxCoeff();
@@ -59,18 +60,19 @@ ScalarImage error_image(const Solution& solution) {
       }
     }
   }
-  const std::vector<double> error = estimated_error_at(solution, true, places);
-  image.voxels.assign(error.begin(), error.end());
+  const Eigen::Map<const Eigen::VectorXd> nodal(values.data(), static_cast<Eigen::Index>(values.size()));
+  const Eigen::VectorXd at_voxels = values_at(solution, nodal, true, places);
+  image.voxels.assign(at_voxels.begin(), at_voxels.end());
   return image;
 }
 
 }  // namespace
 
-std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points) {
+Eigen::MatrixXd values_at(const Solution& solution, const Eigen::MatrixXd& values, bool moved, const Points& points) {
   constexpr std::size_t neighbours = 8;
   const Points nodes = moved ? Points(solution.positions + solution.displacement) : solution.positions;
   const PointTree tree(nodes);
-  std::vector<double> result(static_cast<std::size_t>(points.rows()));
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), values.cols());
 #pragma omp parallel for schedule(static)
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     std::array<std::size_t, neighbours> index{};
@@ -79,22 +81,43 @@ std::vector<double> estimated_error_at(const Solution& solution, bool moved, con
     if (std::sqrt(squared[0]) > solution.spacing[index[0]]) {
       continue;
     }
-    double sum = 0, weights = 0;
+    double weights = 0;
     for (std::size_t n = 0; n < found; ++n) {
       const double weight = 1.0 / (squared[n] + 1e-12);
-      sum += weight * solution.estimated_error[index[n]];
+      result.row(i) += weight * values.row(static_cast<Eigen::Index>(index[n]));
       weights += weight;
     }
-    result[static_cast<std::size_t>(i)] = sum / weights;
+    result.row(i) /= weights;
   }
   return result;
+}
+
+std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points) {
+  const Eigen::Map<const Eigen::VectorXd> nodal(solution.estimated_error.data(),
+                                                static_cast<Eigen::Index>(solution.estimated_error.size()));
+  const Eigen::VectorXd values = values_at(solution, nodal, moved, points);
+  return {values.begin(), values.end()};
+}
+
+std::vector<double> read_deviations(const fs::path& file) {
+  const auto grid = vtu::read(file);
+  const auto nodes = static_cast<std::size_t>(grid->GetNumberOfPoints());
+  std::vector<double> values = vtu::array(file, *grid->GetPointData(), "uncertainty", nodes);
+  if (values.empty()) {
+    refuse(file, "it has no point array `uncertainty`.");
+  }
+  return values;
+}
+
+void write_nodal_image(const fs::path& file, const Solution& solution, std::span<const double> values) {
+  write_image(file, nodal_image(solution, values));
 }
 
 void write_shown_fields(const fs::path& folder, const Solution& solution, const Surface& brain,
                         const VectorImage& forward) {
   write_brain(folder / "brain_intraop.vtp", solution, brain, forward);
   if (!solution.estimated_error.empty()) {
-    write_image(folder / "estimated_error.nii.gz", error_image(solution));
+    write_nodal_image(folder / "estimated_error.nii.gz", solution, solution.estimated_error);
   }
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <span>
 
 #include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
@@ -16,8 +18,19 @@ namespace brainshift::pipelines {
 void write_shown_fields(const std::filesystem::path& folder, const Solution& solution, const Surface& brain,
                         const VectorImage& forward);
 
-/// The solution's estimated error at points of the preop or, with `moved`, the intraop brain: weights 1 / distance²
-/// over the eight nearest nodes. 0 at a point farther than the spacing from every node.
+/// Values that are known at the solution's nodes (n × k), at points of the preop or, with `moved`, the intraop brain:
+/// weights 1 / distance² over the eight nearest nodes. 0 at a point farther than the spacing from every node.
+Eigen::MatrixXd values_at(const Solution& solution, const Eigen::MatrixXd& values, bool moved, const Points& points);
+
+/// The same of the solution's estimated error.
 std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points);
+
+/// The array uncertainty of a solve stage's uncertainty.vtu, mm, one a node. Throws std::invalid_argument, naming the
+/// file, when it is at fault.
+std::vector<double> read_deviations(const std::filesystem::path& file);
+
+/// Writes values at the solution's nodes as an image of the intraop brain, on voxels of 4 mm, 0 outside. Throws
+/// std::runtime_error, naming the file, when it cannot be written whole.
+void write_nodal_image(const std::filesystem::path& file, const Solution& solution, std::span<const double> values);
 
 }  // namespace brainshift::pipelines
