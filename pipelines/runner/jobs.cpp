@@ -7,7 +7,6 @@
 
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/patient_registration.hpp"
-#include "pipelines/runner/uncertainty.hpp"
 #include "pipelines/runner/warnings.hpp"
 #include "pipelines/runner/warp_files.hpp"
 #include "pipelines/show/shown_fields.hpp"
@@ -200,7 +199,7 @@ void add_uncertainty(const SolveJob& job, const SolveInput& input, const solve::
                      const fs::path& out, StageReport& said, const Progress& progress) {
   std::optional<Spread> spread;
   if (job.uncertainty && result.failure.empty()) {
-    spread = write_spread(job, input, result, out, said, progress);
+    spread = write_spread(*job.uncertainty, {input.model, input.options, result}, out, said, progress);
   }
   if (job.landmarks.empty() || (!spread && !result.measures.measured)) {
     return;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/runner/stage_report.hpp"
+#include "pipelines/runner/uncertainty.hpp"
 #include "pipelines/scene/scene_labels.hpp"
 #include "solve/load/rigid_fit.hpp"
 
@@ -26,13 +27,6 @@ struct DiscretiseJob {
   discretise::DiscretiseOptions options;
   std::optional<Load> load;           ///< where the craniotomy is, for the refinement
   discretise::Refinement refinement;  ///< without its centres; none where the factor is 1
-};
-
-/// That the answer's uncertainty is wanted.
-struct UncertaintyJob {
-  solve::UncertaintyOptions options;
-  std::filesystem::path samples;                ///< folder where finished samples lie from run to run
-  std::map<std::int32_t, std::string> tissues;  ///< names, by label
 };
 
 struct SolveJob {

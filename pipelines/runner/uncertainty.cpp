@@ -132,10 +132,10 @@ double root_mean_square(const Points& difference) {
 /// Solves the model with other constants, or finds it solved.
 class Sampler {
  public:
-  Sampler(const SolveJob& job, const SolveInput& input, const solve::SolveResult& result, const fs::path& out)
-      : options_(input.options), model_(input.model), answer_(result.solution), folder_(job.uncertainty->samples, out) {
-    if (result.measures.measured) {
-      model_.conditions.measured->weight = result.measures.measured->weight;
+  Sampler(const UncertaintyJob& job, const Solved& solved, const fs::path& out)
+      : options_(solved.options), model_(solved.model), answer_(solved.result.solution), folder_(job.samples, out) {
+    if (solved.result.measures.measured) {
+      model_.conditions.measured->weight = solved.result.measures.measured->weight;
     }
   }
 
@@ -164,11 +164,11 @@ class Sampler {
   SampleFolder folder_;
 };
 
-Eigen::MatrixXd spread_of_constants(const SolveJob& job, const SolveInput& input, const solve::SolveResult& result,
-                                    const fs::path& out, StageReport& said, const Progress& progress) {
-  const solve::UncertaintyOptions& options = job.uncertainty->options;
-  const solve::Constants own{input.model.materials, input.model.gravity, input.model.fluid};
-  Sampler sampler(job, input, result, out);
+Eigen::MatrixXd spread_of_constants(const UncertaintyJob& job, const Solved& solved, const fs::path& out,
+                                    StageReport& said, const Progress& progress) {
+  const solve::UncertaintyOptions& options = job.options;
+  const solve::Constants own{solved.model.materials, solved.model.gravity, solved.model.fluid};
+  Sampler sampler(job, solved, out);
   report(progress, 0, "samples: the model's own constants");
   const std::optional<Points> answer = sampler.displacement(own);
   if (!answer) {
@@ -179,7 +179,7 @@ Eigen::MatrixXd spread_of_constants(const SolveJob& job, const SolveInput& input
   for (int sample = 1; sample <= options.samples; ++sample) {
     report(progress, static_cast<double>(sample) / (options.samples + 1),
            "sample " + std::to_string(sample) + " of " + std::to_string(options.samples));
-    const solve::Constants constants = solve::drawn_constants(input.model, options, sample);
+    const solve::Constants constants = solve::drawn_constants(solved.model, options, sample);
     if (std::optional<Points> found = sampler.displacement(constants)) {
       table.add(sample, constants, root_mean_square(*found - *answer));
       samples.push_back(std::move(*found));
@@ -196,15 +196,16 @@ Eigen::MatrixXd spread_of_constants(const SolveJob& job, const SolveInput& input
 }
 
 /// Of the whole and of each tissue, root mean square over its nodes, mm.
-void add_words(const SolveJob& job, const SolveInput& input, const std::vector<double>& deviation, StageReport& said) {
+void add_words(const UncertaintyJob& job, const solve::Model& model, const std::vector<double>& deviation,
+               StageReport& said) {
   struct Sum {
     double squares = 0, count = 0;
   };
   Sum brain;
   std::map<std::int32_t, Sum> tissues;
   for (std::size_t a = 0; a < deviation.size(); ++a) {
-    const Eigen::Vector3d place = input.model.cloud.positions.row(static_cast<Eigen::Index>(a));
-    const auto label = input.model.labels ? std::int32_t{label_at(*input.model.labels, place)} : 0;
+    const Eigen::Vector3d place = model.cloud.positions.row(static_cast<Eigen::Index>(a));
+    const auto label = model.labels ? std::int32_t{label_at(*model.labels, place)} : 0;
     for (Sum* sum : {&brain, &tissues[label]}) {
       sum->squares += deviation[a] * deviation[a];
       sum->count += 1;
@@ -212,7 +213,7 @@ void add_words(const SolveJob& job, const SolveInput& input, const std::vector<d
   }
   auto& words = said.measures["uncertainty"];
   words["brain_mm"] = std::sqrt(brain.squares / brain.count);
-  for (const auto& [label, name] : job.uncertainty->tissues) {
+  for (const auto& [label, name] : job.tissues) {
     if (const auto found = tissues.find(label); found != tissues.end()) {
       words["tissues_mm"][name] = std::sqrt(found->second.squares / found->second.count);
     }
@@ -232,19 +233,19 @@ void write_nodes(const fs::path& file, const Points& positions, const Spread& sp
 
 }  // namespace
 
-Spread write_spread(const SolveJob& job, const SolveInput& input, const solve::SolveResult& result, const fs::path& out,
-                    StageReport& said, const Progress& progress) {
-  solve::check_sampled(input.model, input.options);
-  const Points& positions = result.solution.positions;
+Spread write_spread(const UncertaintyJob& job, const Solved& solved, const fs::path& out, StageReport& said,
+                    const Progress& progress) {
+  solve::check_sampled(solved.model, solved.options);
+  const Points& positions = solved.result.solution.positions;
   Spread spread{Eigen::MatrixXd::Zero(positions.rows(), 6), Eigen::MatrixXd::Zero(positions.rows(), 6)};
-  if (result.measures.measured) {
-    spread.noise = solve::measured_covariance(input.model, input.options, *result.measures.measured);
+  if (solved.result.measures.measured) {
+    spread.noise = solve::measured_covariance(solved.model, solved.options, *solved.result.measures.measured);
   }
-  if (solve::varies(input.model, job.uncertainty->options)) {
-    spread.constants = spread_of_constants(job, input, result, out, said, progress);
+  if (solve::varies(solved.model, job.options)) {
+    spread.constants = spread_of_constants(job, solved, out, said, progress);
   }
   write_nodes(out / "uncertainty.vtu", positions, spread);
-  add_words(job, input, deviations(spread.noise + spread.constants), said);
+  add_words(job, solved.model, deviations(spread.noise + spread.constants), said);
   return spread;
 }
 

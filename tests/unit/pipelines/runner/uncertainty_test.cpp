@@ -7,7 +7,7 @@
 
 #include <set>
 
-#include "pipelines/runner/plan.hpp"
+#include "pipelines/runner/jobs.hpp"
 #include "pipelines/show/shown_fields.hpp"
 #include "segmentation/files/vtu_file.hpp"
 #include "tests/unit/pipelines/ball_folder.hpp"
