@@ -135,6 +135,16 @@ void add_field(ViewerData& data, const std::string& name, double step, int compo
   data.arrays.push_back({name, packed_numbers(all)});
 }
 
+// Values of the solution's nodes, mm, where there are any: each voxel has that of the nearest.
+void add_nodal(ViewerData& data, const std::string& name, const std::vector<double>& values, const RunData& run,
+               const ImageGeometry& grid) {
+  if (!values.empty()) {
+    const PointTree nodes(run.solution->positions);
+    add_field(data, name, 0.005, 1, grid,
+              [&](const Eigen::Vector3d& place, int) { return values[nodes.nearest(place.data()).first]; });
+  }
+}
+
 void add_fields(ViewerData& data, const RunData& run, const ImageGeometry& grid) {
   const VectorImage& forward = *run.forward;
   add_field(data, "displacement", 0.02, 3, grid, [&](const Eigen::Vector3d& place, int axis) {
@@ -144,12 +154,8 @@ void add_fields(ViewerData& data, const RunData& run, const ImageGeometry& grid)
   if (run.jacobian) {
     add_field(data, "ratio", 0.002, 1, grid, [&](auto& place, int) { return value_at(*run.jacobian, place); });
   }
-  if (!run.solution->estimated_error.empty()) {
-    const PointTree nodes(run.solution->positions);
-    add_field(data, "error", 0.005, 1, grid, [&](const Eigen::Vector3d& place, int) {
-      return run.solution->estimated_error[nodes.nearest(place.data()).first];
-    });
-  }
+  add_nodal(data, "error", run.solution->estimated_error, run, grid);
+  add_nodal(data, "deviation", run.deviation, run, grid);
   data.arrays.push_back({"brain", packed_numbers(inside(*run.brain, grid))});
 }
 

@@ -163,16 +163,22 @@ struct Thinned {
   }
 };
 
+/// places: what the rows see, the measured points first.
+Response response_of(const Thinned& thin, const Model& model, const ShapeRows& rows, const Points& places) {
+  Response response = linear_response(thin.parts, rows, model.skull.has_value());
+  if (model.conditions.measured->registration_unknown) {
+    response.rigid = rigid_motions(places, thin.positions);
+  }
+  return response;
+}
+
 }  // namespace
 
 MeasuredFit fit_measured(const Model& model, const SolveOptions& options) {
   const Thinned thin(model, options);
   const Measurement& measured = *model.conditions.measured;
   const Points places = stacked(thin.positions, measured.asked);
-  Response response = linear_response(thin.parts, inner_rows(*thin.shape, places), model.skull.has_value());
-  if (measured.registration_unknown) {
-    response.rigid = rigid_motions(places, thin.positions);
-  }
+  const Response response = response_of(thin, model, inner_rows(*thin.shape, places), places);
   MeasuredFit fit = choose_weight(response, thin.displacement, thin.sigma, measured.weight);
   fit.motion_centre = thin.positions.colwise().mean().transpose();
   fit.motion_size = (thin.positions.rowwise() - fit.motion_centre.transpose()).rowwise().norm().mean();
@@ -183,10 +189,8 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
   const Thinned thin(model, options);
   ShapeRows rows = inner_rows(*thin.shape, thin.positions);
   append_nodes(thin.parts.cloud.size(), rows);
-  Response response = linear_response(thin.parts, rows, model.skull.has_value());
-  if (model.conditions.measured->registration_unknown) {
-    response.rigid = rigid_motions(stacked(thin.positions, thin.parts.cloud.positions), thin.positions);
-  }
+  const Points places = stacked(thin.positions, thin.parts.cloud.positions);
+  const Response response = response_of(thin, model, rows, places);
   const Eigen::MatrixXd joint = posterior_covariance(response, thin.sigma, fit);
   return covariance_of(thin.shape->evaluate(model.cloud.positions, false), joint);
 }
@@ -195,10 +199,7 @@ std::vector<Outlier> outliers(const Model& model, const SolveOptions& options, c
   constexpr double surprising = 5;       // 60 points of a Gaussian have one in a thousand runs
   constexpr double usual_median = 1.54;  // of the root of chi-squared with three degrees of freedom
   const Thinned thin(model, options);
-  Response response = linear_response(thin.parts, inner_rows(*thin.shape, thin.positions), model.skull.has_value());
-  if (model.conditions.measured->registration_unknown) {
-    response.rigid = rigid_motions(thin.positions, thin.positions);
-  }
+  const Response response = response_of(thin, model, inner_rows(*thin.shape, thin.positions), thin.positions);
   const Eigen::VectorXd off = surprise(response, thin.displacement, thin.sigma, fit.weight);
   std::vector<double> sorted(off.begin(), off.end());
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());

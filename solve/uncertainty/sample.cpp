@@ -8,6 +8,7 @@
 
 #include "solve/measured/weight.hpp"
 #include "solve/run/coarse.hpp"
+#include "solve/run/prepare.hpp"
 #include "solve/run/whole_body.hpp"
 
 namespace brainshift::solve {
@@ -30,7 +31,7 @@ void check_sampled(const Model& model, const SolveOptions& options) {
 
 std::optional<Points> sampled_displacement(const Model& model, const SolveOptions& given) {
   check_sampled(model, given);
-  SolveOptions options = given;
+  SolveOptions options = completed(given, model);
   options.snapshot_every = 0;
   if (model.cloud.size() > most_sampled_nodes) {
     return coarse_displacement(model, options, {});

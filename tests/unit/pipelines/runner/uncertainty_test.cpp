@@ -10,9 +10,13 @@
 #include "pipelines/runner/jobs.hpp"
 #include "pipelines/show/shown_fields.hpp"
 #include "segmentation/files/vtu_file.hpp"
+#include "tests/unit/expect_parts.hpp"
 #include "tests/unit/pipelines/ball_folder.hpp"
 
 namespace brainshift::pipelines::uncertainty_test {
+
+using brainshift::test::expect_parts;
+using brainshift::test::refusal;
 
 /// A ball of two tissues, drawn out at its top, with its samples in a folder.
 class UncertaintyTest : public BallFolder {
@@ -46,9 +50,8 @@ class UncertaintyTest : public BallFolder {
     job.options.shape.basis = Basis::linear;
     job.options.points_per_cell = 1;
     job.options.tolerance = 0.01;
-    job.uncertainty = UncertaintyJob{.options = {.samples = samples},
-                                     .samples = folder_ / "samples",
-                                     .tissues = {{1, "parenchyma"}, {3, "tumour"}}};
+    job.uncertainty = UncertaintyJob{
+        .options = {.samples = samples}, .samples = folder_ / "samples", .tissues = {{1, "parenchyma"}, {3, "tumour"}}};
     return job;
   }
 
@@ -82,7 +85,8 @@ TEST_F(UncertaintyTest, IsWrittenAtTheNodesAndSaidForEachTissue) {
   EXPECT_EQ(words["samples"], 4);
   EXPECT_GT(words["tissues_mm"]["tumour"], 0.0);
   EXPECT_LT(words["brain_mm"], largest);
-  EXPECT_EQ(read(folder_ / "out/samples.csv").find("sample,rms_mm,shear_modulus_1,poisson_ratio_1,shear_modulus_3"), 0U);
+  EXPECT_EQ(read(folder_ / "out/samples.csv").find("sample,rms_mm,shear_modulus_1,poisson_ratio_1,shear_modulus_3"),
+            0U);
 }
 
 TEST_F(UncertaintyTest, OfALoadWithNoiseHasTheNoisesPartToo) {
@@ -148,6 +152,28 @@ TEST_F(UncertaintyTest, GivesEachLandmarkACovariance) {
                         "associatedNodeID\n1,0,0,5,0,0,0,1,1,1,0,a,,\n");
   solved(job, "out");
   EXPECT_EQ(read(folder_ / "out/uncertainty.csv").find("# frame: LPS\nx,y,z,xx,yy,zz,xy,yz,zx\n0,0,5,"), 0U);
+}
+
+TEST_F(UncertaintyTest, RefusesALoadWhosePointsDoNotTellAMotionFromNoise) {
+  const SolveJob job = solve_job(2, 0.5);
+  const std::string head = "# frame: LPS\nx,y,z,ux,uy,uz\n", point = "0,0,20,0,0,-1\n";
+  for (const std::string& points : {point, point + point + point}) {
+    write("load.csv", head + points);
+    expect_parts(refusal([&] { solved(job, "out"); }), {"1 measured points", "measure three or more"});
+  }
+}
+
+TEST_F(UncertaintyTest, NamesThePointThatContradictsTheOthers) {
+  const SolveJob job = solve_job(2, 0.5);
+  solve::CraniotomyLoad load = solve::read_craniotomy_csv(folder_ / "load.csv");
+  load.displacement.row(0) += Eigen::RowVector3d(30, 0, 0);
+  solve::write_craniotomy_csv(folder_ / "load.csv", load);
+  const StageReport said = solved(job, "out");
+  std::string notes;
+  for (const std::string& note : said.notes) {
+    notes += note + "\n";
+  }
+  expect_parts(notes, {"warning: what was measured near (", "30 mm of displacement", "standard deviations"});
 }
 
 }  // namespace brainshift::pipelines::uncertainty_test

@@ -14,8 +14,10 @@ class CheckUncertainty : public SceneFile {
   std::string fault_with(const std::string& uncertainty, const std::string& load_attributes = "") {
     write_image(folder_ / "labels.nii.gz", block_labels());
     write_load();
-    return fault("<scene><image labels=\"labels.nii.gz\"/><tissues><tissue label=\"1\"/><tissue label=\"3\"/></tissues>"
-                 "<load" + load_attributes + "><craniotomy file=\"load.csv\"/></load>" + uncertainty + "</scene>");
+    return fault(
+        "<scene><image labels=\"labels.nii.gz\"/><tissues><tissue label=\"1\"/><tissue label=\"3\"/></tissues>"
+        "<load" +
+        load_attributes + "><craniotomy file=\"load.csv\"/></load>" + uncertainty + "</scene>");
   }
 };
 
