@@ -118,10 +118,11 @@ json displacement(PageContent& content) {
           {"surfaces", figures_of(content.surfaces)}};
 }
 
-// "1.2 mm in the brain, 0.8 mm in the tumour".
+// "1.2 mm over the whole brain, 0.8 mm in tumour".
 std::string said_of(const json& uncertainty) {
   std::string text = readable(uncertainty.value("brain_mm", 0.0)) + " mm over the whole brain";
-  for (const auto& [name, value] : uncertainty.value("tissues_mm", json::object()).items()) {
+  const json tissues = uncertainty.value("tissues_mm", json::object());  // items() only refers to it
+  for (const auto& [name, value] : tissues.items()) {
     text += ", " + readable(value.get<double>()) + " mm in " + name;
   }
   return text;

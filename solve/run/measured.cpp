@@ -163,6 +163,11 @@ struct Thinned {
   }
 };
 
+/// Whether all of a node's displacement is prescribed and none of it measured.
+bool is_held(const Conditions& conditions, Eigen::Index node) {
+  return conditions.displacement.row(node).allFinite() && conditions.measured->spread.row(node).norm() == 0;
+}
+
 /// places: what the rows see, the measured points first.
 Response response_of(const Thinned& thin, const Model& model, const ShapeRows& rows, const Points& places) {
   Response response = linear_response(thin.parts, rows, model.skull.has_value());
@@ -192,7 +197,13 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
   const Points places = stacked(thin.positions, thin.parts.cloud.positions);
   const Response response = response_of(thin, model, rows, places);
   const Eigen::MatrixXd joint = posterior_covariance(response, thin.sigma, fit);
-  return covariance_of(thin.shape->evaluate(model.cloud.positions, false), joint);
+  Eigen::MatrixXd covariance = covariance_of(inner_rows(*thin.shape, model.cloud.positions), joint);
+  for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
+    if (is_held(model.conditions, a)) {
+      covariance.row(a).setZero();  // a ball about it reaches past the body
+    }
+  }
+  return covariance;
 }
 
 std::vector<Outlier> outliers(const Model& model, const SolveOptions& options, const MeasuredFit& fit) {

@@ -17,7 +17,8 @@ MeasuredFit fit_measured(const Model& model, const SolveOptions& options);
 
 /// What noise and prior leave open of the displacement at each node of the model's cloud, (n × 6) mm²: xx, yy, zz, xy,
 /// yz, zx of its covariance, with the weight and the noise_factor of the fit; of the linear body of some hundred of the
-/// nodes, whose shape functions carry it to the others. Throws as solve() does.
+/// nodes, whose shape functions carry it to the others, and, as at landmarks, of the mean over a ball of seen_radius;
+/// 0 at nodes that are held. Throws as solve() does.
 Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
 
 /// A measured point that contradicts the others.

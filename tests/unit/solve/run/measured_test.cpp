@@ -97,7 +97,8 @@ TEST(SolveMeasured, IsDrawnByAPointInside) {
 
 TEST(MeasuredCovariance, IsTheNoisesNearThePointsAndThePriorsFarOffAndGrowsWithBoth) {
   Model model = measured_box(0.5);
-  const MeasuredFit fit{.weight = 0.05, .noise_factor = 1};
+  MeasuredFit fit;
+  fit.weight = 0.05;
   const Eigen::MatrixXd covariance = measured_covariance(model, quick(), fit);
   ASSERT_EQ(covariance.rows(), model.cloud.positions.rows());
   EXPECT_GE(covariance.leftCols(3).minCoeff(), 0);
@@ -110,8 +111,8 @@ TEST(MeasuredCovariance, IsTheNoisesNearThePointsAndThePriorsFarOffAndGrowsWithB
       EXPECT_LT(covariance.row(a).leftCols(3).maxCoeff(), 0.25) << "no worse than the point itself";
     }
   }
-  const MeasuredFit doubled{.weight = 0.05, .noise_factor = 2};
-  EXPECT_LT((measured_covariance(model, quick(), doubled) - 4 * covariance).norm(), 1e-9 * covariance.norm());
+  fit.noise_factor = 2;
+  EXPECT_LT((measured_covariance(model, quick(), fit) - 4 * covariance).norm(), 1e-9 * covariance.norm());
 }
 
 TEST(MeasuredCovariance, IsThatOfTheLandmarksAtANodeInside) {
@@ -121,7 +122,7 @@ TEST(MeasuredCovariance, IsThatOfTheLandmarksAtANodeInside) {
   model.conditions.measured->asked = model.cloud.positions.row(middle);
   const MeasuredFit fit = fit_measured(model, quick());
   const Eigen::RowVectorXd at_node = measured_covariance(model, quick(), fit).row(middle);
-  EXPECT_LT((at_node - fit.covariance.row(0)).norm(), 0.1 * at_node.norm()) << "one is a mean over a ball";
+  EXPECT_LT((at_node - fit.covariance.row(0)).norm(), 1e-9 * at_node.norm());
 }
 
 TEST(Outliers, NameThePointThatContradictsTheOthersAndNoneWhereAllAgree) {
