@@ -137,16 +137,15 @@ Warnings warnings_of(const solve::SolveMeasures& measures) {
           "points a node"};
 }
 
-Warnings warnings_of(const std::vector<solve::Outlier>& outliers) {
-  Warnings warnings;
-  for (const solve::Outlier& point : outliers) {
-    warnings.push_back("what was measured near (" + write_numbers(point.position) + ") mm, " +
-                       with_digits(point.displacement.norm()) + " mm of displacement, is " +
-                       with_digits(point.deviations) +
-                       " standard deviations from what the other points say; look at it, and give it a larger sigma or "
-                       "take it out");
+Warnings warnings_of(const std::optional<solve::Outlier>& outlier) {
+  if (!outlier) {
+    return {};
   }
-  return warnings;
+  return {
+      "what was measured near (" + write_numbers(outlier->position.array().round().matrix()) + ") mm is " +
+      with_digits(outlier->deviations) +
+      " standard deviations from what the other points say; look at the points there, and give a wrong one a larger "
+      "sigma or take it out"};
 }
 
 Warnings warnings_of(const registration::RegisterMeasures& measures) {

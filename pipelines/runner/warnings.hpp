@@ -33,8 +33,8 @@ Warnings warnings_of_weight(const solve::Model& model);
 /// Of strong compression with few integration points.
 Warnings warnings_of(const solve::SolveMeasures& measures);
 
-/// Of measured points that contradict the others.
-Warnings warnings_of(const std::vector<solve::Outlier>& outliers);
+/// Of what was measured where it contradicts itself.
+Warnings warnings_of(const std::optional<solve::Outlier>& outlier);
 
 /// Of a field that folds.
 Warnings warnings_of(const registration::RegisterMeasures& measures);

@@ -206,7 +206,7 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
   return covariance;
 }
 
-std::vector<Outlier> outliers(const Model& model, const SolveOptions& options, const MeasuredFit& fit) {
+std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options, const MeasuredFit& fit) {
   constexpr double surprising = 5;       // 60 points of a Gaussian have one in a thousand runs
   constexpr double usual_median = 1.54;  // of the root of chi-squared with three degrees of freedom
   const Thinned thin(model, options);
@@ -214,14 +214,12 @@ std::vector<Outlier> outliers(const Model& model, const SolveOptions& options, c
   const Eigen::VectorXd off = surprise(response, thin.displacement, thin.sigma, fit.weight);
   std::vector<double> sorted(off.begin(), off.end());
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double most = surprising * std::max(1.0, sorted[sorted.size() / 2] / usual_median);
-  std::vector<Outlier> found;
-  for (Eigen::Index p = 0; p < off.size(); ++p) {
-    if (off[p] > most) {
-      found.push_back({thin.positions.row(p), thin.displacement.row(p), off[p]});
-    }
+  const double usual = std::max(1.0, sorted[sorted.size() / 2] / usual_median);
+  Eigen::Index worst = 0;
+  if (!(off.maxCoeff(&worst) > surprising * usual)) {
+    return std::nullopt;
   }
-  return found;
+  return Outlier{thin.positions.row(worst), off[worst]};
 }
 
 SolveResult solve_measured(const Model& model, const SolveOptions& options, const Progress& progress) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <optional>
 
 #include "segmentation/progress/progress.hpp"
 #include "solve/interface/model.hpp"
@@ -21,16 +21,18 @@ MeasuredFit fit_measured(const Model& model, const SolveOptions& options);
 /// 0 at nodes that are held. Throws as solve() does.
 Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
 
-/// A measured point that contradicts the others.
+/// Where what was measured contradicts itself.
 struct Outlier {
-  Eigen::Vector3d position;      ///< undeformed: of the node that stands for it, or its own inside the body, mm
-  Eigen::Vector3d displacement;  ///< as measured, mm
-  double deviations;             ///< surprise(): how many standard deviations it is from what the others say
+  Eigen::Vector3d
+      position;       ///< undeformed: of the node that stands for a measured point, or the point's own inside, mm
+  double deviations;  ///< surprise(): how many standard deviations it is from what the others say
 };
 
-/// Points that are more than five standard deviations off, and five times farther than is usual of this load: where all
-/// are far off, σ is too small, and no point is to blame. Throws as solve() does.
-std::vector<Outlier> outliers(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
+/// The most surprising of the measured points, where it is more than five standard deviations off, and five times
+/// farther than is usual of this load: where all are far off, σ is too small, and no point is to blame. On the cortex
+/// what is looked at has been extended over the opening: the fault lies near, and among dense points a single one may
+/// be averaged away. Throws as solve() does.
+std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
 
 /// solve() of a model whose conditions were measured with noise: the weight is chosen on a cloud of some hundred of the
 /// nodes, choose_weight(), unless the conditions name one. Throws as solve() does, and std::invalid_argument with a
