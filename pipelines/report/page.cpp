@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "pipelines/report/page_template.hpp"
+#include "pipelines/report/plot.hpp"
 #include "pipelines/report/run_data.hpp"
 
 namespace brainshift::pipelines {
@@ -117,6 +118,68 @@ json displacement(PageContent& content) {
           {"surfaces", figures_of(content.surfaces)}};
 }
 
+// "1.2 mm over the whole brain, 0.8 mm in tumour".
+std::string said_of(const json& uncertainty) {
+  std::string text = readable(uncertainty.value("brain_mm", 0.0)) + " mm over the whole brain";
+  const json tissues = uncertainty.value("tissues_mm", json::object());  // items() only refers to it
+  for (const auto& [name, value] : tissues.items()) {
+    text += ", " + readable(value.get<double>()) + " mm in " + name;
+  }
+  return text;
+}
+
+json uncertainty(PageContent& content, const json& stages) {
+  const json::json_pointer place("/solve/measures/uncertainty");
+  if (content.uncertainties.empty() || !stages.contains(place)) {
+    return false;
+  }
+  const json& measures = stages.at(place);
+  const bool sampled = measures.contains("samples");
+  return {{"said", said_of(measures)},
+          {"sampled", sampled ? json{{"samples", readable(measures.value("samples", 0.0))}} : json(false)},
+          {"figures", figures_of(content.uncertainties)}};
+}
+
+Figure weight_figure(const json& measures) {
+  Series tried{.name = "weights that were tried", .x = {}, .y = {}};
+  Series taken{.name = "the one that was taken", .x = {}, .y = {}, .joined = false};
+  const auto add = [](Series& series, const json& row) {
+    series.x.push_back(row.value("energy_mJ", 0.0));
+    series.y.push_back(row.value("misfit", 0.0));
+  };
+  for (const json& row : measures.at("weights")) {
+    add(tried, row);
+    if (row.value("weight_mJ", 0.0) == measures.value("weight_mJ", 0.0)) {
+      add(taken, row);
+    }
+  }
+  return {.name = "weight",
+          .width = 680,
+          .height = 440,
+          .svg = plot_svg({.file = "weight",
+                           .title = "What the measured points ask of the tissue",
+                           .x_label = "energy of the deformation, mJ",
+                           .y_label = "misfit, sum of squares over variances",
+                           .series = {std::move(tried), std::move(taken)},
+                           .scale = Scale::log_log})};
+}
+
+// How a measured load was weighed: the weights that were tried, or that it has no noise to be weighed by.
+json weight_of(const json& stages, const json& options) {
+  const json::json_pointer place("/solve/measures");
+  const json measures = stages.contains(place) ? stages.at(place) : json::object();
+  if (measures.contains("weights")) {
+    Figure figure = weight_figure(measures);
+    return {{"exact", false},
+            {"chosen",
+             {{"weight", readable(measures.value("weight_mJ", 0.0))},
+              {"factor", readable(measures.value("noise_factor", 1.0))},
+              {"figures", figures_of(std::span(&figure, 1))}}}};
+  }
+  const bool measured = options.contains("load.craniotomy") || options.contains("load.markups");
+  return measured && !measures.contains("weight_mJ") ? json{{"exact", true}, {"chosen", false}} : json(false);
+}
+
 json labels_of(PageContent& content) {
   return content.labels.empty() ? json(false) : json{{"figures", figures_of(content.labels)}};
 }
@@ -200,6 +263,8 @@ std::string make_page(PageContent content) {
                               {"licences", !content.libraries.empty()},
                               {"comparison", comparison(content.comparisons)},
                               {"displacement", displacement(content)},
+                              {"uncertainty", uncertainty(content, stages)},
+                              {"weight", weight_of(stages, elements)},
                               {"labels", labels_of(content)},
                               {"measures", measures_of(measures)},
                               {"convergence", convergence(content)},

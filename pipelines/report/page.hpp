@@ -17,6 +17,7 @@ struct PageContent {
   double arrow_factor = 1;                  ///< arrows are drawn so many times too long
   std::vector<Figure> comparisons = {};     ///< before, after, difference; three a plane
   std::vector<Figure> displacements = {};   ///< one a plane
+  std::vector<Figure> uncertainties = {};   ///< one a plane
   std::vector<Figure> labels = {};          ///< one a plane
   std::vector<Figure> surfaces = {};        ///< none or one
   ViewerData viewer = {};                   ///< without an array where there is no image

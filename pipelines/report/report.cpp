@@ -35,8 +35,8 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
 constexpr std::size_t largest_page = 10'000'000;  // letters: what goes by mail
 constexpr std::size_t tables = 200'000;           // and script: what else is on the page
 
-std::array<const std::vector<Figure>*, 4> all_figures(const PageContent& content) {
-  return {&content.comparisons, &content.displacements, &content.labels, &content.surfaces};
+std::array<const std::vector<Figure>*, 5> all_figures(const PageContent& content) {
+  return {&content.comparisons, &content.displacements, &content.uncertainties, &content.labels, &content.surfaces};
 }
 
 // The pictures do not depend on each other: one is drawn while another's PNG is compressed.
@@ -59,6 +59,11 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
   report(progress, 0.3, "drawing the surface");
   content.surfaces.push_back(surface_figure(run, view));
   report(progress, 0.6, "drawing the slices");
+  for (const SlicePlane& plane : view.planes) {
+    if (!run.deviation.empty()) {
+      content.uncertainties.push_back(uncertainty_figure(run, view, plane));
+    }
+  }
   for (auto& figures : comparisons) {
     std::ranges::move(figures.get(), std::back_inserter(content.comparisons));
   }

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "pipelines/show/shown_fields.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/output/field_difference.hpp"
@@ -80,6 +81,9 @@ RunData read_run(const fs::path& run_folder) {
   run.history = text_of(run_folder / "solve/history.csv");
   run.load = text_of(run_folder / "solve/load.csv");
   run.uncertainty = text_of(run_folder / "solve/uncertainty.csv");
+  if (const fs::path file = run_folder / "solve/uncertainty.vtu"; run.solution && fs::exists(file)) {
+    run.deviation = read_deviations(file);
+  }
   run.warped_labels = read_if_there(run_folder / "register/warped_labels.nii.gz", label_map);
   run.jacobian = read_if_there(run_folder / "register/jacobian.nii.gz", image);
   run.forward = forward.get();

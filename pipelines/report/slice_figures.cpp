@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "register/field/nodal_values.hpp"
 #include "register/warp/warp.hpp"
 #include "solve/output/field_difference.hpp"
 
@@ -126,8 +127,8 @@ Figure difference_figure(const View& view, const SlicePlane& plane, const std::v
   return lettered(std::move(sheet), "after - before");
 }
 
-// Displacements of the pixels that the mask selects, in its order.
-Points displacement_of_pixels(const RunData& run, const SlicePlane& plane, const std::vector<std::uint8_t>& mask) {
+// The places of the pixels that the mask selects, in its order.
+Points places_of_pixels(const SlicePlane& plane, const std::vector<std::uint8_t>& mask) {
   Points places(std::ranges::count(mask, 1), 3);
   Eigen::Index row = 0;
   for (int y = 0; y < plane.height; ++y) {
@@ -137,6 +138,11 @@ Points displacement_of_pixels(const RunData& run, const SlicePlane& plane, const
       }
     }
   }
+  return places;
+}
+
+Points displacement_of_pixels(const RunData& run, const SlicePlane& plane, const std::vector<std::uint8_t>& mask) {
+  const Points places = places_of_pixels(plane, mask);
   return run.forward ? registration::move_points(*run.forward, places) - places
                      : displacement_at(*run.solution, places);
 }
@@ -238,6 +244,27 @@ Figure displacement_figure(const RunData& run, const View& view, const SlicePlan
   draw_arrows(sheet.svg, arrows);
   draw_colours(sheet, view.shift);
   return lettered(std::move(sheet), plane.name);
+}
+
+Figure uncertainty_figure(const RunData& run, const View& view, const SlicePlane& plane) {
+  Canvas canvas =
+      run.t1 ? grey(view, plane, sample_slice(plane, *run.t1), 0.85) : Canvas(plane.width, plane.height, colour::black);
+  const auto outline = cut_surface(plane, *run.brain);
+  const auto mask = inside_mask(plane, outline);
+  const Eigen::Map<const Eigen::VectorXd> nodal(run.deviation.data(), static_cast<Eigen::Index>(run.deviation.size()));
+  const Eigen::VectorXd deviation = registration::nodal_values_at(*run.solution, nodal, false, places_of_pixels(plane, mask));
+  const ColourScale scale{
+      .map = ColourMap::sequential, .low = 0, .high = round_up(nodal.maxCoeff()), .title = "+/- mm"};
+  Eigen::Index next = 0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] == 1) {
+      canvas.pixels[i] = blend(canvas.pixels[i], scale.colour_of(deviation[next++]), run.t1 ? 0.7 : 0.9);
+    }
+  }
+  Sheet sheet(plane, "uncertainty", "How far the displacement may be off, as colours", canvas, bar_width);
+  draw_before(sheet, view, outline);
+  draw_colours(sheet, scale);
+  return lettered(std::move(sheet), plane.name + " +/-");
 }
 
 }  // namespace brainshift::pipelines

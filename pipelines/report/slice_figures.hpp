@@ -48,6 +48,10 @@ Figure labels_figure(const RunData& run, const View& view, const SlicePlane& pla
 /// The displacement in a plane as colours and arrows, over the T1 where there is one.
 Figure displacement_figure(const RunData& run, const View& view, const SlicePlane& plane);
 
+/// How far the displacement in a plane may be off, as colours over the T1 where there is one; the run must have a
+/// deviation at its nodes.
+Figure uncertainty_figure(const RunData& run, const View& view, const SlicePlane& plane);
+
 /// How many times too long the arrows are drawn.
 double arrow_factor(const View& view);
 

@@ -135,6 +135,15 @@ void add_field(ViewerData& data, const std::string& name, double step, int compo
   data.arrays.push_back({name, packed_numbers(all)});
 }
 
+// Values of the solution's nodes, mm, where there are any.
+void add_nodal(ViewerData& data, const std::string& name, const std::vector<double>& values, const RunData& run,
+               const ImageGeometry& grid) {
+  if (!values.empty()) {
+    const ScalarImage image = registration::nodal_values_on(*run.solution, values, false, grid);
+    add_field(data, name, 0.005, 1, grid, [&](auto& place, int) { return value_at(image, place); });
+  }
+}
+
 void add_fields(ViewerData& data, const RunData& run, const ImageGeometry& grid) {
   const VectorImage& forward = *run.forward;
   add_field(data, "displacement", 0.02, 3, grid, [&](const Eigen::Vector3d& place, int axis) {
@@ -144,10 +153,8 @@ void add_fields(ViewerData& data, const RunData& run, const ImageGeometry& grid)
   if (run.jacobian) {
     add_field(data, "ratio", 0.002, 1, grid, [&](auto& place, int) { return value_at(*run.jacobian, place); });
   }
-  if (!run.solution->estimated_error.empty()) {
-    const ScalarImage error = registration::nodal_values_on(*run.solution, run.solution->estimated_error, false, grid);
-    add_field(data, "error", 0.005, 1, grid, [&](auto& place, int) { return value_at(error, place); });
-  }
+  add_nodal(data, "error", run.solution->estimated_error, run, grid);
+  add_nodal(data, "deviation", run.deviation, run, grid);
   data.arrays.push_back({"brain", packed_numbers(inside(*run.brain, grid))});
 }
 

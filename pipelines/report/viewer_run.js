@@ -90,6 +90,11 @@ async function kindsOfColours(steps, brain, displacement, { largest, sequential,
     const says = (value) => `Estimated error of the computation: ${mm(value)}.`;
     kinds.push({ ...shift, name: "estimated error", high: almostMost(values) || 1, values, says });
   }
+  if (steps.deviation) {
+    const values = await scaled("deviation");
+    const says = (value) => `The displacement may be off by \u00b1 ${mm(value)}.`;
+    kinds.push({ ...shift, name: "uncertainty", high: almostMost(values) || 1, values, says });
+  }
   if (steps.ratio) {
     const values = await scaled("ratio");
     const reach = Math.max(0.02, almostMost(values.map((value) => Math.abs(value - 1))));

@@ -2,7 +2,6 @@
 #include "pipelines/runner/jobs.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 #include <stdexcept>
 
@@ -11,10 +10,12 @@
 #include "pipelines/runner/warnings.hpp"
 #include "pipelines/runner/warp_files.hpp"
 #include "pipelines/show/shown_fields.hpp"
+#include "register/field/nodal_values.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/image/frame_note.hpp"
 #include "solve/load/noisy_load.hpp"
 #include "solve/output/solution_file.hpp"
+#include "solve/run/measured.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -133,22 +134,6 @@ std::string load_files(const Load& load) {
   return files ? files->before.string() + " and " + files->after.string() : "";
 }
 
-/// Places and what the displacement there may be off by, mm².
-void write_covariance(const fs::path& file, const Points& places, const Eigen::MatrixXd& covariance) {
-  std::ofstream stream(file);
-  stream << "# frame: LPS\nx,y,z,xx,yy,zz,xy,yz,zx\n";
-  for (Eigen::Index row = 0; row < places.rows(); ++row) {
-    stream << places(row, 0) << ',' << places(row, 1) << ',' << places(row, 2);
-    for (const double entry : covariance.row(row)) {
-      stream << ',' << entry;
-    }
-    stream << '\n';
-  }
-  if (!stream.flush()) {
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
-  }
-}
-
 /// As measured where standard deviations are known, else exactly.
 void impose(const solve::CraniotomyLoad& load, const Load& how, solve::Model& model) {
   if (load.sigma.rows() == 0) {
@@ -184,10 +169,7 @@ void write_measured(const SolveInput& input, const solve::SolveResult& result, c
     return;
   }
   const solve::MeasuredFit& fit = *result.measures.measured;
-  const solve::Measurement& measured = *input.model.conditions.measured;
-  if (measured.asked.rows() > 0) {
-    write_covariance(out / "uncertainty.csv", measured.asked, fit.covariance);
-  }
+  warn(warnings_of(solve::worst_outlier(input.model, input.options, fit)), said);
   if (input.registration) {
     solve::write_rigid(out / "registration_error.tfm", *input.registration);
     said.measures["registration_angle_deg"] = input.registration->angle();
@@ -204,6 +186,34 @@ void write_measured(const SolveInput& input, const solve::SolveResult& result, c
                            "brain, or away from the opening");
     }
   }
+}
+
+constexpr double solving_share = 0.3;  // of the stage's progress, where samples follow
+
+Progress part_of(const Progress& whole, double from, double to) {
+  return
+      [whole, from, to](double fraction, std::string_view what) { report(whole, from + fraction * (to - from), what); };
+}
+
+/// uncertainty.vtu where it is wanted, and uncertainty.csv where the landmarks' covariance is known.
+void add_uncertainty(const SolveJob& job, const SolveInput& input, const solve::SolveResult& result,
+                     const fs::path& out, StageReport& said, const Progress& progress) {
+  std::optional<Spread> spread;
+  if (job.uncertainty && result.failure.empty()) {
+    spread = write_spread(*job.uncertainty, {input.model, input.options, result}, out, said, progress);
+  }
+  if (job.landmarks.empty() || (!spread && !result.measures.measured)) {
+    return;
+  }
+  const Points places = solve::read_markup_positions(job.landmarks);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(places.rows(), 6);
+  if (result.measures.measured) {
+    covariance += result.measures.measured->covariance;
+  }
+  if (spread) {
+    covariance += registration::nodal_values_at(result.solution, spread->constants, false, places);
+  }
+  write_covariance(out / "uncertainty.csv", places, covariance);
 }
 
 void read_cuts(const SolveJob& job, solve::Model& model) {
@@ -341,7 +351,8 @@ SolveInput read_input(const SolveJob& job) {
   return input;
 }
 
-StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& progress) {
+StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& given) {
+  const Progress progress = job.uncertainty ? part_of(given, 0, solving_share) : given;
   report(progress, 0, "reading");
   const SolveInput input = read_input(job);
   if (input.load) {
@@ -352,6 +363,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& pr
   solve::write_solve(out, result);
   StageReport said = report_of(result, input.options.dynamics);
   write_measured(input, result, out, said);
+  add_uncertainty(job, input, result, out, said, part_of(given, solving_share, 1));
   warn(warnings_of(result.measures), said);
   warn(warnings_of_weight(input.model), said);
   if (input.load && !has_inner_points(input.model)) {
@@ -382,6 +394,9 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
   });
   registration::write_registration(out, result);
   write_shown_fields(out, input.solution, input.brain, result.forward);
+  if (!job.uncertainty.empty()) {
+    write_nodal_image(out / "uncertainty.nii.gz", input.solution, read_deviations(job.uncertainty));
+  }
   StageReport said = report_of(result);
   warn(warnings_of(result.measures), said);
   if (!job.warp.empty() || !job.warp_labels.empty()) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/runner/stage_report.hpp"
+#include "pipelines/runner/uncertainty.hpp"
 #include "pipelines/scene/scene_labels.hpp"
 #include "solve/load/rigid_fit.hpp"
 
@@ -34,7 +35,7 @@ struct SolveJob {
   std::filesystem::path labels;
   std::filesystem::path skull;           ///< contact when given
   std::filesystem::path surface;         ///< the brain's: where faces are free, and for a simulated load
-  std::filesystem::path landmarks = {};  ///< of a load with noise: where the spread of the answer is wanted
+  std::filesystem::path landmarks = {};  ///< where the spread of the answer is wanted
   std::optional<Load> load;              ///< absent: what the nodes prescribe; the forces of the nodes act in any case
   std::map<std::int32_t, solve::Material> materials;
   solve::SolveOptions options;
@@ -45,6 +46,7 @@ struct SolveJob {
   std::vector<solve::Cut> cut_paths = {};  ///< of a plane problem, those that are in no file
   std::optional<solve::Rupture> rupture = {};
   std::optional<solve::Resection> resection = {};
+  std::optional<UncertaintyJob> uncertainty = {};  ///< absent: not wanted
 };
 
 struct RegisterJob {
@@ -53,6 +55,7 @@ struct RegisterJob {
   std::filesystem::path t1;       ///< empty: the fields take the grid of the labels, and only these are warped
   std::filesystem::path labels;
   std::filesystem::path landmarks;
+  std::filesystem::path uncertainty = {};          ///< uncertainty.vtu of the solve stage; empty: there is none
   std::vector<std::filesystem::path> warp;         ///< images, surfaces and points to move with the same map
   std::vector<std::filesystem::path> warp_labels;  ///< label maps
   registration::RegisterOptions options;

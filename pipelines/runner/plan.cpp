@@ -129,9 +129,24 @@ StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
   return plan;
 }
 
-/// A load that says its noise on itself tells how well it knows the landmarks.
+/// A load that says its noise on itself tells how well it knows the landmarks, and so do samples.
 bool asks_for_landmarks(const Scene& scene) {
-  return scene.landmarks && scene.load && scene.load->noise;
+  return scene.landmarks && ((scene.load && scene.load->noise) || scene.uncertainty);
+}
+
+std::string name_of(const Tissue& tissue) {
+  if (!tissue.name.empty() || tissue.tissue_class == 0) {
+    return tissue.name.empty() ? "label " + std::to_string(tissue.label) : tissue.name;
+  }
+  return find_option(tissue_options(), "class")->get(tissue);
+}
+
+UncertaintyJob uncertainty_job(const Scene& scene, const fs::path& folder) {
+  UncertaintyJob job{.options = *scene.uncertainty, .samples = folder / "samples", .tissues = {}};
+  for (const Tissue& tissue : scene.tissues) {
+    job.tissues[tissue.label] = name_of(tissue);
+  }
+  return job;
 }
 
 StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
@@ -140,6 +155,9 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
   elements.insert(elements.end(), {"contact", "tissues", "gravity", "cuts", "resection", "solve"});
   if (asks_for_landmarks(scene)) {
     elements.emplace_back("landmarks");
+  }
+  if (scene.uncertainty) {
+    elements.emplace_back("uncertainty");
   }
   StagePlan plan{.stage = StageId::solve,
                  .inputs = files_of(scene, elements),
@@ -161,6 +179,7 @@ StagePlan plan_register(const Scene& scene, const fs::path& folder) {
                         .t1 = scene.image.t1,
                         .labels = if_there(folder / "segment" / "labels.nii.gz"),
                         .landmarks = scene.landmarks.value_or(fs::path()),
+                        .uncertainty = if_there(folder / "solve" / "uncertainty.vtu"),
                         .warp = {},
                         .warp_labels = {},
                         .options = scene.registration};
@@ -174,7 +193,8 @@ StagePlan plan_register(const Scene& scene, const fs::path& folder) {
       plan.inputs.push_back(file);
     }
   }
-  add_artefacts(plan, folder, {"solve/solution.vtu", "segment/brain.vtp", "segment/labels.nii.gz"});
+  add_artefacts(plan, folder,
+                {"solve/solution.vtu", "solve/uncertainty.vtu", "segment/brain.vtp", "segment/labels.nii.gz"});
   plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
   return plan;
 }
@@ -287,6 +307,9 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
   }
   for (const Tissue& tissue : scene.tissues) {
     job.materials[tissue.label] = tissue.material;
+  }
+  if (scene.uncertainty) {
+    job.uncertainty = uncertainty_job(scene, folder);
   }
   return job;
 }

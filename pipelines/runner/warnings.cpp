@@ -137,6 +137,17 @@ Warnings warnings_of(const solve::SolveMeasures& measures) {
           "points a node"};
 }
 
+Warnings warnings_of(const std::optional<solve::Outlier>& outlier) {
+  if (!outlier) {
+    return {};
+  }
+  return {
+      "what was measured near (" + write_numbers(outlier->position.array().round().matrix()) + ") mm is " +
+      with_digits(outlier->deviations) +
+      " standard deviations from what the other points say; look at the points there, and give a wrong one a larger "
+      "sigma or take it out"};
+}
+
 Warnings warnings_of(const registration::RegisterMeasures& measures) {
   if (measures.folded_voxels == 0) {
     return {};

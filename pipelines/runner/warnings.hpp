@@ -10,6 +10,7 @@
 #include "solve/interface/model.hpp"
 #include "solve/interface/result.hpp"
 #include "solve/load/craniotomy_load.hpp"
+#include "solve/run/measured.hpp"
 
 namespace brainshift::pipelines {
 
@@ -31,6 +32,9 @@ Warnings warnings_of_weight(const solve::Model& model);
 
 /// Of strong compression with few integration points.
 Warnings warnings_of(const solve::SolveMeasures& measures);
+
+/// Of what was measured where it contradicts itself.
+Warnings warnings_of(const std::optional<solve::Outlier>& outlier);
 
 /// Of a field that folds.
 Warnings warnings_of(const registration::RegisterMeasures& measures);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "discretise/interface/option_table.hpp"
+#include "pipelines/scene/check_uncertainty.hpp"
 #include "pipelines/scene/scene_labels.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "register/field/brain_zones.hpp"
@@ -269,6 +270,9 @@ void check_scene(const Scene& scene) {
   check_cuts(scene);
   check_resection(scene);
   check_late_files(scene);
+  if (scene.uncertainty) {
+    check_at(scene, "uncertainty", [&] { check_uncertainty(scene); });
+  }
 }
 
 void check_solve_options(const Scene& scene) {

@@ -19,6 +19,7 @@
 #include "solve/cut/cut_timing.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/solve.hpp"
+#include "solve/uncertainty/uncertainty_options.hpp"
 
 namespace brainshift::pipelines {
 
@@ -136,6 +137,7 @@ struct Scene {
   std::optional<Cuts> cuts;
   std::optional<solve::Resection> resection;
   std::optional<std::filesystem::path> landmarks;
+  std::optional<solve::UncertaintyOptions> uncertainty;
   std::optional<TradeoffLists> tradeoff;
   segmentation::SegmentOptions segment;  ///< brain_labels and skull_label are filled in from tissues and image
   discretise::DiscretiseOptions discretise;

@@ -260,6 +260,11 @@ std::vector<Element> make_elements() {
   elements.push_back(
       part("landmarks", "Points to move with the brain.", &Scene::landmarks,
            {required(file_option<Scene>("file", MEMBER(landmarks.value()), "markups: .mrk.json or .fcsv"))}));
+  elements.push_back(
+      part("uncertainty",
+           "How far the answer may be off, by the noise of what is measured and by constants that nobody "
+           "knows.",
+           &Scene::uncertainty, of_whole<Scene>(solve::uncertainty_options(), MEMBER(uncertainty.value()))));
   elements.push_back(stage_element(StageId::segment, "Labels or image to closed surfaces.",
                                    of_whole<Scene>(segmentation::segment_options(), &Scene::segment)));
   elements.push_back(discretise_element());

@@ -20,9 +20,11 @@ FILES = {
     "transform": "register/from-preop_to-intraop_mode-image_xfm.h5",
     "brain": "register/brain_intraop.vtp",
     "error": "register/estimated_error.nii.gz",
+    "uncertainty": "register/uncertainty.nii.gz",
     "load": "solve/load.csv",
     "report": "report/index.html",
 }
+OVERLAYS = {"uncertainty": "Uncertainty (mm)", "error": "Estimated error (mm)"}
 COLOURS = "vtkMRMLColorTableNodeFileViridis.txt"
 
 
@@ -93,13 +95,13 @@ def _show_contours(slicer, transform, levels):
     display.SetVisibility3D(False)
 
 
-def _show_error(slicer, node):
+def _show_overlay(slicer, node, title):
     """As an overlay that is clear where there is none."""
     display = node.GetDisplayNode()
     display.SetAndObserveColorNodeID(COLOURS)
     display.SetThreshold(1e-6, 1e6)
     display.SetApplyThreshold(True)
-    _add_colour_bar(slicer, node, "Estimated error (mm)")
+    _add_colour_bar(slicer, node, title)
 
 
 def _name_segments(node, names):
@@ -125,7 +127,8 @@ def show(run, slicer, t1=None):
     record, files = record_of(run), files_of(run)
     largest = largest_displacement(record)
     nodes = {"t1": t1} if t1 else {}
-    for what, name in (("t1", "T1 before"), ("warped", "T1 warped"), ("error", "Estimated error")):
+    for what, name in (("t1", "T1 before"), ("warped", "T1 warped"), ("error", "Estimated error"),
+                       ("uncertainty", "Uncertainty")):
         if what in files and what not in nodes:
             nodes[what] = slicer.util.loadVolume(str(files[what]), {"name": name, "show": False})
     if "labels" in files:
@@ -144,11 +147,13 @@ def show(run, slicer, t1=None):
         before, after = zip(*measured_points(files["load"]))
         nodes["before"] = _add_points(slicer, "Measured before", (0.2, 0.4, 1.0), before)
         nodes["after"] = _add_points(slicer, "Measured after", (1.0, 0.3, 0.2), after)
-    if "error" in nodes:
-        _show_error(slicer, nodes["error"])
+    overlays = [what for what in OVERLAYS if what in nodes]
+    for what in overlays:
+        _show_overlay(slicer, nodes[what], OVERLAYS[what])
     if "warped" in nodes:
+        foreground = nodes[overlays[0]] if overlays else None
         slicer.util.setSliceViewerLayers(
-            background=nodes["warped"], foreground=nodes.get("error"), foregroundOpacity=0.0, fit=True
+            background=nodes["warped"], foreground=foreground, foregroundOpacity=0.0, fit=True
         )
     slicer.util.resetThreeDViews()
     return nodes

@@ -8,6 +8,7 @@
 
 #include "register/field/nodal_values.hpp"
 #include "register/warp/point_mover.hpp"
+#include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtk_bridge.hpp"
 #include "segmentation/files/vtu_file.hpp"
 
@@ -39,13 +40,26 @@ void write_brain(const fs::path& file, const Solution& solution, Surface brain, 
 
 }  // namespace
 
+std::vector<double> read_deviations(const fs::path& file) {
+  const auto grid = vtu::read(file);
+  const auto nodes = static_cast<std::size_t>(grid->GetNumberOfPoints());
+  std::vector<double> values = vtu::array(file, *grid->GetPointData(), "uncertainty", nodes);
+  if (values.empty()) {
+    refuse(file, "it has no point array `uncertainty`.");
+  }
+  return values;
+}
+
+void write_nodal_image(const fs::path& file, const Solution& solution, const std::vector<double>& values) {
+  const ImageGeometry grid = registration::grid_around_nodes(solution, true);
+  write_image(file, registration::nodal_values_on(solution, values, true, grid));
+}
+
 void write_shown_fields(const fs::path& folder, const Solution& solution, const Surface& brain,
                         const VectorImage& forward) {
   write_brain(folder / "brain_intraop.vtp", solution, brain, forward);
   if (!solution.estimated_error.empty()) {
-    const ImageGeometry grid = registration::grid_around_nodes(solution, true);
-    write_image(folder / "estimated_error.nii.gz",
-                registration::nodal_values_on(solution, solution.estimated_error, true, grid));
+    write_nodal_image(folder / "estimated_error.nii.gz", solution, solution.estimated_error);
   }
 }
 

@@ -51,19 +51,34 @@ class Gaussian {
     return n > 0 ? normal_.solve(Eigen::MatrixXd::Identity(n, n)).diagonal().cwiseSqrt().eval() : Eigen::VectorXd();
   }
 
-  /// Of the displacement at a point behind the measured ones, in the frame of the image: of a body that is held the
-  /// rigid motion is the patient's, not the brain's. first: its x.
-  Eigen::Matrix3d covariance(Eigen::Index first, bool motion_is_of_body) const {
+  /// Of `size` components of displacements behind the measured ones, from `first` on, in the frame of the image: of a
+  /// body that is held the rigid motion is the patient's, not the brain's.
+  Eigen::MatrixXd covariance(Eigen::Index first, Eigen::Index size, bool motion_is_of_body) const {
     const Eigen::Index m = push.size();
-    const Eigen::MatrixXd cross = weight_ * response_.compliance.block(first, 0, 3, m);
-    Eigen::Matrix3d result =
-        weight_ * response_.compliance.block<3, 3>(first, first) - cross * factor_.solve(cross.transpose());
+    const Eigen::MatrixXd cross = weight_ * response_.compliance.block(first, 0, size, m);
+    Eigen::MatrixXd result =
+        weight_ * response_.compliance.block(first, first, size, size) - cross * factor_.solve(cross.transpose());
     if (motion.size() > 0) {
       Eigen::MatrixXd left = -cross * inverse_rigid_;
       if (motion_is_of_body) {
-        left += response_.rigid.middleRows(first, 3);
+        left += response_.rigid.middleRows(first, size);
       }
       result += left * normal_.solve(left.transpose());
+    }
+    return result;
+  }
+
+  /// Of each measured point the residual of leaving it out, P_ii⁻¹ (P d)_i, whose covariance is P_ii⁻¹.
+  Eigen::VectorXd surprise() const {
+    const Eigen::Index m = push.size();
+    Eigen::MatrixXd p = factor_.solve(Eigen::MatrixXd::Identity(m, m));
+    if (motion.size() > 0) {
+      p -= inverse_rigid_ * normal_.solve(inverse_rigid_.transpose());
+    }
+    Eigen::VectorXd result(m / 3);
+    for (Eigen::Index i = 0; i < m / 3; ++i) {
+      const Eigen::Vector3d own = push.segment<3>(3 * i);
+      result[i] = std::sqrt(std::max(0.0, own.dot(p.block<3, 3>(3 * i, 3 * i).ldlt().solve(own))));
     }
     return result;
   }
@@ -114,10 +129,26 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
   const Eigen::Index asked = (response.compliance.rows() - m) / 3;
   fit.covariance.resize(asked, 6);
   for (Eigen::Index a = 0; a < asked; ++a) {
-    const Eigen::Matrix3d c = factor * chosen.covariance(m + 3 * a, response.free);
-    fit.covariance.row(a) << c(0, 0), c(1, 1), c(2, 2), c(0, 1), c(1, 2), c(2, 0);
+    fit.covariance.row(a) = six_entries(factor * chosen.covariance(m + 3 * a, 3, response.free));
   }
   return fit;
+}
+
+Eigen::VectorXd surprise(const Response& response, const Points& displacement, const Points& sigma, double weight) {
+  const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(displacement.data(), displacement.size());
+  const Eigen::VectorXd variance = Eigen::Map<const Eigen::VectorXd>(sigma.data(), sigma.size()).cwiseAbs2();
+  return Gaussian(response, d, variance, millijoule * weight).surprise();
+}
+
+Eigen::MatrixXd posterior_covariance(const Response& response, const Points& sigma, const MeasuredFit& fit) {
+  const Eigen::Index m = sigma.size(), rest = response.compliance.rows() - m;
+  const Eigen::VectorXd variance = Eigen::Map<const Eigen::VectorXd>(sigma.data(), m).cwiseAbs2();
+  const Gaussian posterior(response, Eigen::VectorXd::Zero(m), variance, millijoule * fit.weight);
+  return fit.noise_factor * fit.noise_factor * posterior.covariance(m, rest, response.free);
+}
+
+Eigen::Matrix<double, 1, 6> six_entries(const Eigen::Matrix3d& c) {
+  return {c(0, 0), c(1, 1), c(2, 2), c(0, 1), c(1, 2), c(2, 0)};
 }
 
 }  // namespace brainshift::solve

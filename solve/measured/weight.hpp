@@ -18,4 +18,16 @@ namespace brainshift::solve {
 /// says (noise_factor). Throws std::invalid_argument where the points do not fix a rigid motion.
 MeasuredFit choose_weight(const Response& response, const Points& displacement, const Points& sigma, double weight = 0);
 
+/// The joint covariance (mm²) of all displacements behind the m measured points of the response, (3a × 3a), under the
+/// weight and with the noise_factor of a fit: s G of the prior less what the measured points say. sigma: (m × 3) mm.
+Eigen::MatrixXd posterior_covariance(const Response& response, const Points& sigma, const MeasuredFit& fit);
+
+/// How far each measured point lies from what all others and the prior of the weight (mJ) say of it: in standard
+/// deviations of that distance, noise of the point among it, over x, y and z together. displacement, sigma: (m × 3) mm.
+/// Returns m; of a Gaussian the squares are chi-squared with three degrees of freedom.
+Eigen::VectorXd surprise(const Response& response, const Points& displacement, const Points& sigma, double weight);
+
+/// xx, yy, zz, xy, yz, zx of a symmetric matrix: a row of a table of covariances.
+Eigen::Matrix<double, 1, 6> six_entries(const Eigen::Matrix3d& c);
+
 }  // namespace brainshift::solve

@@ -122,25 +122,104 @@ Points stacked(const Points& above, const Points& below) {
   return both;
 }
 
+/// Each node by itself: the response to forces on its parameters.
+void append_nodes(std::size_t nodes, ShapeRows& rows) {
+  constexpr double one = 1;
+  for (std::size_t a = 0; a < nodes; ++a) {
+    const auto node = static_cast<std::int32_t>(a);
+    rows.append({std::span(&node, 1), std::span(&one, 1), {}});
+  }
+}
+
+/// Φ C Φᵀ of each row, with C the joint covariance of the parameters.
+Eigen::MatrixXd covariance_of(const ShapeRows& rows, const Eigen::MatrixXd& joint) {
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(rows.size()), 6);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ShapeRow row = rows[i];
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (std::size_t a = 0; a < row.size(); ++a) {
+      for (std::size_t b = 0; b < row.size(); ++b) {
+        sum += row.value[a] * row.value[b] * joint.block<3, 3>(3 * row.node[a], 3 * row.node[b]);
+      }
+    }
+    result.row(static_cast<Eigen::Index>(i)) = six_entries(sum);
+  }
+  return result;
+}
+
+/// What the fit is made on: the thinned body, and of what is measured as many points as are used.
+struct Thinned {
+  std::optional<ShapeFunctions> shape;
+  BodyParts parts;
+  Points positions, displacement, sigma;
+
+  Thinned(const Model& model, const SolveOptions& options) : parts(few_nodes(model, options.shape, shape)) {
+    const Seen seen = seen_points(model);
+    const std::vector<Eigen::Index> used = spread_out(seen.positions, most_points);
+    positions = seen.positions(used, Eigen::all);
+    displacement = seen.displacement(used, Eigen::all);
+    sigma = seen.sigma(used, Eigen::all);
+  }
+};
+
+/// Whether all of a node's displacement is prescribed and none of it measured.
+bool is_held(const Conditions& conditions, Eigen::Index node) {
+  return conditions.displacement.row(node).allFinite() && conditions.measured->spread.row(node).norm() == 0;
+}
+
+/// places: what the rows see, the measured points first.
+Response response_of(const Thinned& thin, const Model& model, const ShapeRows& rows, const Points& places) {
+  Response response = linear_response(thin.parts, rows, model.skull.has_value());
+  if (model.conditions.measured->registration_unknown) {
+    response.rigid = rigid_motions(places, thin.positions);
+  }
+  return response;
+}
+
 }  // namespace
 
 MeasuredFit fit_measured(const Model& model, const SolveOptions& options) {
+  const Thinned thin(model, options);
   const Measurement& measured = *model.conditions.measured;
-  std::optional<ShapeFunctions> shape;
-  const BodyParts parts = few_nodes(model, options.shape, shape);
-  const Seen seen = seen_points(model);
-  const std::vector<Eigen::Index> used = spread_out(seen.positions, most_points);
-  const Points places = stacked(seen.positions(used, Eigen::all), measured.asked);
-  Response response = linear_response(parts, inner_rows(*shape, places), model.skull.has_value());
-  if (measured.registration_unknown) {
-    response.rigid = rigid_motions(places, places.topRows(static_cast<Eigen::Index>(used.size())));
-  }
-  MeasuredFit fit =
-      choose_weight(response, seen.displacement(used, Eigen::all), seen.sigma(used, Eigen::all), measured.weight);
-  const Points about = seen.positions(used, Eigen::all);
-  fit.motion_centre = about.colwise().mean().transpose();
-  fit.motion_size = (about.rowwise() - fit.motion_centre.transpose()).rowwise().norm().mean();
+  const Points places = stacked(thin.positions, measured.asked);
+  const Response response = response_of(thin, model, inner_rows(*thin.shape, places), places);
+  MeasuredFit fit = choose_weight(response, thin.displacement, thin.sigma, measured.weight);
+  fit.motion_centre = thin.positions.colwise().mean().transpose();
+  fit.motion_size = (thin.positions.rowwise() - fit.motion_centre.transpose()).rowwise().norm().mean();
   return fit;
+}
+
+Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit) {
+  const Thinned thin(model, options);
+  ShapeRows rows = inner_rows(*thin.shape, thin.positions);
+  append_nodes(thin.parts.cloud.size(), rows);
+  const Points places = stacked(thin.positions, thin.parts.cloud.positions);
+  const Response response = response_of(thin, model, rows, places);
+  const Eigen::MatrixXd joint = posterior_covariance(response, thin.sigma, fit);
+  Eigen::MatrixXd covariance = covariance_of(inner_rows(*thin.shape, model.cloud.positions), joint);
+  for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
+    if (is_held(model.conditions, a)) {
+      covariance.row(a).setZero();  // a ball about it reaches past the body
+    }
+  }
+  return covariance;
+}
+
+std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options, const MeasuredFit& fit) {
+  constexpr double surprising = 5;       // 60 points of a Gaussian have one in a thousand runs
+  constexpr double usual_median = 1.54;  // of the root of chi-squared with three degrees of freedom
+  const Thinned thin(model, options);
+  const Response response = response_of(thin, model, inner_rows(*thin.shape, thin.positions), thin.positions);
+  const Eigen::VectorXd off = surprise(response, thin.displacement, thin.sigma, fit.weight);
+  std::vector<double> sorted(off.begin(), off.end());
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const double usual = std::max(1.0, sorted[sorted.size() / 2] / usual_median);
+  Eigen::Index worst = 0;
+  if (!(off.maxCoeff(&worst) > surprising * usual)) {
+    return std::nullopt;
+  }
+  return Outlier{thin.positions.row(worst), off[worst]};
 }
 
 SolveResult solve_measured(const Model& model, const SolveOptions& options, const Progress& progress) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+
 #include "segmentation/progress/progress.hpp"
 #include "solve/interface/model.hpp"
 #include "solve/interface/options.hpp"
@@ -11,6 +14,25 @@ namespace brainshift::solve {
 /// What the measured points of a model say of the weight, the noise and a rigid motion, by a linear body of some
 /// hundred of the nodes: choose_weight(). Throws as solve() does.
 MeasuredFit fit_measured(const Model& model, const SolveOptions& options);
+
+/// What noise and prior leave open of the displacement at each node of the model's cloud, (n × 6) mm²: xx, yy, zz, xy,
+/// yz, zx of its covariance, with the weight and the noise_factor of the fit; of the linear body of some hundred of the
+/// nodes, whose shape functions carry it to the others, and, as at landmarks, of the mean over a ball of seen_radius;
+/// 0 at nodes that are held. Throws as solve() does.
+Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
+
+/// Where what was measured contradicts itself.
+struct Outlier {
+  Eigen::Vector3d
+      position;       ///< undeformed: of the node that stands for a measured point, or the point's own inside, mm
+  double deviations;  ///< surprise(): how many standard deviations it is from what the others say
+};
+
+/// The most surprising of the measured points, where it is more than five standard deviations off, and five times
+/// farther than is usual of this load: where all are far off, σ is too small, and no point is to blame. On the cortex
+/// what is looked at has been extended over the opening: the fault lies near, and among dense points a single one may
+/// be averaged away. Throws as solve() does.
+std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
 
 /// solve() of a model whose conditions were measured with noise: the weight is chosen on a cloud of some hundred of the
 /// nodes, choose_weight(), unless the conditions name one. Throws as solve() does, and std::invalid_argument with a

@@ -11,12 +11,12 @@ import sys
 
 import numpy as np
 
+from ellipsoids import covered, distances, symmetric, write_table
 from predictors import GIVEN, gaussian_process, none, read_pairs, rigid, spread_out
 from residuals import write_picture
 
 NOISE = 1.0  # mm, of a landmark along each axis: a voxel of the images is about as large
 INSIDE = 8.0  # mm: so deep in the stand-in head the landmarks lie at least
-CHI_SQUARED_95 = 7.815  # of three
 LPS = np.diag([-1.0, -1.0, 1.0])
 FIELDS = ("patient", "none", "rigid", "gaussian_process", "model", "inside_95")
 BRAIN = (1, 2, 3)
@@ -86,7 +86,7 @@ def scene_of(text):
     """The head's own scene without its skull: which side of the opening it lies on nobody knows."""
     text = re.sub(r"<load>.*?</load>", f'<load noise="{NOISE}" registration="unknown">\n'
                   '    <craniotomy file="landmarks.csv"/>\n  </load>', text, flags=re.S)
-    text = text.replace("<contact/>", "").replace("landmarks.mrk.json", "landmarks.fcsv")
+    text = text.replace("<contact/>", "<uncertainty/>").replace("landmarks.mrk.json", "landmarks.fcsv")
     return text.replace('nodes="12000"', 'nodes="1500"')
 
 
@@ -114,14 +114,8 @@ def predict(program, work, before, after, given):
     turn, move = read_rigid(work / "run" / "solve" / "registration_error.tfm")
     moved = numbers(rows_of(work / "run" / "register" / "landmarks.csv"), ("intraop_x", "intraop_y", "intraop_z"))
     c = numbers(rows_of(work / "run" / "solve" / "uncertainty.csv"), ("xx", "yy", "zz", "xy", "yz", "zx"))
-    covariance = np.stack([c[:, [0, 3, 5]], c[:, [3, 1, 4]], c[:, [5, 4, 2]]], axis=1)
     record = json.loads((work / "run" / "run.json").read_text())["stages"]["solve"]["measures"]
-    return moved @ turn.T + move, covariance, record
-
-
-def covered(error, covariance, own):
-    distance = error @ np.linalg.solve(covariance + own**2 * np.eye(3), error)
-    return distance <= CHI_SQUARED_95
+    return moved @ turn.T + move, symmetric(c), record
 
 
 def row_of(program, work, head, file):
@@ -137,8 +131,11 @@ def row_of(program, work, head, file):
         guess = method(before[given], after[given])(before[left])
         row[method.__name__] = np.linalg.norm(guess - after[left], axis=1).mean()
     row["model"] = np.linalg.norm(error[left], axis=1).mean()
-    row["inside_95"] = np.mean([covered(error[i], covariance[i], own) for i in left])
-    return row, {"before": before, "after": after, "error": error, "given": given, "landmarks": len(left)}
+    whole = covariance + own**2 * np.eye(3)
+    row["inside_95"] = np.mean([covered(error[i], whole[i]) for i in left])
+    near = distances(before[left], before[given])
+    places = [(near[k], error[i], whole[i]) for k, i in enumerate(left)]
+    return row, {"places": places, "before": before, "after": after, "error": error, "given": given, "landmarks": len(left)}
 
 
 def faults(rows, counts):
@@ -173,6 +170,7 @@ def main(program, out, folder):
         table = csv.writer(stream)
         table.writerow(FIELDS)
         table.writerows([row[name] if name == "patient" else f"{row[name]:.4f}" for name in FIELDS] for row in rows)
+    write_table(out / "coverage.md", [place for case in cases for place in case["places"]])
     write_picture(out / "residuals.svg", rows, cases)
     counts = [case["landmarks"] for case in cases]
     means = {name: np.average([row[name] for row in rows], weights=counts if name == "inside_95" else None)

@@ -108,4 +108,36 @@ TEST(Page, SaysThatAStageFailedAndThatALoadIsSimulated) {
   EXPECT_FALSE(has(page, "How the solver converged"));
 }
 
+TEST(Page, SaysHowFarTheAnswerMayBeOffInWordsBesideTheMap) {
+  PageContent content = full_content();
+  EXPECT_FALSE(has(make_page(content), "How far this may be off"));
+  content = full_content();
+  content.uncertainties = {figure("n")};
+  content.record["stages"]["solve"]["measures"]["uncertainty"] = {
+      {"samples", 16}, {"brain_mm", 1.25}, {"tissues_mm", {{"tumour", 0.8}}}};
+  const std::string page = make_page(content);
+  EXPECT_TRUE(has(page, "1.25 mm over the whole brain, 0.8 mm in tumour"));
+  EXPECT_TRUE(has(page, "16 solutions"));
+}
+
+TEST(Page, ExplainsTheWeightOfALoadWithNoiseAndHintsWhereThereIsNone) {
+  const char* const hint = "imposed exactly, as no noise is given";
+  EXPECT_FALSE(has(make_page(full_content()), hint)) << "no load was measured";
+  PageContent content = full_content();
+  content.record["options"]["load.craniotomy"] = {{"file", "load.csv"}};
+  EXPECT_TRUE(has(make_page(content), hint));
+  content = full_content();
+  content.record["options"]["load.craniotomy"] = {{"file", "load.csv"}};
+  auto& measures = content.record["stages"]["solve"]["measures"];
+  measures["weight_mJ"] = 0.5;
+  measures["noise_factor"] = 1.2;
+  for (const double weight : {0.1, 0.5, 2.0}) {
+    measures["weights"].push_back({{"weight_mJ", weight}, {"misfit", 10 / weight}, {"energy_mJ", weight}});
+  }
+  const std::string page = make_page(content);
+  EXPECT_FALSE(has(page, hint));
+  EXPECT_TRUE(has(page, "of them 0.5 mJ"));
+  EXPECT_TRUE(has(page, "energy of the deformation, mJ"));
+}
+
 }  // namespace brainshift::pipelines::page_test

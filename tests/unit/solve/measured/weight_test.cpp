@@ -105,6 +105,46 @@ TEST(Weight, EllipsoidsHoldTheTruthAsOftenAsTheySay) {
   EXPECT_LE(inside, 0.99 * draws * asked);
 }
 
+TEST(Weight, AJointCovarianceHoldsThoseOfThePlacesThatAreAskedFor) {
+  std::mt19937 random(5);
+  constexpr int known = 10, asked = 4;
+  const Points places = test::random_points(known + asked, 100);
+  Response response = smooth_response(places);
+  response.rigid = rigid_motions(places, places);
+  for (const bool free : {false, true}) {
+    response.free = free;
+    const Points sigma = Points::Constant(known, 3, 0.5);
+    const MeasuredFit fit = choose_weight(response, drawn(response, 1e4, random).topRows(known), sigma);
+    const Eigen::MatrixXd joint = posterior_covariance(response, sigma, fit);
+    ASSERT_EQ(joint.rows(), 3 * asked);
+    EXPECT_LT((joint - joint.transpose()).norm(), 1e-9 * joint.norm());
+    for (int a = 0; a < asked; ++a) {
+      EXPECT_LT((six_entries(joint.block<3, 3>(3 * a, 3 * a)) - fit.covariance.row(a)).norm(), 1e-9 * joint.norm());
+    }
+  }
+}
+
+TEST(Surprise, IsChiSquaredOfPointsThatAgreeAndLargeOfOneThatDoesNot) {
+  std::mt19937 random(6);
+  constexpr int points = 20, draws = 100;
+  const Points places = test::random_points(points, 100);
+  const Response response = smooth_response(places);
+  double mean = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    const Points noise = 0.5 * Eigen::Map<const Points>(normals(3 * points, random).data(), points, 3);
+    const Points measured = drawn(response, 1e4, random) + noise;
+    mean += surprise(response, measured, Points::Constant(points, 3, 0.5), 1e4 / millijoule).squaredNorm() /
+            (points * draws);
+  }
+  EXPECT_NEAR(mean, 3, 0.15);
+  Points contradicted = drawn(response, 1e4, random);
+  contradicted.row(7) += Eigen::RowVector3d(0, 30, 0);
+  const Eigen::VectorXd off = surprise(response, contradicted, Points::Constant(points, 3, 0.5), 1e4 / millijoule);
+  Eigen::Index most = 0;
+  EXPECT_GT(off.maxCoeff(&most), 10);
+  EXPECT_EQ(most, 7);
+}
+
 TEST(Weight, FindsARigidMotionBesideTheDeformation) {
   std::mt19937 random(4);
   const Points places = test::random_points(12, 100);

@@ -95,6 +95,50 @@ TEST(SolveMeasured, IsDrawnByAPointInside) {
   EXPECT_LT(std::sqrt(result.measures.measured->covariance(0, 0)), 0.1);
 }
 
+TEST(MeasuredCovariance, IsTheNoisesNearThePointsAndThePriorsFarOffAndGrowsWithBoth) {
+  Model model = measured_box(0.5);
+  MeasuredFit fit;
+  fit.weight = 0.05;
+  const Eigen::MatrixXd covariance = measured_covariance(model, quick(), fit);
+  ASSERT_EQ(covariance.rows(), model.cloud.positions.rows());
+  EXPECT_GE(covariance.leftCols(3).minCoeff(), 0);
+  for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
+    const Eigen::RowVector3d x = model.cloud.positions.row(a);
+    if (x[2] < 1e-9) {
+      EXPECT_LT(covariance.row(a).norm(), 0.05) << "held";
+    }
+    if (model.conditions.measured->spread.row(a).norm() > 0) {
+      EXPECT_LT(covariance.row(a).leftCols(3).maxCoeff(), 0.25) << "no worse than the point itself";
+    }
+  }
+  fit.noise_factor = 2;
+  EXPECT_LT((measured_covariance(model, quick(), fit) - 4 * covariance).norm(), 1e-9 * covariance.norm());
+}
+
+TEST(MeasuredCovariance, IsThatOfTheLandmarksAtANodeInside) {
+  Model model = measured_box(0.5);
+  Eigen::Index middle = 0;
+  (model.cloud.positions.array() - model_side / 2).matrix().rowwise().norm().minCoeff(&middle);
+  model.conditions.measured->asked = model.cloud.positions.row(middle);
+  const MeasuredFit fit = fit_measured(model, quick());
+  const Eigen::RowVectorXd at_node = measured_covariance(model, quick(), fit).row(middle);
+  EXPECT_LT((at_node - fit.covariance.row(0)).norm(), 1e-9 * at_node.norm());
+}
+
+TEST(WorstOutlier, IsThePointThatContradictsTheOthersAndNoneWhereAllAgree) {
+  Model model = measured_box(0.5);
+  EXPECT_FALSE(worst_outlier(model, quick(), fit_measured(model, quick())));
+  Eigen::Index wrong = 0;
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    wrong = model.conditions.measured->spread.row(a).norm() > 0 ? a : wrong;
+  }
+  model.conditions.displacement.row(wrong) << 30, 0, -4;
+  const std::optional<Outlier> found = worst_outlier(model, quick(), fit_measured(model, quick()));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->position, model.cloud.positions.row(wrong).transpose());
+  EXPECT_GT(found->deviations, 5);
+}
+
 TEST(SolveMeasured, RefusesWhatNoiseDoesNotGoWith) {
   const Model model = measured_box(0.5);
   SolveOptions options = quick();

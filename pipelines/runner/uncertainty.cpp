@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/uncertainty.hpp"
+
+#include <vtkPointData.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+
+#include "pipelines/runner/sha256.hpp"
+#include "segmentation/files/vtu_file.hpp"
+#include "solve/interface/option_table.hpp"
+#include "solve/material/material_options.hpp"
+#include "solve/output/solution_file.hpp"
+#include "solve/run/measured.hpp"
+#include "solve/uncertainty/draw.hpp"
+#include "solve/uncertainty/sample.hpp"
+
+namespace brainshift::pipelines {
+namespace fs = std::filesystem;
+namespace {
+
+/// A sample's file is named by all that it depends on, so that one that is there is one that holds. Of the model itself
+/// the answer stands in for its files: where nothing of it changed, it is the same to the last bit.
+std::string key_of(const solve::SolveOptions& options, const Points& answer, const solve::Constants& constants) {
+  std::string text = BRAINSHIFT_VERSION;
+  for (const auto& option : solve::solve_options()) {
+    text += '\n' + option.get(options);
+  }
+  for (const auto& [label, material] : constants.materials) {
+    text += '\n' + std::to_string(label);
+    for (const auto& option : solve::material_options()) {
+      text += '\n' + option.get(material);
+    }
+  }
+  text += '\n' + write_numbers(constants.gravity);
+  if (const auto& fluid = constants.fluid) {
+    text += '\n' + write_numbers(fluid->gravity) + '\n' + write_number(fluid->level) + '\n';
+    text += write_numbers(fluid->gravity_of_image) + '\n' + write_number(fluid->density);
+  }
+  text.append(reinterpret_cast<const char*>(answer.data()), static_cast<std::size_t>(answer.size()) * sizeof(double));
+  return sha256_of_text(text).substr(0, 16);
+}
+
+constexpr std::string_view sample_name = "sample_";
+
+/// Where finished samples lie.
+class SampleFolder {
+ public:
+  /// scratch: on the same file system, cleared when the run is interrupted.
+  SampleFolder(fs::path folder, fs::path scratch) : folder_(std::move(folder)), scratch_(std::move(scratch)) {
+    fs::create_directories(folder_);
+  }
+
+  std::optional<Points> find(const std::string& key, Eigen::Index nodes) {
+    const fs::path file = named(key);
+    used_.insert(file);
+    if (!fs::exists(file)) {
+      return std::nullopt;
+    }
+    try {
+      Points displacement = read_solution(file).displacement;
+      return displacement.rows() == nodes ? std::optional(std::move(displacement)) : std::nullopt;
+    } catch (const std::invalid_argument&) {
+      return std::nullopt;  // damaged; it is computed again
+    }
+  }
+
+  /// Appears when it is whole.
+  void keep(const std::string& key, Solution sample) const {
+    const fs::path unfinished = scratch_ / "sample.vtu";
+    write_solution(unfinished, sample);
+    fs::rename(unfinished, named(key));
+  }
+
+  /// Samples of other loads and constants go.
+  void clear_others() const {
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      if (entry.path().filename().string().starts_with(sample_name) && !used_.contains(entry.path())) {
+        fs::remove(entry.path());
+      }
+    }
+  }
+
+ private:
+  fs::path named(const std::string& key) const { return folder_ / (std::string(sample_name) + key + ".vtu"); }
+
+  fs::path folder_, scratch_;
+  std::set<fs::path> used_;
+};
+
+/// samples.csv: what was drawn and how far it moved the answer.
+class SampleTable {
+ public:
+  SampleTable(const fs::path& file, const solve::Constants& constants) : file_(file), stream_(file) {
+    stream_ << "sample,rms_mm";
+    for (const auto& [label, material] : constants.materials) {
+      stream_ << ",shear_modulus_" << label << ",poisson_ratio_" << label;
+    }
+    stream_ << ",gravity_x,gravity_y,gravity_z,fluid_level\n";
+  }
+
+  void add(int sample, const solve::Constants& constants, double rms) {
+    stream_ << sample << ',' << write_number(rms);
+    for (const auto& [label, material] : constants.materials) {
+      stream_ << ',' << write_number(shear_modulus(material)) << ',' << write_number(material.poisson_ratio);
+    }
+    const Eigen::Vector3d gravity = constants.fluid ? constants.fluid->gravity : constants.gravity;
+    for (const double g : gravity) {
+      stream_ << ',' << write_number(g);
+    }
+    stream_ << ',' << (constants.fluid ? write_number(constants.fluid->level) : "") << '\n';
+  }
+
+  void close() {
+    if (!stream_.flush()) {
+      throw std::runtime_error(file_.string() +
+                               ": could not be written whole; is the disk full or the folder read-only?");
+    }
+  }
+
+ private:
+  fs::path file_;
+  std::ofstream stream_;
+};
+
+double root_mean_square(const Points& difference) {
+  return std::sqrt(difference.squaredNorm() / static_cast<double>(difference.rows()));
+}
+
+/// Solves the model with other constants, or finds it solved.
+class Sampler {
+ public:
+  Sampler(const UncertaintyJob& job, const Solved& solved, const fs::path& out)
+      : options_(solved.options), model_(solved.model), answer_(solved.result.solution), folder_(job.samples, out) {
+    if (solved.result.measures.measured) {
+      model_.conditions.measured->weight = solved.result.measures.measured->weight;
+    }
+  }
+
+  std::optional<Points> displacement(const solve::Constants& constants) {
+    const std::string key = key_of(options_, answer_.displacement, constants);
+    std::optional<Points> found = folder_.find(key, answer_.positions.rows());
+    if (!found) {
+      found = solve::sampled_displacement(solve::with_constants(model_, constants), options_);
+      if (found) {
+        Solution sample = answer_;
+        sample.displacement = *found;
+        sample.reaction_force.setZero();
+        sample.estimated_error.clear();
+        folder_.keep(key, std::move(sample));
+      }
+    }
+    return found;
+  }
+
+  void clear_others() const { folder_.clear_others(); }
+
+ private:
+  const solve::SolveOptions& options_;
+  solve::Model model_;
+  const Solution& answer_;
+  SampleFolder folder_;
+};
+
+Eigen::MatrixXd spread_of_constants(const UncertaintyJob& job, const Solved& solved, const fs::path& out,
+                                    StageReport& said, const Progress& progress) {
+  const solve::UncertaintyOptions& options = job.options;
+  const solve::Constants own{solved.model.materials, solved.model.gravity, solved.model.fluid};
+  Sampler sampler(job, solved, out);
+  report(progress, 0, "samples: the model's own constants");
+  const std::optional<Points> answer = sampler.displacement(own);
+  if (!answer) {
+    throw std::runtime_error("the model could not be solved once more for its samples; leave <uncertainty> out");
+  }
+  SampleTable table(out / "samples.csv", own);
+  std::vector<Points> samples;
+  for (int sample = 1; sample <= options.samples; ++sample) {
+    report(progress, static_cast<double>(sample) / (options.samples + 1),
+           "sample " + std::to_string(sample) + " of " + std::to_string(options.samples));
+    const solve::Constants constants = solve::drawn_constants(solved.model, options, sample);
+    if (std::optional<Points> found = sampler.displacement(constants)) {
+      table.add(sample, constants, root_mean_square(*found - *answer));
+      samples.push_back(std::move(*found));
+    }
+  }
+  table.close();
+  sampler.clear_others();
+  said.measures["uncertainty"]["samples"] = samples.size();
+  if (const std::size_t failed = static_cast<std::size_t>(options.samples) - samples.size(); failed > 0) {
+    said.notes.push_back("warning: " + std::to_string(failed) + " of " + std::to_string(options.samples) +
+                         " samples could not be solved and are left out of the uncertainty; see samples.csv");
+  }
+  return solve::spread_about(*answer, samples);
+}
+
+/// Of the whole and of each tissue, root mean square over its nodes, mm.
+void add_words(const UncertaintyJob& job, const solve::Model& model, const std::vector<double>& deviation,
+               StageReport& said) {
+  struct Sum {
+    double squares = 0, count = 0;
+  };
+  Sum brain;
+  std::map<std::int32_t, Sum> tissues;
+  for (std::size_t a = 0; a < deviation.size(); ++a) {
+    const Eigen::Vector3d place = model.cloud.positions.row(static_cast<Eigen::Index>(a));
+    const auto label = model.labels ? std::int32_t{label_at(*model.labels, place)} : 0;
+    for (Sum* sum : {&brain, &tissues[label]}) {
+      sum->squares += deviation[a] * deviation[a];
+      sum->count += 1;
+    }
+  }
+  auto& words = said.measures["uncertainty"];
+  words["brain_mm"] = std::sqrt(brain.squares / brain.count);
+  for (const auto& [label, name] : job.tissues) {
+    if (const auto found = tissues.find(label); found != tissues.end()) {
+      words["tissues_mm"][name] = std::sqrt(found->second.squares / found->second.count);
+    }
+  }
+}
+
+void write_nodes(const fs::path& file, const Points& positions, const Spread& spread) {
+  const auto grid = vtu::vertex_grid(positions);
+  vtkPointData& data = *grid->GetPointData();
+  const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> covariance = spread.noise + spread.constants;
+  vtu::add_array(data, "uncertainty", deviations(covariance));
+  vtu::add_array(data, "from_noise", deviations(spread.noise));
+  vtu::add_array(data, "from_constants", deviations(spread.constants));
+  vtu::add_array(data, "covariance", {covariance.data(), static_cast<std::size_t>(covariance.size())}, 6);
+  vtu::write(file, *grid);
+}
+
+}  // namespace
+
+Spread write_spread(const UncertaintyJob& job, const Solved& solved, const fs::path& out, StageReport& said,
+                    const Progress& progress) {
+  solve::check_sampled(solved.model, solved.options);
+  const Points& positions = solved.result.solution.positions;
+  Spread spread{Eigen::MatrixXd::Zero(positions.rows(), 6), Eigen::MatrixXd::Zero(positions.rows(), 6)};
+  if (solved.result.measures.measured) {
+    spread.noise = solve::measured_covariance(solved.model, solved.options, *solved.result.measures.measured);
+  }
+  if (solve::varies(solved.model, job.options)) {
+    spread.constants = spread_of_constants(job, solved, out, said, progress);
+  }
+  write_nodes(out / "uncertainty.vtu", positions, spread);
+  add_words(job, solved.model, deviations(spread.noise + spread.constants), said);
+  return spread;
+}
+
+void write_covariance(const fs::path& file, const Points& places, const Eigen::MatrixXd& covariance) {
+  std::ofstream stream(file);
+  stream << "# frame: LPS\nx,y,z,xx,yy,zz,xy,yz,zx\n";
+  for (Eigen::Index row = 0; row < places.rows(); ++row) {
+    stream << places(row, 0) << ',' << places(row, 1) << ',' << places(row, 2);
+    for (const double entry : covariance.row(row)) {
+      stream << ',' << entry;
+    }
+    stream << '\n';
+  }
+  if (!stream.flush()) {
+    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+  }
+}
+
+std::vector<double> deviations(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd result = covariance.leftCols(3).rowwise().sum().cwiseMax(0).cwiseSqrt();
+  return {result.begin(), result.end()};
+}
+
+}  // namespace brainshift::pipelines

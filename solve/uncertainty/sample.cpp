@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/uncertainty/sample.hpp"
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "solve/measured/weight.hpp"
+#include "solve/run/coarse.hpp"
+#include "solve/run/prepare.hpp"
+#include "solve/run/whole_body.hpp"
+
+namespace brainshift::solve {
+
+void check_sampled(const Model& model, const SolveOptions& options) {
+  const std::array<std::pair<bool, const char*>, 5> unfit = {{
+      {options.dynamics == Dynamics::transient, "motion in time"},
+      {options.region > 0, "a region"},
+      {!model.cuts.empty() || model.rupture, "cuts and tears"},
+      {model.resection.has_value(), "a resection"},
+      {model.plane != Plane::none, "a plane problem"},
+  }};
+  for (const auto& [there, what] : unfit) {
+    if (there) {
+      throw std::invalid_argument(std::string("<uncertainty> does not go with ") + what +
+                                  "; leave the one or the other out");
+    }
+  }
+}
+
+std::optional<Points> sampled_displacement(const Model& model, const SolveOptions& given) {
+  check_sampled(model, given);
+  SolveOptions options = completed(given, model);
+  options.snapshot_every = 0;
+  if (model.cloud.size() > most_sampled_nodes) {
+    return coarse_displacement(model, options, {});
+  }
+  const SolveResult result = solve_whole_body(model, options, {});
+  return result.failure.empty() ? std::optional(result.solution.displacement) : std::nullopt;
+}
+
+Eigen::MatrixXd spread_about(const Points& answer, const std::vector<Points>& samples) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(answer.rows(), 6);
+  for (const Points& sample : samples) {
+    for (Eigen::Index a = 0; a < answer.rows(); ++a) {
+      const Eigen::Vector3d off = sample.row(a) - answer.row(a);
+      sum.row(a) += six_entries(off * off.transpose());
+    }
+  }
+  return samples.empty() ? sum : Eigen::MatrixXd(sum / static_cast<double>(samples.size()));
+}
+
+}  // namespace brainshift::solve

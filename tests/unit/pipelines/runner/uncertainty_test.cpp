@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/uncertainty.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+#include <vtkPointData.h>
+
+#include <set>
+
+#include "pipelines/runner/jobs.hpp"
+#include "pipelines/show/shown_fields.hpp"
+#include "segmentation/files/vtu_file.hpp"
+#include "tests/unit/expect_parts.hpp"
+#include "tests/unit/pipelines/ball_folder.hpp"
+
+namespace brainshift::pipelines::uncertainty_test {
+
+using brainshift::test::expect_parts;
+using brainshift::test::refusal;
+
+/// A ball of two tissues, drawn out at its top, with its samples in a folder.
+class UncertaintyTest : public BallFolder {
+ protected:
+  SolveJob solve_job(int samples, std::optional<double> noise = {}) const {
+    DiscretiseJob cells;
+    cells.surface = folder_ / "ball.vtp";
+    cells.options.nodes = noise ? 400 : 60;  // of few nodes too many are measured
+    run_job(cells, folder_, {});
+    LabelMap labels;
+    labels.geometry.size.setConstant(11);
+    labels.geometry.spacing.setConstant(5);
+    labels.geometry.origin.setConstant(-25);
+    labels.voxels.assign(labels.geometry.voxel_count(), 1);
+    for (std::size_t voxel = 0; voxel < labels.voxels.size(); ++voxel) {
+      labels.voxels[voxel] = voxel % 11 < 5 ? 1 : 3;  // by x
+    }
+    write_image(folder_ / "labels.nii.gz", labels);
+    Load load;
+    load.craniotomy = folder_ / "load.csv";
+    load.noise = noise;
+    SolveJob job{.nodes = folder_ / "nodes.vtu",
+                 .cells = folder_ / "cells.vtu",
+                 .labels = folder_ / "labels.nii.gz",
+                 .skull = {},
+                 .surface = folder_ / "ball.vtp",
+                 .load = load,
+                 .materials = {{1, solve::Material{}}, {3, solve::Material{.youngs_modulus = 9000}}},
+                 .options = {},
+                 .loading = {}};
+    job.options.shape.basis = Basis::linear;
+    job.options.points_per_cell = 1;
+    job.options.tolerance = 0.01;
+    job.uncertainty = UncertaintyJob{
+        .options = {.samples = samples}, .samples = folder_ / "samples", .tissues = {{1, "parenchyma"}, {3, "tumour"}}};
+    return job;
+  }
+
+  StageReport solved(const SolveJob& job, const std::string& name) const {
+    fs::create_directories(folder_ / name);
+    return run_job(job, folder_ / name, {});
+  }
+
+  std::set<std::string> samples() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / "samples")) {
+      names.insert(entry.path().filename());
+    }
+    return names;
+  }
+};
+
+TEST_F(UncertaintyTest, IsWrittenAtTheNodesAndSaidForEachTissue) {
+  const StageReport said = solved(solve_job(4), "out");
+  ASSERT_EQ(said.failure, "");
+  const std::vector<double> deviation = read_deviations(folder_ / "out/uncertainty.vtu");
+  const Solution solution = read_solution(folder_ / "out/solution.vtu");
+  ASSERT_EQ(deviation.size(), solution.spacing.size());
+  double largest = 0;
+  for (const double d : deviation) {
+    largest = std::max(largest, d);
+  }
+  EXPECT_GT(largest, 0.001);
+  EXPECT_LT(largest, 1) << "the load moves by 1 mm";
+  const auto& words = said.measures["uncertainty"];
+  EXPECT_EQ(words["samples"], 4);
+  EXPECT_GT(words["tissues_mm"]["tumour"], 0.0);
+  EXPECT_LT(words["brain_mm"], largest);
+  EXPECT_EQ(read(folder_ / "out/samples.csv").find("sample,rms_mm,shear_modulus_1,poisson_ratio_1,shear_modulus_3"),
+            0U);
+}
+
+TEST_F(UncertaintyTest, OfALoadWithNoiseHasTheNoisesPartToo) {
+  solved(solve_job(2, 0.5), "out");
+  const auto grid = vtu::read(folder_ / "out/uncertainty.vtu");
+  const auto nodes = static_cast<std::size_t>(grid->GetNumberOfPoints());
+  const auto array = [&](const char* name) {
+    return vtu::array(folder_ / "out/uncertainty.vtu", *grid->GetPointData(), name, nodes);
+  };
+  const auto whole = array("uncertainty"), noise = array("from_noise"), constants = array("from_constants");
+  for (std::size_t a = 0; a < nodes; ++a) {
+    EXPECT_NEAR(whole[a], std::hypot(noise[a], constants[a]), 1e-12);
+    EXPECT_GT(noise[a], 0);
+  }
+}
+
+TEST_F(UncertaintyTest, IsTheSameForAnyNumberOfThreadsAndAfterARestart) {
+  const SolveJob job = solve_job(3);
+  solved(job, "one");
+  const std::set<std::string> kept = samples();
+  EXPECT_EQ(kept.size(), 4U) << "three, and the model itself";
+  fs::remove(folder_ / "samples" / *kept.begin());
+  omp_set_num_threads(2);
+  solved(job, "restarted");
+  EXPECT_EQ(samples(), kept);
+  EXPECT_EQ(read(folder_ / "one/uncertainty.vtu"), read(folder_ / "restarted/uncertainty.vtu"));
+  EXPECT_EQ(read(folder_ / "one/samples.csv"), read(folder_ / "restarted/samples.csv"));
+}
+
+TEST_F(UncertaintyTest, DoesNotComputeFinishedSamplesAgainAndDoesThoseThatAreDamaged) {
+  SolveJob job = solve_job(2);
+  solved(job, "first");
+  const std::string name = *samples().begin();
+  const auto written = fs::last_write_time(folder_ / "samples" / name);
+  solved(job, "second");
+  EXPECT_EQ(fs::last_write_time(folder_ / "samples" / name), written);
+  write("samples/" + name, "no longer a sample");
+  solved(job, "third");
+  EXPECT_EQ(read(folder_ / "first/uncertainty.vtu"), read(folder_ / "third/uncertainty.vtu"));
+  job.uncertainty->options.samples = 3;
+  solved(job, "more");
+  EXPECT_EQ(samples().size(), 4U);
+  job.uncertainty->options.seed = 2;
+  job.uncertainty->options.samples = 2;
+  solved(job, "other");
+  EXPECT_EQ(samples().size(), 3U) << "samples that no longer hold are gone";
+  EXPECT_NE(read(folder_ / "first/uncertainty.vtu"), read(folder_ / "other/uncertainty.vtu"));
+}
+
+TEST_F(UncertaintyTest, LeavesTheSolutionAsItIs) {
+  SolveJob job = solve_job(2);
+  solved(job, "with");
+  job.uncertainty.reset();
+  solved(job, "without");
+  EXPECT_EQ(read(folder_ / "with/solution.vtu"), read(folder_ / "without/solution.vtu"));
+  EXPECT_FALSE(fs::exists(folder_ / "without/uncertainty.vtu"));
+}
+
+TEST_F(UncertaintyTest, GivesEachLandmarkACovariance) {
+  SolveJob job = solve_job(2);
+  job.landmarks = write("landmarks.fcsv",
+                        "# CoordinateSystem = LPS\n# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,"
+                        "associatedNodeID\n1,0,0,5,0,0,0,1,1,1,0,a,,\n");
+  solved(job, "out");
+  EXPECT_EQ(read(folder_ / "out/uncertainty.csv").find("# frame: LPS\nx,y,z,xx,yy,zz,xy,yz,zx\n0,0,5,"), 0U);
+}
+
+TEST_F(UncertaintyTest, RefusesALoadWhosePointsDoNotTellAMotionFromNoise) {
+  const SolveJob job = solve_job(2, 0.5);
+  const std::string head = "# frame: LPS\nx,y,z,ux,uy,uz\n", point = "0,0,20,0,0,-1\n";
+  for (const std::string& points : {point, point + point + point}) {
+    write("load.csv", head + points);
+    expect_parts(refusal([&] { solved(job, "out"); }), {"1 measured points", "measure three or more"});
+  }
+}
+
+TEST_F(UncertaintyTest, NamesThePointThatContradictsTheOthers) {
+  const SolveJob job = solve_job(2, 0.5);
+  const solve::CraniotomyLoad dense = solve::read_craniotomy_csv(folder_ / "load.csv");
+  const auto every_fifth = Eigen::seq(0, Eigen::last, 5);
+  solve::CraniotomyLoad load{dense.positions(every_fifth, Eigen::all), dense.displacement(every_fifth, Eigen::all), {}};
+  load.sigma = Points(0, 3);
+  load.displacement.row(0) += Eigen::RowVector3d(15, 0, 0);
+  solve::write_craniotomy_csv(folder_ / "load.csv", load);
+  const StageReport said = solved(job, "out");
+  std::string notes;
+  for (const std::string& note : said.notes) {
+    notes += note + "\n";
+  }
+  expect_parts(notes, {"warning: what was measured near (", "standard deviations"});
+}
+
+}  // namespace brainshift::pipelines::uncertainty_test
