@@ -200,6 +200,7 @@ std::string make_page(PageContent content) {
                               {"licences", !content.libraries.empty()},
                               {"comparison", comparison(content.comparisons)},
                               {"displacement", displacement(content)},
+                              {"septum", elements.contains("septa") || elements.contains("septum")},
                               {"labels", labels_of(content)},
                               {"measures", measures_of(measures)},
                               {"convergence", convergence(content)},

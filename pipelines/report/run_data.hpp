@@ -29,6 +29,7 @@ struct RunData {
   std::optional<ScalarImage> jacobian = {};  ///< volume ratio at preop points
   std::string load = {};                     ///< text of solve/load.csv
   std::string uncertainty = {};              ///< text of solve/uncertainty.csv
+  std::optional<Surface> septum = {};        ///< rigid sheets along which tissue slid
 };
 
 /// Throws std::invalid_argument, naming the file, when the folder holds no run.json or something that cannot be read.
