@@ -125,6 +125,16 @@ SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cl
   return far_out ? SignedDistance(skull) : distance;
 }
 
+/// Surface nodes that something else does not hold in all directions: one on a plane of symmetry slides along it.
+std::vector<std::int32_t> nodes_at_septum(const OrderedCloud& cloud) {
+  std::vector<std::int32_t> nodes = surface_nodes(cloud);
+  std::erase_if(nodes, [&](std::int32_t a) {
+    const auto held = [&](int axis) { return cloud.conditions.is_prescribed(a, axis); };
+    return held(0) && held(1) && held(2);
+  });
+  return nodes;
+}
+
 /// In spacings of the nodes: surface nodes farther from a septum than that do not come to touch it.
 constexpr double septum_reach = 2;
 
@@ -180,8 +190,8 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
   }
   if (model.septum) {
     const double spacing = *std::max_element(cloud.spacing.begin(), cloud.spacing.end());
-    body.septum_contact.emplace(model.septum->sheet, cloud.positions, free_surface_nodes(cloud, cloud.conditions),
-                                septum_reach * spacing, parts.nodal_rows);
+    body.septum_contact.emplace(model.septum->sheet, cloud.positions, nodes_at_septum(cloud), septum_reach * spacing,
+                                parts.nodal_rows);
   }
   return body;
 }

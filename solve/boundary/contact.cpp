@@ -15,6 +15,7 @@ Contact::Contact(SignedDistance skull, const Points& positions, std::span<const 
 }
 
 void Contact::apply(NodalVectors& parameters) {
+  nodes_.begin();
   const auto nodes = static_cast<std::int64_t>(allowed_.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t a = 0; a < nodes; ++a) {

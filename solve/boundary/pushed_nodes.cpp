@@ -10,7 +10,8 @@ PushedNodes::PushedNodes(const Points& positions, std::span<const std::int32_t> 
     : positions_(static_cast<Eigen::Index>(nodes.size()), 3),
       begin_{0},
       inverse_row_sum_(nodes.size(), 0.0),
-      push_(3 * nodes.size()) {
+      push_(3 * nodes.size()),
+      total_(3 * nodes.size()) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const ShapeRow row = rows[static_cast<std::size_t>(nodes[i])];
     node_.insert(node_.end(), row.node.begin(), row.node.end());
@@ -47,11 +48,16 @@ Eigen::Vector3d PushedNodes::place(std::size_t i, const NodalVectors& parameters
   return x;
 }
 
+void PushedNodes::begin() {
+  std::fill(total_.begin(), total_.end(), 0.0);
+}
+
 void PushedNodes::set_push(std::size_t i, double length, const Eigen::Vector3d& direction) {
   Eigen::Map<Eigen::Vector3d> push(&push_[3 * i]);
   push.setZero();
   if (length != 0) {
     push = length * inverse_row_sum_[i] * direction;
+    Eigen::Map<Eigen::Vector3d>(&total_[3 * i]) += push;
   }
 }
 
@@ -72,7 +78,7 @@ void PushedNodes::apply(NodalVectors& parameters) const {
 double PushedNodes::work(const NodalVectors& before, const NodalVectors& after) const {
   double work = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    const Eigen::Map<const Eigen::Vector3d> push(&push_[3 * i]);
+    const Eigen::Map<const Eigen::Vector3d> push(&total_[3 * i]);
     if (!push.isZero(0)) {
       work += push.dot(place(i, after) - place(i, before)) / 2;
     }

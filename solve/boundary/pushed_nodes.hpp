@@ -28,15 +28,18 @@ class PushedNodes {
   /// Where the i-th node is, mm.
   Eigen::Vector3d place(std::size_t i, const NodalVectors& parameters) const;
 
+  /// Begins a step: work() counts the pushes from here on.
+  void begin();
+
   /// To move the i-th node by so many mm along a unit vector; 0: leave it alone. Calls for different nodes may run on
   /// many threads.
   void set_push(std::size_t i, double length, const Eigen::Vector3d& direction);
 
-  /// Moves the parameters by the pushes, all of which must have been set since the last time.
+  /// Moves the parameters by the pushes, all of which must have been set since the last time; again for each sweep.
   void apply(NodalVectors& parameters) const;
 
-  /// Work of the pushes, times α: half their sum over the way from one step before the state that they were applied to,
-  /// to one after. Negative: they brake.
+  /// Work of the step's pushes, times α: half their sum over the way from one step before the state that they were
+  /// applied to, to one after. Negative: they brake.
   double work(const NodalVectors& before, const NodalVectors& after) const;
 
  private:
@@ -47,6 +50,7 @@ class PushedNodes {
   std::vector<double> inverse_mass_;     ///< one a node of the cloud
   std::vector<double> inverse_row_sum_;  ///< D⁻¹
   std::vector<double> push_;             ///< D⁻¹ δ, 3 a node
+  std::vector<double> total_;            ///< of the step
 };
 
 }  // namespace brainshift::solve

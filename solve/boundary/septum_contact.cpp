@@ -30,6 +30,14 @@ SeptumContact::SeptumContact(const Surface& sheet, const Points& positions, std:
     : walls_(sheet), nodes_(positions, facing(walls_, positions, nodes, reach, panel_), rows) {}
 
 void SeptumContact::apply(NodalVectors& parameters) {
+  constexpr int sweeps = 3;  // one leaves several times as much behind the wall
+  nodes_.begin();
+  for (int i = 0; i < sweeps; ++i) {
+    sweep(parameters);
+  }
+}
+
+void SeptumContact::sweep(NodalVectors& parameters) {
   const auto nodes = static_cast<std::int64_t>(nodes_.size());
 #pragma omp parallel for schedule(static)
   for (std::int64_t a = 0; a < nodes; ++a) {

@@ -36,6 +36,8 @@ class SeptumContact {
   Measures measure(const NodalVectors& parameters) const;
 
  private:
+  void sweep(NodalVectors& parameters);
+
   SheetWalls walls_;
   std::vector<std::int32_t> panel_;  ///< of each node, where it was last
   PushedNodes nodes_;

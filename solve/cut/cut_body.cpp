@@ -41,7 +41,7 @@ void add_septum(const Septum& septum, double spacing, CutBody& body) {
                                 "frame?");
   }
   body.septum = facets_at(std::span(&sheet, 1), 0, body.inside, spacing);
-  body.split += add_face_nodes(body.septum, body.inside, body.cloud, body.conditions, body.pairs);
+  body.split += add_septum_nodes(body.septum, body.inside, body.cloud, body.conditions, body.pairs);
   body.septum_pairs = body.pairs.size();
   body.visibility = std::make_shared<const Visibility>(body.septum);
 }

@@ -104,10 +104,10 @@ TEST(Septum, GivesEachSideNodesOfItsOwnAndPartsThem) {
 
 TEST(Septum, GoesWithACutContactAndDrainedFluid) {
   Model model = pressed_box();
-  model.septum = sheet(10.3, 12);
+  model.septum = sheet(6.3, 12);
   Septum upright = sheet(10.3, side / 2);
   upright.sheet.vertices.col(2).swap(upright.sheet.vertices.col(1));  // y = 10.3, from x = -3 to 10
-  upright.sheet.vertices.col(2).array() += 12;                        // and from z = 9 up: across the septum
+  upright.sheet.vertices.col(2).array() += 16;                        // and from z = 13 up
   model.cuts = {{"cut.vtp", upright.sheet.vertices, upright.sheet.triangles, {}}};
   model.face_contact = true;
   const Eigen::Vector3d down(0, 0, -9.81);
