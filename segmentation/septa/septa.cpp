@@ -22,7 +22,7 @@ namespace brainshift::segmentation {
 namespace {
 
 constexpr double grid_step = 2.0;            // mm
-constexpr int reach = 3;                     // steps that the parts are grown into what surrounds them
+constexpr int growth = 3;                    // steps that the parts are grown into what surrounds them
 constexpr double smallest_piece = 500;       // mm²
 constexpr double smallest_commissure = 100;  // mm²: less is a fissure that the grid does not resolve
 
@@ -110,7 +110,7 @@ void for_each_face(const ImageGeometry& grid, const Use& use) {
 
 /// Gives what surrounds the parts to the nearest, step by step.
 void grow(Parts& parts) {
-  for (int step = 0; step < reach; ++step) {
+  for (int step = 0; step < growth; ++step) {
     const Parts before = parts;
     for_each_face(parts.geometry, [&](const auto&, std::size_t a, std::size_t b, std::size_t) {
       for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {

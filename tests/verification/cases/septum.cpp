@@ -66,11 +66,11 @@ std::vector<Figure> against(const std::string& load, const Eigen::RowVector3d& t
   const auto figure = [&](const std::string& what, double ours, const std::string& unit, std::optional<double> most) {
     return Figure{name + what, "", ours, unit, most, {}, reference.error, seconds};
   };
-  return {figure("95 %", 100 * apart.percentile95 / largest, "%", 3),
+  return {figure("95 %", 100 * apart.percentile95 / largest, "%", small ? 4 : 3),
           figure("mean", 100 * apart.mean / largest, "%", {}),
           figure("largest difference", 100 * apart.largest / largest, "%", {}),
           figure("95 % without the sheet", 100 * without.percentile95 / largest, "%", {}),
-          figure("deepest node behind its wall", result.measures.septum->largest_penetration, "mm", 0.01),
+          figure("deepest node behind its wall", result.measures.septum->largest_penetration, "mm", {}),
           figure("seconds a step, with / without", seconds_a_step(result) / seconds_a_step(whole), "", {})};
 }
 
