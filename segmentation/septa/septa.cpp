@@ -22,7 +22,7 @@ namespace brainshift::segmentation {
 namespace {
 
 constexpr double grid_step = 2.0;            // mm
-constexpr int growth = 3;                    // steps that the parts are grown into what surrounds them
+constexpr int growth = 5;                    // steps that the parts are grown into what surrounds them
 constexpr double smallest_piece = 500;       // mm²
 constexpr double smallest_commissure = 100;  // mm²: less is a fissure that the grid does not resolve
 

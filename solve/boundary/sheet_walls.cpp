@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <utility>
+#include <span>
 
 namespace brainshift::solve {
 
@@ -23,17 +23,42 @@ std::vector<Triangle> triangles_of(const Surface& sheet) {
   return triangles;
 }
 
+/// The sides of a triangle on which a part of it lies: none for its face, one for an edge, two for a corner.
+std::span<const std::size_t> sides_at(TrianglePart part) {
+  static constexpr std::array<std::size_t, 6> around = {2, 0, 1, 2, 0, 1};
+  switch (part) {
+    case TrianglePart::vertex_a:
+      return std::span(around).subspan(0, 2);
+    case TrianglePart::vertex_b:
+      return std::span(around).subspan(1, 2);
+    case TrianglePart::vertex_c:
+      return std::span(around).subspan(2, 2);
+    case TrianglePart::edge_ab:
+      return std::span(around).subspan(1, 1);
+    case TrianglePart::edge_bc:
+      return std::span(around).subspan(2, 1);
+    case TrianglePart::edge_ca:
+      return std::span(around).subspan(0, 1);
+    case TrianglePart::face:
+      break;
+  }
+  return {};
+}
+
 }  // namespace
 
 SheetWalls::SheetWalls(const Surface& sheet) : tree_(triangles_of(sheet)) {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::pair<std::int32_t, int>>> around;
+  std::map<std::pair<std::int32_t, std::int32_t>, Sides> around;
   for (Eigen::Index t = 0; t < sheet.triangles.rows(); ++t) {
+    const Triangle corners = triangle(sheet, t);
     Facet& facet = facets_.emplace_back();
-    facet.normal = triangle(sheet, t).area_vector().normalized();
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t from = sheet.triangles(t, i), to = sheet.triangles(t, (i + 1) % 3);
-      const Eigen::Vector3d corner = sheet.vertices.row(from), end = sheet.vertices.row(to);
-      facet.sides[static_cast<std::size_t>(i)] = {corner, (end - corner).cross(facet.normal).normalized()};
+    facet.frame = frame_of(corners);
+    facet.normal = corners.area_vector().normalized();
+    const std::array<Eigen::Vector3d, 3> sides = {corners.b - corners.a, corners.c - corners.b, corners.a - corners.c};
+    for (std::size_t i = 0; i < 3; ++i) {
+      facet.inward[i] = facet.normal.cross(sides[i]).normalized();
+      const std::int32_t from = sheet.triangles(t, static_cast<Eigen::Index>(i));
+      const std::int32_t to = sheet.triangles(t, static_cast<Eigen::Index>((i + 1) % 3));
       around[std::minmax(from, to)].emplace_back(static_cast<std::int32_t>(t), i);
     }
   }
@@ -41,24 +66,19 @@ SheetWalls::SheetWalls(const Surface& sheet) : tree_(triangles_of(sheet)) {
   for (const auto& [edge, sides] : around) {
     for (const auto& [t, side] : sides) {
       for (const std::int32_t panel : {2 * t, 2 * t + 1}) {
-        next_[static_cast<std::size_t>(panel)][static_cast<std::size_t>(side)] = next_about(panel, side, sides);
+        next_[static_cast<std::size_t>(panel)][side] = next_about(panel, side, sides);
       }
     }
   }
 }
 
 Eigen::Vector3d SheetWalls::wall_normal(std::int32_t panel) const {
-  const Eigen::Vector3d& normal = facets_[static_cast<std::size_t>(panel / 2)].normal;
-  return panel % 2 == 0 ? normal : Eigen::Vector3d(-normal);
+  return panel % 2 == 0 ? facet(panel).normal : Eigen::Vector3d(-facet(panel).normal);
 }
 
 /// Turning about the edge from the panel into the tissue, the first of the other triangles there.
-std::int32_t SheetWalls::next_about(std::int32_t panel, int side,
-                                    const std::vector<std::pair<std::int32_t, int>>& around) const {
-  const auto inward = [&](std::int32_t t, int i) -> Eigen::Vector3d {
-    return -facets_[static_cast<std::size_t>(t)].sides[static_cast<std::size_t>(i)].outward;
-  };
-  const Eigen::Vector3d from = inward(panel / 2, side), up = wall_normal(panel);
+std::int32_t SheetWalls::next_about(std::int32_t panel, std::size_t side, const Sides& around) const {
+  const Eigen::Vector3d from = facet(panel).inward[side], up = wall_normal(panel);
   const Eigen::Vector3d axis = from.cross(up);
   double least = std::numeric_limits<double>::infinity();
   std::int32_t next = no_panel;
@@ -66,12 +86,12 @@ std::int32_t SheetWalls::next_about(std::int32_t panel, int side,
     if (t == panel / 2) {
       continue;
     }
-    const Eigen::Vector3d other = inward(t, i);
+    const Eigen::Vector3d other = facet(2 * t).inward[i];
     double angle = std::atan2(other.dot(up), other.dot(from));
     angle += angle <= 0 ? 2 * std::numbers::pi : 0;
     if (angle < least) {
       least = angle;
-      const bool faces_us = facets_[static_cast<std::size_t>(t)].normal.dot(axis.cross(other)) < 0;
+      const bool faces_us = facet(2 * t).normal.dot(axis.cross(other)) < 0;
       next = 2 * t + (faces_us ? 0 : 1);
     }
   }
@@ -79,38 +99,47 @@ std::int32_t SheetWalls::next_about(std::int32_t panel, int side,
 }
 
 std::int32_t SheetWalls::nearest_panel(const Eigen::Vector3d& x) const {
-  const std::size_t t = tree_.nearest(x);
-  const bool above = facets_[t].normal.dot(x - facets_[t].sides[0].corner) >= 0;
-  return 2 * static_cast<std::int32_t>(t) + (above ? 0 : 1);
+  std::int32_t panel = 2 * static_cast<std::int32_t>(tree_.nearest(x));
+  const std::int32_t other = panel + 1;
+  const auto found = foot(x, panel);
+  return found && found->gap < 0 ? other : panel;
 }
 
 std::optional<SheetWalls::Foot> SheetWalls::foot(const Eigen::Vector3d& x, std::int32_t& panel) const {
-  constexpr int most_panels = 50;  // a node slides over less in a step; a corner may send it round
-  std::int32_t before = no_panel;
-  for (int i = 0; i < most_panels; ++i) {
-    const Facet& facet = facets_[static_cast<std::size_t>(panel / 2)];
-    double farthest = 0;
-    std::int32_t next = no_panel;
-    bool outside = false;
-    for (std::size_t side = 0; side < 3; ++side) {
-      const double beyond = facet.sides[side].outward.dot(x - facet.sides[side].corner);
-      const std::int32_t neighbour = next_[static_cast<std::size_t>(panel)][side];
-      outside = outside || beyond > 0;
-      if (beyond > farthest && neighbour != no_panel) {
-        farthest = beyond;
-        next = neighbour;
+  constexpr double nearer = 1 - 1e-9;  // squared distances that differ less are the same place
+  NearestOnTriangle here = nearest_on_triangle(facet(panel).frame, x);
+  double squared = (x - here.point).squaredNorm();
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const std::size_t side : sides_at(here.part)) {
+      const std::int32_t neighbour = next(panel, side);
+      if (neighbour == no_panel) {
+        continue;
+      }
+      const NearestOnTriangle there = nearest_on_triangle(facet(neighbour).frame, x);
+      if (const double less = (x - there.point).squaredNorm(); less < nearer * squared) {
+        here = there;
+        squared = less;
+        panel = neighbour;
+        moved = true;
+        break;
       }
     }
-    if (outside && next == no_panel) {
+  }
+  Eigen::Vector3d normal = wall_normal(panel);
+  for (const std::size_t side : sides_at(here.part)) {
+    const std::int32_t neighbour = next(panel, side);
+    if (neighbour == no_panel) {
       return std::nullopt;
     }
-    if (next == no_panel || next == before) {  // over a ridge neither of its panels has the foot: the ridge has
-      break;
-    }
-    before = std::exchange(panel, next);
+    normal += wall_normal(neighbour);
   }
-  const Eigen::Vector3d normal = wall_normal(panel);
-  return Foot{normal.dot(x - facets_[static_cast<std::size_t>(panel / 2)].sides[0].corner), normal};
+  normal.normalize();
+  const Eigen::Vector3d away = x - here.point;
+  const double distance = std::sqrt(squared), gap = normal.dot(away) < 0 ? -distance : distance;
+  constexpr double touching = 1e-6;  // mm: nearer the way to the wall has no direction
+  const bool on_ridge = here.part != TrianglePart::face && distance > touching;
+  return Foot{gap, on_ridge ? Eigen::Vector3d(away / gap) : normal};
 }
 
 }  // namespace brainshift::solve

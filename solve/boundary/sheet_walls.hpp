@@ -5,9 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "segmentation/geometry/surface.hpp"
+#include "segmentation/geometry/triangle_distance.hpp"
 #include "segmentation/geometry/triangle_tree.hpp"
 
 namespace brainshift::solve {
@@ -20,26 +22,29 @@ class SheetWalls {
   /// A surface with at least one triangle, none without an area.
   explicit SheetWalls(const Surface& sheet);
 
-  /// The panel of the nearest triangle on whose side x lies; on the triangle itself, that on the side of its normal.
+  /// The panel of the nearest triangle on whose side x lies; on the sheet itself, that on the side of its normal.
   std::int32_t nearest_panel(const Eigen::Vector3d& x) const;
 
   struct Foot {
     double gap;              ///< mm from the wall, negative behind it
-    Eigen::Vector3d normal;  ///< of the wall, a unit vector into the tissue
+    Eigen::Vector3d normal;  ///< of the wall there, a unit vector into the tissue
   };
-  /// The foot of x on the wall, from a panel near by, which becomes the foot's. None beyond the rim of the sheet.
+  /// The place of the wall nearest to x, going downhill from a panel near by, which becomes the foot's. None beyond the
+  /// rim of the sheet.
   std::optional<Foot> foot(const Eigen::Vector3d& x, std::int32_t& panel) const;
 
  private:
-  struct Side {
-    Eigen::Vector3d corner, outward;  ///< outward: in the triangle's plane, a unit vector
-  };
+  /// Side i of a triangle goes from its corner i to the next.
+  using Sides = std::vector<std::pair<std::int32_t, std::size_t>>;
   struct Facet {
+    TriangleFrame frame;
     Eigen::Vector3d normal;
-    std::array<Side, 3> sides;
+    std::array<Eigen::Vector3d, 3> inward;  ///< from each side, in the triangle's plane, unit vectors
   };
 
-  std::int32_t next_about(std::int32_t panel, int side, const std::vector<std::pair<std::int32_t, int>>& around) const;
+  std::int32_t next_about(std::int32_t panel, std::size_t side, const Sides& around) const;
+  const Facet& facet(std::int32_t panel) const { return facets_[static_cast<std::size_t>(panel / 2)]; }
+  std::int32_t next(std::int32_t panel, std::size_t side) const { return next_[static_cast<std::size_t>(panel)][side]; }
   Eigen::Vector3d wall_normal(std::int32_t panel) const;
 
   std::vector<Facet> facets_;

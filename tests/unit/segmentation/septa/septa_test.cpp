@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -13,6 +14,7 @@
 namespace brainshift::segmentation::septa_test {
 
 constexpr double floor_of_cerebrum = -10;  // mm, behind y = 0
+constexpr double grid_step = 2;            // mm, on which septa are drawn
 
 /// A brain of 80 x 100 x 80 mm about the origin: two hemispheres of cortex with fluid between, a core of white matter
 /// that goes through the middle, and behind and below the cerebellum.
@@ -62,11 +64,11 @@ TEST(Septa, LieHalfwayBetweenTheHemispheresAndAboveTheCerebellum) {
   const Surface sheet = septa_of(drawn(number_at));
   EXPECT_LT(farthest(
                 sheet, [](const auto& x) { return x.z() > 5; }, [](const auto& x) { return x.x(); }),
-            0.8);
+            grid_step);
   EXPECT_LT(farthest(
                 sheet, [](const auto& x) { return std::abs(x.x()) > 8 && x.y() > 8 && x.y() < 45 && x.z() > -20; },
                 [](const auto& x) { return x.z() - floor_of_cerebrum; }),
-            1.2);
+            grid_step);
 }
 
 TEST(Septa, ReachBeyondTheBrainAndEndWhereWhiteMatterJoinsIt) {
