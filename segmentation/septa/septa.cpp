@@ -246,8 +246,8 @@ Surface smoothed(const Surface& sheet) {
   vtkNew<vtkWindowedSincPolyDataFilter> filter;
   const auto rough = to_vtk(sheet);
   filter->SetInputData(rough);
-  filter->SetNumberOfIterations(30);
-  filter->SetPassBand(0.03);
+  filter->SetNumberOfIterations(60);
+  filter->SetPassBand(0.01);
   filter->BoundarySmoothingOn();
   filter->NonManifoldSmoothingOn();
   filter->FeatureEdgeSmoothingOff();

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -32,6 +34,26 @@ struct Place {
   Eigen::Vector3d x, normal;
 };
 
+using Edge = std::array<std::int32_t, 2>;
+
+/// Edges at which more than two triangles meet.
+std::vector<Edge> branching_edges(const Triangles& facets) {
+  std::map<Edge, int> triangles;
+  for (const auto& f : facets.rowwise()) {
+    for (int i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax({f[i], f[(i + 1) % 3]});
+      ++triangles[{low, high}];
+    }
+  }
+  std::vector<Edge> branching;
+  for (const auto& [edge, count] : triangles) {
+    if (count > 2) {
+      branching.push_back(edge);
+    }
+  }
+  return branching;
+}
+
 class Faces {
  public:
   /// septum: whether nodes stand along the fronts.
@@ -43,7 +65,12 @@ class Faces {
         tree_(cloud.positions),
         from_front_(septum ? 0.99 * from_rim : from_front),
         septum_(septum),
+        kept_clear_(cut.front),
         is_face_(cloud.size(), 0) {
+    if (septum) {
+      const std::vector<Edge> branches = branching_edges(cut.facets);
+      kept_clear_.insert(kept_clear_.end(), branches.begin(), branches.end());
+    }
     for (const FacePair& p : pairs) {
       taken_.push_back(p.place);
       is_face_[static_cast<std::size_t>(p.above)] = is_face_[static_cast<std::size_t>(p.below)] = 1;
@@ -97,7 +124,7 @@ class Faces {
   }
 
   bool clear_of_front(const Eigen::Vector3d& x, double h) const {
-    return std::all_of(cut_.front.begin(), cut_.front.end(), [&](const auto& edge) {
+    return std::all_of(kept_clear_.begin(), kept_clear_.end(), [&](const Edge& edge) {
       const Eigen::Vector3d a = cut_.vertices.row(edge[0]), along = Eigen::Vector3d(cut_.vertices.row(edge[1])) - a;
       const double squared = along.squaredNorm();
       const double share = squared > 0 ? std::clamp((x - a).dot(along) / squared, 0.0, 1.0) : 0;
@@ -275,6 +302,7 @@ class Faces {
   PointTree tree_;
   double from_front_;  ///< spacings
   bool septum_;
+  std::vector<Edge> kept_clear_;  ///< fronts, and where a septum branches: there a face has no two sides
   std::vector<std::uint8_t> is_face_;
   std::vector<Eigen::Vector3d> taken_;
   std::vector<Place> places_;
@@ -336,7 +364,13 @@ std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeC
 
 std::size_t add_septum_nodes(const CutFacets& septum, const InsideBody& inside, NodeCloud& cloud,
                              Conditions& conditions, std::vector<FacePair>& pairs) {
-  return add_at(Faces(septum, inside, cloud, pairs, true).places(), cloud, conditions, pairs);
+  std::vector<Place> places = Faces(septum, inside, cloud, pairs, true).places();
+  const Visibility visibility(septum);
+  std::erase_if(places, [&](const Place& p) {  // in a crease both nodes may come to lie on one side
+    const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;
+    return !visibility.detour(p.x + off, p.x - off);
+  });
+  return add_at(places, cloud, conditions, pairs);
 }
 
 }  // namespace brainshift::solve
