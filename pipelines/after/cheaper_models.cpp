@@ -40,6 +40,9 @@ void add_parts_of_the_model(const Model& model, const SolveOptions& options, std
   if (model.skull) {
     found.push_back({"contact", "left out", "", [](Model& m, SolveOptions&) { m.skull.reset(); }});
   }
+  if (model.septum) {
+    found.push_back({"septum", "left out", "", [](Model& m, SolveOptions&) { m.septum.reset(); }});
+  }
   if (!model.gravity.isZero()) {
     found.push_back({"gravity", "left out", "", [](Model& m, SolveOptions&) { m.gravity.setZero(); }});
   }

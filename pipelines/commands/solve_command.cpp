@@ -194,6 +194,10 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
       ->type_name("FILE");
   command->add_option("--skull", arguments->job.skull, "the skull's inner surface, for contact")->type_name("FILE");
   command
+      ->add_option("--septum", arguments->job.septum,
+                   "a rigid sheet inside the body, along which tissue slides: .vtp, .stl, .ply, .obj")
+      ->type_name("FILE");
+  command
       ->add_option("--plane", arguments->plane,
                    "a plane problem, of cells that are quadrilaterals or triangles, z = 0 and 1 mm thick")
       ->type_name("strain | stress");

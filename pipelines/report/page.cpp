@@ -263,6 +263,7 @@ std::string make_page(PageContent content) {
                               {"licences", !content.libraries.empty()},
                               {"comparison", comparison(content.comparisons)},
                               {"displacement", displacement(content)},
+                              {"septum", elements.contains("septa") || elements.contains("septum")},
                               {"uncertainty", uncertainty(content, stages)},
                               {"weight", weight_of(stages, elements)},
                               {"labels", labels_of(content)},

@@ -78,6 +78,7 @@ RunData read_run(const fs::path& run_folder) {
   run.brain = read_if_there(run_folder / "segment/brain.vtp", [](const fs::path& file) { return read_surface(file); });
   run.solution =
       read_if_there(run_folder / "solve/solution.vtu", [](const fs::path& file) { return read_solution(file); });
+  run.septum = read_if_there(run_folder / "solve/septum.vtp", [](const fs::path& file) { return read_surface(file); });
   run.history = text_of(run_folder / "solve/history.csv");
   run.load = text_of(run_folder / "solve/load.csv");
   run.uncertainty = text_of(run_folder / "solve/uncertainty.csv");

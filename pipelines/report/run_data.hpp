@@ -30,6 +30,7 @@ struct RunData {
   std::string load = {};                     ///< text of solve/load.csv
   std::string uncertainty = {};              ///< text of solve/uncertainty.csv
   std::vector<double> deviation = {};        ///< of the displacement at the solution's nodes, mm; none: not sampled
+  std::optional<Surface> septum = {};        ///< rigid sheets along which tissue slid
 };
 
 /// Throws std::invalid_argument, naming the file, when the folder holds no run.json or something that cannot be read.

@@ -20,6 +20,7 @@ using Eigen::Vector3d;
 constexpr Colour preop_colour = {90, 200, 250};
 constexpr Colour intraop_colour = {255, 150, 60};
 constexpr Colour opening_colour = {70, 235, 110};
+constexpr Colour septum_colour = {210, 130, 255};
 constexpr int bar_width = 96;  // pixels to the right of a picture with a colour bar
 
 // Grey as radiologists see it; where the image has no value, or there is none, nearly black.
@@ -241,6 +242,9 @@ Figure displacement_figure(const RunData& run, const View& view, const SlicePlan
   }
   Sheet sheet(plane, "displacement", "Displacement as colours and arrows", canvas, bar_width);
   draw_before(sheet, view, outline);
+  if (run.septum) {
+    sheet.svg.lines(cut_surface(plane, *run.septum), {.colour = septum_colour, .width = 1.6});
+  }
   draw_arrows(sheet.svg, arrows);
   draw_colours(sheet, view.shift);
   return lettered(std::move(sheet), plane.name);
@@ -252,7 +256,8 @@ Figure uncertainty_figure(const RunData& run, const View& view, const SlicePlane
   const auto outline = cut_surface(plane, *run.brain);
   const auto mask = inside_mask(plane, outline);
   const Eigen::Map<const Eigen::VectorXd> nodal(run.deviation.data(), static_cast<Eigen::Index>(run.deviation.size()));
-  const Eigen::VectorXd deviation = registration::nodal_values_at(*run.solution, nodal, false, places_of_pixels(plane, mask));
+  const Eigen::VectorXd deviation =
+      registration::nodal_values_at(*run.solution, nodal, false, places_of_pixels(plane, mask));
   const ColourScale scale{
       .map = ColourMap::sequential, .low = 0, .high = round_up(nodal.maxCoeff()), .title = "+/- mm"};
   Eigen::Index next = 0;

@@ -13,6 +13,8 @@
 #include "register/field/nodal_values.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/image/frame_note.hpp"
+#include "segmentation/septa/septa.hpp"
+#include "solve/cut/septum.hpp"
 #include "solve/load/noisy_load.hpp"
 #include "solve/output/solution_file.hpp"
 #include "solve/run/measured.hpp"
@@ -114,6 +116,13 @@ auto naming(const std::string& files, const Work& work) {
   } catch (const std::invalid_argument& fault) {
     throw std::invalid_argument(files.empty() ? fault.what() : files + ": " + fault.what());
   }
+}
+
+/// From the numbers as the map has them: classes do not tell left from right.
+void write_septa(const fs::path& labels, const fs::path& file, StageReport& said) {
+  const Surface septa = naming(labels.string(), [&] { return segmentation::septa_of(read_label_map(labels)); });
+  write_surface(file, septa);
+  said.measures["septa_area_mm2"] = area(septa);
 }
 
 void add(const std::vector<std::string>& notes, StageReport& report) {
@@ -285,6 +294,9 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
       naming(file.string(), [&] { return segmentation::segment(input, options, progress); });
   segmentation::write_segmentation(out, result);
   StageReport stage = report_of(result);
+  if (job.septa) {
+    write_septa(job.image.labels, out / "septa.vtp", stage);
+  }
   stage.notes.insert(stage.notes.begin(), notes.begin(), notes.end());
   return stage;
 }
@@ -322,6 +334,9 @@ SolveInput read_input(const SolveJob& job) {
   model.rupture = job.rupture;
   model.resection = job.resection;
   read_cuts(job, model);
+  if (!job.septum.empty()) {
+    model.septum = solve::read_septum(job.septum);
+  }
   if (!job.surface.empty()) {
     model.boundary = read_surface(job.surface);
   }
@@ -357,6 +372,9 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
   const SolveInput input = read_input(job);
   if (input.load) {
     solve::write_craniotomy_csv(out / "load.csv", *input.load);
+  }
+  if (input.model.septum) {
+    write_surface(out / "septum.vtp", input.model.septum->sheet);
   }
   const solve::SolveResult result = naming(job.nodes.string() + " and " + job.cells.string(),
                                            [&] { return solve::solve(input.model, input.options, progress); });

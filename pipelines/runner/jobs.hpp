@@ -19,6 +19,7 @@ struct SegmentJob {
   ImageInputs image;
   segmentation::SegmentOptions options;  ///< by class: brain_labels, skull_label and fluid_label come from the map
   LabelReading reading = {};
+  bool septa = false;  ///< whether falx and tentorium are drawn from the label map
 };
 
 struct DiscretiseJob {
@@ -43,6 +44,7 @@ struct SolveJob {
   solve::Plane plane = solve::Plane::none;
   std::optional<Gravity> gravity = {};
   std::optional<Cuts> cuts = {};
+  std::filesystem::path septum = {};       ///< a rigid sheet when given
   std::vector<solve::Cut> cut_paths = {};  ///< of a plane problem, those that are in no file
   std::optional<solve::Rupture> rupture = {};
   std::optional<solve::Resection> resection = {};

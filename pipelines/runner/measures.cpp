@@ -105,6 +105,12 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
       report.measures["cut"]["largest_overlap_mm"] = m.cut->faces->largest_overlap;
     }
   }
+  if (m.septum) {
+    report.measures["septum"] = {{"area_mm2", m.septum->area},
+                                 {"face_nodes", m.septum->face_nodes},
+                                 {"touching_nodes", m.septum->touching_nodes},
+                                 {"largest_penetration_mm", m.septum->largest_penetration}};
+  }
   if (m.resection) {
     report.measures["resection"] = {{"removed_nodes", m.resection->removed_nodes},
                                     {"removed_volume_mm3", m.resection->removed_volume}};

@@ -97,6 +97,11 @@ StagePlan plan_segment(const Scene& scene) {
                  .options = options_of(scene, {"image", "segment"}),
                  .artefacts = {"brain.vtp"},
                  .work = {}};
+  if (scene.septa) {
+    job.septa = true;
+    plan.options["septa"] = true;
+    plan.artefacts.emplace_back("septa.vtp");
+  }
   plan.options["brain_labels"] = job.options.brain_labels;
   plan.options["by_class"] = job.reading.by_class;
   plan.options["joined"] = job.reading.joined;
@@ -152,7 +157,7 @@ UncertaintyJob uncertainty_job(const Scene& scene, const fs::path& folder) {
 StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
   const SolveJob job = solve_job(scene, folder);
   std::vector<std::string> elements = load_elements(scene);
-  elements.insert(elements.end(), {"contact", "tissues", "gravity", "cuts", "resection", "solve"});
+  elements.insert(elements.end(), {"contact", "tissues", "gravity", "cuts", "septum", "resection", "solve"});
   if (asks_for_landmarks(scene)) {
     elements.emplace_back("landmarks");
   }
@@ -168,6 +173,9 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
                 {"discretise/nodes.vtu", "discretise/cells.vtu", "segment/brain.vtp", "segment/labels.nii.gz"});
   if (scene.contact && scene.contact->skull.empty()) {
     add_artefacts(plan, folder, {"segment/skull.vtp"});
+  }
+  if (scene.septa) {
+    add_artefacts(plan, folder, {"segment/septa.vtp"});
   }
   plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
   return plan;
@@ -304,6 +312,9 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
                .resection = scene.resection};
   if (scene.contact) {
     job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;
+  }
+  if (scene.septa || scene.septum) {
+    job.septum = scene.septum ? scene.septum->file : folder / "segment" / "septa.vtp";
   }
   for (const Tissue& tissue : scene.tissues) {
     job.materials[tissue.label] = tissue.material;

@@ -13,6 +13,8 @@
 #include "register/interface/option_table.hpp"
 #include "segmentation/interface/option_table.hpp"
 #include "segmentation/labels/label_table.hpp"
+#include "segmentation/septa/septa.hpp"
+#include "solve/cut/septum.hpp"
 #include "solve/interface/option_table.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/material/check_material.hpp"
@@ -149,6 +151,23 @@ void check_cuts(const Scene& scene) {
   }
 }
 
+void check_septa(const Scene& scene) {
+  if (scene.septa && scene.septum) {
+    fail(scene, "septum", "there are both <septa>, from the label map, and <septum>, from a file; give one of them");
+  }
+  if (scene.septa && scene.image.labels.empty()) {
+    fail(scene, "septa",
+         "<septa> needs a label map with FreeSurfer's numbers, and the <image> names no labels; name them, or give the "
+         "sheet, as <septum file=\"falx.vtp\"/>");
+  }
+  if (scene.septa && is_ours(scene, StageId::segment)) {
+    check_at(scene, "septa", [&] { segmentation::septa_of(read_label_map(scene.image.labels)); });
+  }
+  if (scene.septum) {
+    check_at(scene, "septum", [&] { solve::read_septum(scene.septum->file); });
+  }
+}
+
 void check_options(const Scene& scene) {
   check_at(scene, "segment", [&] { segmentation::check_options(scene.segment); });
   check_at(scene, "discretise", [&] { discretise::check_options(scene.discretise); });
@@ -171,6 +190,9 @@ void check_region(const Scene& scene) {
   }
   model.resection = scene.resection;
   model.cuts.resize(scene.cuts ? 1 : 0);
+  if (scene.septa || scene.septum) {
+    model.septum.emplace();
+  }
   check_at(scene, "solve.region", [&] { solve::check_region(model, scene.solve); });
 }
 
@@ -268,6 +290,7 @@ void check_scene(const Scene& scene) {
   check_solve_options(scene);
   check_tissues(scene);
   check_cuts(scene);
+  check_septa(scene);
   check_resection(scene);
   check_late_files(scene);
   if (scene.uncertainty) {

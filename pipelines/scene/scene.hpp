@@ -91,6 +91,13 @@ struct Cuts {
   std::vector<CutFile> files;
 };
 
+/// Falx and tentorium from the label map, by FreeSurfer's numbers.
+struct Septa {};
+
+struct SeptumFile {
+  std::filesystem::path file;
+};
+
 /// Reads a cut. Throws std::invalid_argument, naming the file, when it is at fault, a path of a body in space or a
 /// sheet of a plane problem.
 solve::Cut read_cut(const CutFile& cut, solve::Plane plane);
@@ -135,6 +142,8 @@ struct Scene {
   std::optional<Contact> contact;
   std::optional<Gravity> gravity;
   std::optional<Cuts> cuts;
+  std::optional<Septa> septa;
+  std::optional<SeptumFile> septum;
   std::optional<solve::Resection> resection;
   std::optional<std::filesystem::path> landmarks;
   std::optional<solve::UncertaintyOptions> uncertainty;

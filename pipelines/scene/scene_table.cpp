@@ -256,6 +256,14 @@ std::vector<Element> make_elements() {
                                               "surface of the skull's inside; empty: the segment stage's")}));
   elements.push_back(gravity_element());
   elements.push_back(cuts_element());
+  elements.push_back(part("septa",
+                          "Falx and tentorium, rigid sheets along which tissue slides: from the label map, by "
+                          "FreeSurfer's numbers.",
+                          &Scene::septa, {}));
+  elements.push_back(part("septum", "The same from a surface.", &Scene::septum,
+                          {required(file_option<Scene>("file", MEMBER(septum->file),
+                                                       "sheet of triangles: .vtp, .stl, .ply, .obj; it may branch and "
+                                                       "end inside the brain"))}));
   elements.push_back(resection_element());
   elements.push_back(
       part("landmarks", "Points to move with the brain.", &Scene::landmarks,

@@ -11,6 +11,7 @@
 #include "solve/boundary/essential_conditions.hpp"
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/face_contact.hpp"
+#include "solve/boundary/septum_contact.hpp"
 #include "solve/force/point_blocks.hpp"
 #include "solve/force/point_laws.hpp"
 #include "solve/interface/cut.hpp"
@@ -40,6 +41,7 @@ struct Body {
   EssentialConditions essential;
   std::optional<Contact> contact;
   std::optional<FaceContact> face_contact;
+  std::optional<SeptumContact> septum_contact;
   ExternalForce external;
 
   std::size_t nodes() const { return original.size(); }

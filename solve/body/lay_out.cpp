@@ -125,6 +125,19 @@ SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cl
   return far_out ? SignedDistance(skull) : distance;
 }
 
+/// Surface nodes that something else does not hold in all directions: one on a plane of symmetry slides along it.
+std::vector<std::int32_t> nodes_at_septum(const OrderedCloud& cloud) {
+  std::vector<std::int32_t> nodes = surface_nodes(cloud);
+  std::erase_if(nodes, [&](std::int32_t a) {
+    const auto held = [&](int axis) { return cloud.conditions.is_prescribed(a, axis); };
+    return held(0) && held(1) && held(2);
+  });
+  return nodes;
+}
+
+/// In spacings of the nodes: surface nodes farther from a septum than that do not come to touch it.
+constexpr double septum_reach = 2;
+
 /// The pairs by ordered numbers.
 std::vector<FacePair> ordered(std::span<const FacePair> pairs, const std::vector<std::int32_t>& original) {
   std::vector<std::int32_t> number(original.size());
@@ -161,6 +174,7 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
       .essential = essential_conditions(options, parts),
       .contact = {},
       .face_contact = {},
+      .septum_contact = {},
       .external = external_force(model, parts, options.dynamics),
   };
   if (in_time) {
@@ -173,6 +187,11 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
   }
   if (model.face_contact && !model.cuts.empty()) {
     body.face_contact.emplace(ordered(extras.faces, cloud.original), cloud.positions, cloud.spacing, parts.nodal_rows);
+  }
+  if (model.septum) {
+    const double spacing = *std::max_element(cloud.spacing.begin(), cloud.spacing.end());
+    body.septum_contact.emplace(model.septum->sheet, cloud.positions, nodes_at_septum(cloud), septum_reach * spacing,
+                                parts.nodal_rows);
   }
   return body;
 }

@@ -13,8 +13,8 @@ namespace brainshift::solve {
 
 /// What of a body is not in its parts.
 struct LayOutExtras {
-  CutFacets cut = {};                        ///< that parts it
-  std::span<const FacePair> faces = {};      ///< nodes of the cut's faces, by the cloud's own numbers
+  CutFacets cut = {};                        ///< that parts it, the septum too
+  std::span<const FacePair> faces = {};      ///< nodes of the cuts' faces, by the cloud's own numbers
   std::span<const std::int32_t> held = {};   ///< ordered nodes whose prescribed displacement is held, not loaded
   std::optional<SignedDistance> skull = {};  ///< of the model, where its distances are known already
 };

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "solve/cut/septum.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
 
@@ -30,6 +31,19 @@ bool meets(const Cut& cut, const InsideBody& inside) {
     }
   }
   return false;
+}
+
+void add_septum(const Septum& septum, double spacing, CutBody& body) {
+  const Cut sheet{septum.name, septum.sheet.vertices, septum.sheet.triangles, {}};
+  if (!meets(sheet, body.inside)) {
+    throw std::invalid_argument(septum.name +
+                                ": the septum does not meet the body; are its coordinates in mm and in the body's "
+                                "frame?");
+  }
+  body.septum = facets_at(std::span(&sheet, 1), 0, body.inside, spacing);
+  body.split += add_septum_nodes(body.septum, body.inside, body.cloud, body.conditions, body.pairs);
+  body.septum_pairs = body.pairs.size();
+  body.visibility = std::make_shared<const Visibility>(body.septum);
 }
 
 void check(const Cut& cut, bool planar, const InsideBody& inside) {
@@ -58,15 +72,23 @@ CutBody cut_body(const Model& model) {
     throw std::invalid_argument(text.str());
   }
   const bool planar = model.plane != Plane::none;
+  if (model.septum) {
+    check_septum(*model.septum, planar);
+  }
   const IntegrationPoints points = integration_points(model.cells, most_points_per_cell(model.cells.kind), nullptr, {});
   CutBody body{.inside = InsideBody(points.positions, points.volume, planar),
                .cloud = model.cloud,
                .conditions = model.conditions,
                .pairs = {},
+               .septum_pairs = 0,
+               .septum = {},
                .split = 0,
                .visibility = nullptr};
   for (const Cut& cut : model.cuts) {
     check(cut, planar, body.inside);
+  }
+  if (model.septum) {
+    add_septum(*model.septum, mean_spacing(model.cloud), body);
   }
   cut_further(facets_at(model.cuts, 0, body.inside, mean_spacing(model.cloud)), body);
   return body;
@@ -77,7 +99,7 @@ void cut_further(CutFacets facets, CutBody& body) {
     return;
   }
   body.split += add_face_nodes(facets, body.inside, body.cloud, body.conditions, body.pairs);
-  body.visibility = std::make_shared<const Visibility>(std::move(facets));
+  body.visibility = std::make_shared<const Visibility>(joined(body.septum, std::move(facets)));
 }
 
 }  // namespace brainshift::solve

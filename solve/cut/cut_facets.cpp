@@ -204,6 +204,22 @@ CutFacets facets_at(std::span<const Cut> cuts, double time, const InsideBody& in
   return cut;
 }
 
+CutFacets joined(const CutFacets& first, CutFacets second) {
+  if (first.empty()) {
+    return second;
+  }
+  CutFacets both = first;
+  const auto shift = static_cast<std::int32_t>(first.vertices.rows());
+  both.vertices.conservativeResize(shift + second.vertices.rows(), 3);
+  both.vertices.bottomRows(second.vertices.rows()) = second.vertices;
+  both.facets.conservativeResize(first.facets.rows() + second.facets.rows(), 3);
+  both.facets.bottomRows(second.facets.rows()) = second.facets.array() + shift;
+  for (const auto& [from, to] : second.front) {
+    both.front.push_back({from + shift, to + shift});
+  }
+  return both;
+}
+
 double last_time(std::span<const Cut> cuts) {
   double last = 0;
   for (const Cut& c : cuts) {

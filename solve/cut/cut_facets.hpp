@@ -14,6 +14,9 @@ namespace brainshift::solve {
 /// surface reaches it, and is no front.
 CutFacets facets_at(std::span<const Cut> cuts, double time, const InsideBody& inside, double spacing);
 
+/// One set of facets and another.
+CutFacets joined(const CutFacets& first, CutFacets second);
+
 /// Before all that is cut.
 inline constexpr double from_the_start = -1;
 

@@ -198,8 +198,9 @@ ChangedBody Dissection::advance(const CutFacets& fresh, const Body& body) {
   if (body.contact) {
     skull = body.contact->skull();
   }
-  Body cut = lay_out(model_, options_, parts,
-                     {.cut = after.cut.facets(), .faces = after.cut.pairs, .held = {}, .skull = std::move(skull)});
+  Body cut =
+      lay_out(model_, options_, parts,
+              {.cut = after.cut.facets(), .faces = after.cut.cut_pairs(), .held = {}, .skull = std::move(skull)});
   cut.essential.factorise(std::vector<double>(parts.cloud.size(), 1.0));  // throws where it could not be held
   now_ = std::move(after);
   measures_.touched_supports += touched_points;

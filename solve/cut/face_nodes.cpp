@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -18,6 +20,7 @@ constexpr double off_face = 1e-3;
 constexpr double split_apart = 0.6;
 constexpr double added_apart = 0.85;
 constexpr double from_front = 0.5;
+constexpr double from_rim = 0.25;  // of a septum
 constexpr double sampling = 0.05;
 constexpr double mouth_within = 0.5;  // so near to a mouth a node is moved there: two would be too near to each other
 constexpr double mouth_apart = 0.6;
@@ -31,10 +34,43 @@ struct Place {
   Eigen::Vector3d x, normal;
 };
 
+using Edge = std::array<std::int32_t, 2>;
+
+/// Edges at which more than two triangles meet.
+std::vector<Edge> branching_edges(const Triangles& facets) {
+  std::map<Edge, int> triangles;
+  for (const auto& f : facets.rowwise()) {
+    for (int i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax({f[i], f[(i + 1) % 3]});
+      ++triangles[{low, high}];
+    }
+  }
+  std::vector<Edge> branching;
+  for (const auto& [edge, count] : triangles) {
+    if (count > 2) {
+      branching.push_back(edge);
+    }
+  }
+  return branching;
+}
+
 class Faces {
  public:
-  Faces(const CutFacets& cut, const InsideBody& inside, const NodeCloud& cloud, const std::vector<FacePair>& pairs)
-      : cut_(cut), inside_(inside), cloud_(cloud), tree_(cloud.positions), is_face_(cloud.size(), 0) {
+  /// septum: whether nodes stand along the fronts.
+  Faces(const CutFacets& cut, const InsideBody& inside, const NodeCloud& cloud, const std::vector<FacePair>& pairs,
+        bool septum)
+      : cut_(cut),
+        inside_(inside),
+        cloud_(cloud),
+        tree_(cloud.positions),
+        from_front_(septum ? 0.99 * from_rim : from_front),
+        septum_(septum),
+        kept_clear_(cut.front),
+        is_face_(cloud.size(), 0) {
+    if (septum) {
+      const std::vector<Edge> branches = branching_edges(cut.facets);
+      kept_clear_.insert(kept_clear_.end(), branches.begin(), branches.end());
+    }
     for (const FacePair& p : pairs) {
       taken_.push_back(p.place);
       is_face_[static_cast<std::size_t>(p.above)] = is_face_[static_cast<std::size_t>(p.below)] = 1;
@@ -44,6 +80,9 @@ class Faces {
   std::vector<Place> places() {
     if (cut_.planar) {
       add_mouths();
+    }
+    if (septum_) {
+      add_rims();
     }
     split_nodes(true);
     split_nodes(false);
@@ -85,11 +124,11 @@ class Faces {
   }
 
   bool clear_of_front(const Eigen::Vector3d& x, double h) const {
-    return std::all_of(cut_.front.begin(), cut_.front.end(), [&](const auto& edge) {
+    return std::all_of(kept_clear_.begin(), kept_clear_.end(), [&](const Edge& edge) {
       const Eigen::Vector3d a = cut_.vertices.row(edge[0]), along = Eigen::Vector3d(cut_.vertices.row(edge[1])) - a;
       const double squared = along.squaredNorm();
       const double share = squared > 0 ? std::clamp((x - a).dot(along) / squared, 0.0, 1.0) : 0;
-      return (a + share * along - x).norm() > from_front * h;
+      return (a + share * along - x).norm() > from_front_ * h;
     });
   }
 
@@ -224,6 +263,35 @@ class Faces {
     }
   }
 
+  /// Beside each front, in the facet that ends there.
+  void add_rims() {
+    for (Eigen::Index f = 0; f < cut_.facets.rows(); ++f) {
+      for (int i = 0; i < 3; ++i) {
+        const std::int32_t a = cut_.facets(f, i), b = cut_.facets(f, (i + 1) % 3);
+        const bool is_front = std::any_of(cut_.front.begin(), cut_.front.end(), [&](const auto& edge) {
+          return edge[0] == std::min(a, b) && edge[1] == std::max(a, b);
+        });
+        if (is_front) {
+          add_rim(f, corner(f, i), corner(f, (i + 1) % 3));
+        }
+      }
+    }
+  }
+
+  void add_rim(Eigen::Index f, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    const Eigen::Vector3d inward = normal(f).cross(to - from).normalized();
+    const double h = spacing(nearest_node((from + to) / 2));
+    const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / (sampling * h))));
+    for (int i = 0; i <= steps; ++i) {
+      const Eigen::Vector3d rim = from + (to - from) * (i / static_cast<double>(steps));
+      const std::int32_t like = nearest_node(rim);
+      const Eigen::Vector3d x = rim + from_rim * spacing(like) * inward;
+      if (inside_(x)) {
+        take(no_node, like, x, f, added_apart);
+      }
+    }
+  }
+
   std::int32_t nearest_node(const Eigen::Vector3d& x) const {
     return static_cast<std::int32_t>(tree_.nearest(x.data()).first);
   }
@@ -232,6 +300,9 @@ class Faces {
   const InsideBody& inside_;
   const NodeCloud& cloud_;
   PointTree tree_;
+  double from_front_;  ///< spacings
+  bool septum_;
+  std::vector<Edge> kept_clear_;  ///< fronts, and where a septum branches: there a face has no two sides
   std::vector<std::uint8_t> is_face_;
   std::vector<Eigen::Vector3d> taken_;
   std::vector<Place> places_;
@@ -260,12 +331,10 @@ std::int32_t append_node(NodeCloud& cloud, Conditions& conditions, std::int32_t 
   return static_cast<std::int32_t>(row);
 }
 
-}  // namespace
-
-std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeCloud& cloud, Conditions& conditions,
-                           std::vector<FacePair>& pairs) {
+std::size_t add_at(const std::vector<Place>& places, NodeCloud& cloud, Conditions& conditions,
+                   std::vector<FacePair>& pairs) {
   std::size_t split = 0;
-  for (const Place& p : Faces(cut, inside, cloud, pairs).places()) {
+  for (const Place& p : places) {
     const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;
     FacePair pair{p.node, no_node, p.x, p.normal};
     const bool was_there = p.node != no_node;
@@ -284,6 +353,24 @@ std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeC
     pairs.push_back(pair);
   }
   return split;
+}
+
+}  // namespace
+
+std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeCloud& cloud, Conditions& conditions,
+                           std::vector<FacePair>& pairs) {
+  return add_at(Faces(cut, inside, cloud, pairs, false).places(), cloud, conditions, pairs);
+}
+
+std::size_t add_septum_nodes(const CutFacets& septum, const InsideBody& inside, NodeCloud& cloud,
+                             Conditions& conditions, std::vector<FacePair>& pairs) {
+  std::vector<Place> places = Faces(septum, inside, cloud, pairs, true).places();
+  const Visibility visibility(septum);
+  std::erase_if(places, [&](const Place& p) {  // in a crease both nodes may come to lie on one side
+    const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;
+    return !visibility.detour(p.x + off, p.x - off);
+  });
+  return add_at(places, cloud, conditions, pairs);
 }
 
 }  // namespace brainshift::solve

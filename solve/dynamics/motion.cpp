@@ -76,6 +76,9 @@ void Motion::weigh(std::span<const double> mass, double alpha) {
   if (body.face_contact) {
     body.face_contact->weigh(mass);
   }
+  if (body.septum_contact) {
+    body.septum_contact->weigh(mass);
+  }
 }
 
 void Motion::find_force(const PointLaws& laws) {
@@ -115,6 +118,9 @@ void Motion::step(const PointLaws& laws, std::span<const double> mass, double al
   if (body.face_contact) {
     body.face_contact->apply(next);
   }
+  if (body.septum_contact) {
+    body.septum_contact->apply(next);
+  }
   body.essential.apply(fraction, next);
   add_energies(mass, alpha, beta, fraction);
   std::swap(before, now);
@@ -143,6 +149,9 @@ void Motion::add_energies(std::span<const double> mass, double alpha, double bet
   }
   if (body.contact) {
     lost_work_ -= body.contact->push_work(before, next) / alpha;
+  }
+  if (body.septum_contact) {
+    lost_work_ -= body.septum_contact->push_work(before, next) / alpha;
   }
   dissipated_ += lost_work_ / 2;
   if (beta != beta_ && alpha == alpha_) {  // relaxation damps anew: with h² = 2α/(1 + β) the energy of motion jumps

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "discretise/interface/background_cells.hpp"
@@ -32,6 +33,14 @@ struct DrainedFluid {
   double density = 1007;                                       ///< kg/m³
 };
 
+/// A stiff sheet in the undeformed body that stays where it is, with tissue on both sides: rigid, for it is some ten
+/// thousand times as stiff as tissue and held at its rim. Tissue is not seen across it, slides along it without
+/// friction and does not pass through it. Where it ends inside the body the tissue is one piece.
+struct Septum {
+  std::string name;  ///< for messages: the file
+  Surface sheet;     ///< mm, LPS; it may branch, be in pieces, have holes and reach out of the body
+};
+
 /// Three dimensions, or a plane problem on nodes and cells with z = 0; forces are then per mm of thickness.
 enum class Plane : std::uint8_t { none, strain, stress };
 
@@ -49,7 +58,8 @@ struct Model {
   std::optional<DrainedFluid> fluid = {};             ///< what its draining changes; absent: nothing
   BodyForce body_force = {};                          ///< N/mm³ undeformed; empty: none
   std::vector<Cut> cuts = {};
-  bool face_contact = false;  ///< of cuts: their faces do not pass through each other
+  bool face_contact = false;          ///< of cuts: their faces do not pass through each other
+  std::optional<Septum> septum = {};  ///< a rigid sheet inside the body; absent: none
   std::optional<Rupture> rupture = {};
   std::optional<Resection> resection = {};
   LoadCurve curve = {};  ///< of prescribed displacements and all forces; in a transient run its times are seconds

@@ -66,6 +66,14 @@ struct CutMeasures {
   std::optional<FaceMeasures> faces;  ///< of face contact; absent: it was not asked for
 };
 
+/// What a septum took, and what became of the contact with it.
+struct SeptumMeasures {
+  double area = 0;                 ///< of the sheet, mm²
+  std::size_t face_nodes = 0;      ///< on its two sides
+  std::size_t touching_nodes = 0;  ///< in touch at the end
+  double largest_penetration = 0;  ///< deepest node behind its wall, mm
+};
+
 /// What a resection took.
 struct ResectionMeasures {
   std::size_t removed_nodes = 0;
@@ -119,6 +127,7 @@ struct SolveMeasures {
   double compressed_share = 0;      ///< of the volume, pressed so far that its free faces may crease
   std::optional<double> estimated_error_95;  ///< 95 % of the nodes' estimates, mm, see estimated_error()
   std::optional<CutMeasures> cut;            ///< absent: nothing was cut
+  std::optional<SeptumMeasures> septum;
   std::optional<ResectionMeasures> resection;
   std::optional<MeasuredFit> measured;  ///< absent: the load is held exactly
   double seconds_setup = 0;

@@ -160,6 +160,7 @@ void check_region(const Model& model, const SolveOptions& options) {
       {model.conditions.force.rows() > 0 || model.body_force, "forces: take prescribed displacements alone"},
       {options.integration_tolerance > 0, "adaptive integration"},
       {!model.cuts.empty() || model.rupture, "cuts or rupture"},
+      {model.septum.has_value(), "a septum"},
       {model.resection.has_value(), "a resection: the rest of the body relaxes"},
       {model.plane != Plane::none, "a plane problem"}};
   for (const auto& [given, what] : refused) {

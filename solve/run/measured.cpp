@@ -28,11 +28,12 @@ constexpr Eigen::Index most_points = 60;
 constexpr double nodes_a_patch = 8;
 
 void check_parts(const Model& model, const SolveOptions& options) {
-  const std::array<std::pair<bool, const char*>, 6> unfit = {{
+  const std::array<std::pair<bool, const char*>, 7> unfit = {{
       {options.dynamics == Dynamics::transient, "motion in time"},
       {options.imposition == Imposition::simplified, "the simplified imposition"},
       {options.region > 0, "a region"},
       {!model.cuts.empty() || model.rupture, "cuts and tears"},
+      {model.septum.has_value(), "a septum"},
       {model.resection.has_value(), "a resection"},
       {model.plane != Plane::none, "a plane problem"},
   }};

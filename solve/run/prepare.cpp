@@ -172,7 +172,7 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   check_model(model);
   check_rupture(model, options.dynamics);
   std::optional<CutBody> cut;
-  if (!model.cuts.empty() || model.rupture) {
+  if (!model.cuts.empty() || model.rupture || model.septum) {
     cut = cut_body(model);
   }
   const std::shared_ptr<const Visibility> visibility = cut ? cut->visibility : nullptr;
@@ -220,7 +220,7 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   LayOutExtras extras{.cut = {}, .faces = {}, .held = held, .skull = {}};
   if (cut) {
     extras.cut = cut->facets();
-    extras.faces = cut->pairs;
+    extras.faces = cut->cut_pairs();
   }
   Prepared prepared{.body = lay_out(model, options, parts, std::move(extras)), .cut = std::move(cut), .parts = {}};
   if (cuts_go_on(model)) {

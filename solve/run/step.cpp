@@ -50,12 +50,20 @@ void measure(const SteppingResult& stepped, SolveMeasures& m, std::string& failu
 CutMeasures measure_cut(const CutBody& cut, const SteppingResult& stepped, std::size_t nodes, CutMeasures measures) {
   measures.split_nodes = cut.split;
   measures.added_nodes = cut.cloud.size() - nodes;
-  measures.extent = extent(cut.facets());
+  measures.extent = extent(cut.facets()) - extent(cut.septum);
   if (stepped.body.face_contact) {
     const FaceContact::Measures touch = stepped.body.face_contact->measure(stepped.parameters);
     measures.faces = {touch.touching, touch.largest_overlap};
   }
   return measures;
+}
+
+SeptumMeasures measure_septum(const CutBody& cut, const SteppingResult& stepped) {
+  const SeptumContact::Measures touch = stepped.body.septum_contact->measure(stepped.parameters);
+  return {.area = extent(cut.septum),
+          .face_nodes = 2 * cut.septum_pairs,
+          .touching_nodes = touch.touching,
+          .largest_penetration = touch.largest_penetration};
 }
 
 /// The displacement field of the last good state.
@@ -120,8 +128,13 @@ SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepare
   result.solution = solution_of(stepped, options);
   if (prepared.cut) {
     const CutBody& cut = dissection ? dissection->body() : *prepared.cut;
-    result.measures.cut =
-        measure_cut(cut, stepped, model.cloud.size(), dissection ? dissection->measures() : CutMeasures());
+    if (!model.cuts.empty() || model.rupture) {
+      result.measures.cut =
+          measure_cut(cut, stepped, model.cloud.size(), dissection ? dissection->measures() : CutMeasures());
+    }
+    if (model.septum) {
+      result.measures.septum = measure_septum(cut, stepped);
+    }
     draw_faces(cut.inside, result);
   }
   if (model.rupture) {

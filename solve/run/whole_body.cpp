@@ -23,7 +23,7 @@ struct Attempt {
 
 bool starts_coarse(const Model& model, const SolveOptions& options) {
   return options.start == Start::coarse && options.dynamics == Dynamics::relaxation && options.snapshot_every == 0 &&
-         model.plane == Plane::none && model.cuts.empty() && !model.rupture && !model.resection &&
+         model.plane == Plane::none && model.cuts.empty() && !model.septum && !model.rupture && !model.resection &&
          model.curve.at(model.curve.duration()) == 1;
 }
 

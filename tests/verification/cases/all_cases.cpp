@@ -25,6 +25,7 @@ const std::vector<NamedCase>& all_cases() {
                                                {"cut_block", cuts_cases::cut_block},
                                                {"wet_block", fluid_cases::wet_block},
                                                {"wet_ball", fluid_cases::wet_ball},
+                                               {"septum", septum_cases::septum},
                                                {"bilayer", swelling_cases::bilayer},
                                                {"tear", tear_cases::tear}};
   return cases;

@@ -56,6 +56,10 @@ namespace resection_cases {
 Outcome resection(bool small);
 }  // namespace resection_cases
 
+namespace septum_cases {
+Outcome septum(bool small);
+}  // namespace septum_cases
+
 namespace singular_clouds_cases {
 Outcome singular_clouds(bool small);
 }  // namespace singular_clouds_cases

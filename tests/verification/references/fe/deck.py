@@ -65,10 +65,10 @@ def heated(layers, material):
 
 
 def write_deck(path, mesh, kind, material, loading, force_sets, thickness=None, equations=(), solver="SPOOLES", density=None,
-               step_lines="", layers=()):
+               step_lines="", layers=(), model_lines=""):
     """Write the deck. `force_sets` names the node sets whose total reaction is printed at each output, as are the
     displacements of all nodes (CalculiX knows one list of time points a step). `density` in g/mm3; `step_lines` are
-    further loads."""
+    further loads, `model_lines` what the body touches."""
     nodes = np.zeros((len(mesh.nodes), 3))
     nodes[:, :mesh.nodes.shape[1]] = mesh.nodes
     with open(path, "w") as deck:
@@ -90,6 +90,7 @@ def write_deck(path, mesh, kind, material, loading, force_sets, thickness=None, 
             deck.write(f"*MATERIAL, NAME=SOFT\n*HYPERELASTIC, NEO HOOKE\n{material.mu / 2:.12g}, {2 / material.bulk:.12g}\n")
             deck.write(f"*DENSITY\n{density:.12g}\n" if density else "")
             deck.write("*SOLID SECTION, ELSET=BODY, MATERIAL=SOFT\n" + (f"{thickness:.12g}\n" if thickness else ""))
+        deck.write(model_lines)
         deck.write("*TIME POINTS, NAME=OUTPUTS\n" + "".join(f"{t:.9g},\n" for t in loading.outputs))
         step = loading.largest_increment
         deck.write(f"*STEP, NLGEOM, INC=2000\n*STATIC, SOLVER={solver}\n{step:.9g}, 1., 1e-4, {step:.9g}\n*BOUNDARY\n")

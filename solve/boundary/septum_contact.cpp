@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/boundary/septum_contact.hpp"
+
+#include <algorithm>
+
+namespace brainshift::solve {
+
+namespace {
+
+/// The nodes that have a foot in front of them on the wall, and its panel for each.
+std::vector<std::int32_t> facing(const SheetWalls& walls, const Points& positions, std::span<const std::int32_t> nodes,
+                                 double reach, std::vector<std::int32_t>& panels) {
+  std::vector<std::int32_t> kept;
+  for (const std::int32_t node : nodes) {
+    const Eigen::Vector3d x = positions.row(node);
+    std::int32_t panel = walls.nearest_panel(x);
+    const auto foot = walls.foot(x, panel);
+    if (foot && foot->gap >= 0 && foot->gap <= reach) {
+      kept.push_back(node);
+      panels.push_back(panel);
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+SeptumContact::SeptumContact(const Surface& sheet, const Points& positions, std::span<const std::int32_t> nodes,
+                             double reach, const ShapeRows& rows)
+    : walls_(sheet), nodes_(positions, facing(walls_, positions, nodes, reach, panel_), rows) {}
+
+void SeptumContact::apply(NodalVectors& parameters) {
+  constexpr int sweeps = 3;  // one leaves several times as much behind the wall
+  nodes_.begin();
+  for (int i = 0; i < sweeps; ++i) {
+    sweep(parameters);
+  }
+}
+
+void SeptumContact::sweep(NodalVectors& parameters) {
+  const auto nodes = static_cast<std::int64_t>(nodes_.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t a = 0; a < nodes; ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    const auto foot = walls_.foot(nodes_.place(i, parameters), panel_[i]);
+    const bool behind = foot && foot->gap < 0;
+    nodes_.set_push(i, behind ? -foot->gap : 0, behind ? foot->normal : Eigen::Vector3d::Zero());
+  }
+  nodes_.apply(parameters);
+}
+
+SeptumContact::Measures SeptumContact::measure(const NodalVectors& parameters) const {
+  constexpr double touch = 0.01;  // mm
+  Measures measures;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    std::int32_t panel = panel_[i];
+    if (const auto foot = walls_.foot(nodes_.place(i, parameters), panel)) {
+      measures.touching += foot->gap < touch ? 1 : 0;
+      measures.largest_penetration = std::max(measures.largest_penetration, -foot->gap);
+    }
+  }
+  return measures;
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/boundary/septum_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/unit/solve/weighted_box.hpp"
+
+namespace brainshift::solve::septum_contact_test {
+
+constexpr double side = 40;
+
+/// Two triangles in the plane z = -0.5, from -10 to `end` along x, and along y beyond a box of 40 mm.
+Surface floor(double end) {
+  Surface sheet{Points(4, 3), Triangles(2, 3)};
+  sheet.vertices << -10, -10, -0.5, end, -10, -0.5, end, side + 10, -0.5, -10, side + 10, -0.5;
+  sheet.triangles << 0, 2, 1, 0, 3, 2;
+  return sheet;
+}
+
+class SeptumUnderABox : public testing::Test {
+ protected:
+  WeightedBox cloud;
+
+  SeptumContact contact(double end) const {
+    std::vector<std::int32_t> nodes(cloud.nodes.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    SeptumContact contact(floor(end), cloud.nodes.positions, nodes, 5, cloud.rows);
+    contact.weigh(cloud.mass);
+    return contact;
+  }
+  NodalVectors shifted(const Eigen::Vector3d& by) const {
+    NodalVectors u(4 * cloud.nodes.size(), 0.0);
+    for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
+      at(u, a).head<3>() = by;
+    }
+    return u;
+  }
+};
+
+TEST_F(SeptumUnderABox, LeavesABodyAloneThatDoesNotTouch) {
+  SeptumContact free = contact(side + 10);
+  const NodalVectors near = shifted({3, -2, -0.4});
+  NodalVectors u = near;
+  free.apply(u);
+  EXPECT_EQ(u, near);
+  EXPECT_EQ(free.measure(u).touching, 0u);
+}
+
+TEST_F(SeptumUnderABox, PutsNodesBackAlongItsNormal) {
+  SeptumContact touching = contact(side + 10);
+  NodalVectors u = shifted({3, -2, -1.5});
+  EXPECT_NEAR(touching.measure(u).largest_penetration, 1, 1e-9);
+  for (int step = 0; step < 200; ++step) {
+    touching.apply(u);
+  }
+  EXPECT_LE(touching.measure(u).largest_penetration, 0.01);
+  EXPECT_GE(touching.measure(u).touching, 20u);  // of 49
+  const Points moved = cloud.displacement(u);
+  EXPECT_NEAR(moved.col(0).minCoeff(), 3, 1e-9);  // frictionless
+  EXPECT_NEAR(moved.col(1).maxCoeff(), -2, 1e-9);
+}
+
+TEST_F(SeptumUnderABox, LetsNodesGoThatSlidBeyondItsRim) {
+  SeptumContact half = contact(side / 2);
+  const double held = static_cast<double>(half.measure(shifted({0, 0, -0.5})).touching);
+  EXPECT_GT(held, 0);
+  EXPECT_EQ(half.measure(shifted({side, 0, -0.5})).touching, 0u);
+  EXPECT_EQ(half.measure(shifted({side, 0, -3})).largest_penetration, 0);
+}
+
+TEST_F(SeptumUnderABox, CountsTheWorkOfItsPushes) {
+  SeptumContact touching = contact(side + 10);
+  const NodalVectors before = shifted({0.2, 0, -0.9}), free = shifted({0, 0, -1});
+  NodalVectors after = free;
+  touching.apply(after);
+  double work = 0;
+  for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
+    work += cloud.mass[a] * (at(after, a) - at(free, a)).dot(at(after, a) - at(before, a)) / 2;
+  }
+  EXPECT_NE(work, 0);
+  EXPECT_NEAR(touching.push_work(before, after), work, 1e-9 * std::abs(work));
+}
+
+}  // namespace brainshift::solve::septum_contact_test

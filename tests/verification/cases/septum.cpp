@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A block with a rigid sheet half through its middle, pressed towards the sheet and sheared along it, against finite
+// elements with a contact pair on each side of the sheet.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/solve/all_free.hpp"
+#include "tests/unit/solve/clouds.hpp"
+#include "tests/verification/cases/cases.hpp"
+#include "tests/verification/cases/cylinder_model.hpp"
+#include "tests/verification/reference.hpp"
+
+namespace brainshift::verification::septum_cases {
+
+namespace {
+
+const Eigen::Vector3d size(60, 30, 60);  // mm
+constexpr double rim = 30;               // x where the sheet ends, z where it lies
+
+Surface sheet() {
+  constexpr double beyond = 12;  // mm
+  Surface surface{Points(4, 3), Triangles(2, 3)};
+  surface.vertices << -beyond, -beyond, rim, rim, -beyond, rim, rim, size.y() + beyond, rim, -beyond, size.y() + beyond,
+      rim;
+  surface.triangles << 0, 1, 2, 0, 2, 3;
+  return surface;
+}
+
+solve::Model block(double least_distance, const Eigen::RowVector3d& top) {
+  solve::Model model;
+  model.cloud = box_cloud(size, least_distance, 4, [](const Eigen::Vector3d& x) {
+    return std::clamp(std::hypot(x.x() - rim, x.z() - rim) / 15, 0.6, 1.0);
+  });
+  model.conditions = test::all_free(model.cloud);
+  const double edge = std::cbrt(size.prod() / (1.5 * static_cast<double>(model.cloud.size())));
+  model.cells = test::box_cells((size / edge).array().round().cast<int>(), size);
+  model.materials[1] = {3000, 0.49, 1000};
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    const double z = model.cloud.positions(a, 2);
+    if (z == 0) {
+      model.conditions.displacement.row(a).setZero();
+    } else if (z == size.z()) {
+      model.conditions.displacement.row(a) = top;
+    }
+  }
+  return model;
+}
+
+double seconds_a_step(const solve::SolveResult& result) {
+  return result.measures.seconds_stepping / result.measures.steps;
+}
+
+/// In per cent of the largest displacement of the reference.
+std::vector<Figure> against(const std::string& load, const Eigen::RowVector3d& top, bool small) {
+  const Reference reference = read_reference("septum_" + load, "");
+  solve::Model model = block(small ? 3.6 : 2.6, top);
+  const solve::SolveResult whole = solved(model, steady_options());
+  model.septum = solve::Septum{"the sheet", sheet()};
+  const solve::SolveResult result = solved(model, steady_options());
+  const Differences apart = differences(result.solution, reference.positions, reference.displacement);
+  const Differences without = differences(whole.solution, reference.positions, reference.displacement);
+  const double largest = reference.displacement.rowwise().norm().maxCoeff();
+  const double seconds = result.measures.seconds_setup + result.measures.seconds_stepping;
+  const std::string name = load + ", " + std::to_string(result.measures.nodes) + " nodes: ";
+  const auto figure = [&](const std::string& what, double ours, const std::string& unit, std::optional<double> most) {
+    return Figure{name + what, "", ours, unit, most, {}, reference.error, seconds};
+  };
+  return {figure("95 %", 100 * apart.percentile95 / largest, "%", small ? 4 : 3),
+          figure("mean", 100 * apart.mean / largest, "%", {}),
+          figure("largest difference", 100 * apart.largest / largest, "%", {}),
+          figure("95 % without the sheet", 100 * without.percentile95 / largest, "%", {}),
+          figure("deepest node behind its wall", result.measures.septum->largest_penetration, "mm", {}),
+          figure("seconds a step, with / without", seconds_a_step(result) / seconds_a_step(whole), "", {})};
+}
+
+}  // namespace
+
+Outcome septum(bool small) {
+  Outcome outcome{against("pressed", {0, 0, -6}, small), {}};
+  const std::vector<Figure> sheared = against("sheared", {6, 0, 0}, small);
+  outcome.figures.insert(outcome.figures.end(), sheared.begin(), sheared.end());
+  return outcome;
+}
+
+}  // namespace brainshift::verification::septum_cases
