@@ -23,6 +23,9 @@ void check_uncertainty(const Scene& scene) {
     model.fluid.emplace();
   }
   model.cuts.resize(scene.cuts ? 1 : 0);
+  if (scene.septa || scene.septum) {
+    model.septum.emplace();
+  }
   model.resection = scene.resection;
   solve::check_sampled(model, scene.solve);
   if (!solve::varies(model, *scene.uncertainty) && !(scene.load && has_noise(*scene.load))) {

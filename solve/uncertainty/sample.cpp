@@ -14,10 +14,11 @@
 namespace brainshift::solve {
 
 void check_sampled(const Model& model, const SolveOptions& options) {
-  const std::array<std::pair<bool, const char*>, 5> unfit = {{
+  const std::array<std::pair<bool, const char*>, 6> unfit = {{
       {options.dynamics == Dynamics::transient, "motion in time"},
       {options.region > 0, "a region"},
       {!model.cuts.empty() || model.rupture, "cuts and tears"},
+      {model.septum.has_value(), "a septum"},
       {model.resection.has_value(), "a resection"},
       {model.plane != Plane::none, "a plane problem"},
   }};

@@ -13,7 +13,7 @@ inline constexpr std::size_t most_sampled_nodes = 2000;
 /// The displacement of a model at its nodes, (n × 3) mm, solved on the cloud or, of a larger one, on an eighth of its
 /// nodes, for differences between such solutions. What was measured with noise must name its weight. Absent where the
 /// model cannot be solved. Throws std::invalid_argument with a part that samples do not go with: motion in time, a
-/// region, cuts, tears, a resection, a plane problem.
+/// region, cuts, tears, a septum, a resection, a plane problem.
 std::optional<Points> sampled_displacement(const Model& model, const SolveOptions& options);
 
 /// Throws as sampled_displacement() does.

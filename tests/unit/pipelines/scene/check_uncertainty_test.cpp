@@ -57,4 +57,9 @@ TEST_F(CheckUncertainty, RefusesMotionInTime) {
                {"<uncertainty> does not go with motion in time"});
 }
 
+TEST_F(CheckUncertainty, RefusesASeptum) {
+  std::ofstream(folder_ / "falx.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  expect_parts(fault_with("<uncertainty/><septum file=\"falx.obj\"/>"), {"<uncertainty> does not go with a septum"});
+}
+
 }  // namespace brainshift::pipelines::check_uncertainty_test
