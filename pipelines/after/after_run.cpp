@@ -27,7 +27,7 @@ double seconds_of(const solve::SolveResult& result) {
 }
 
 void check_run(const Scene& scene, const fs::path& run, Interruption& interruption) {
-  if (!scene.commands[index_of(StageId::solve)].empty()) {
+  if (!is_ours(scene, StageId::solve)) {
     throw std::invalid_argument(place(scene.source, "solve.command") +
                                 ": the solve stage is another program; what its parts change cannot be told");
   }

@@ -6,7 +6,9 @@
 
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/cut_arguments.hpp"
+#include "pipelines/scene/check_parts.hpp"
 #include "pipelines/scene/check_scene.hpp"
+#include "pipelines/scene/check_tissues.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "solve/material/named_materials.hpp"
 

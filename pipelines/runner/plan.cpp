@@ -359,7 +359,7 @@ StagePlan plan_stage(StageId stage, const Scene& scene, const fs::path& folder, 
     return plan_report(scene, folder);
   };
   StagePlan plan = plan_own();
-  if (!scene.commands[index_of(stage)].empty()) {
+  if (!is_ours(scene, stage)) {
     make_external(plan, scene, folder, interruption);
   }
   return plan;

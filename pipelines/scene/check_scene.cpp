@@ -2,42 +2,23 @@
 #include "pipelines/scene/check_scene.hpp"
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 
 #include "discretise/interface/option_table.hpp"
-#include "pipelines/scene/check_uncertainty.hpp"
+#include "pipelines/scene/check_parts.hpp"
+#include "pipelines/scene/check_tissues.hpp"
+#include "pipelines/scene/scene_fault.hpp"
 #include "pipelines/scene/scene_labels.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "register/field/brain_zones.hpp"
 #include "register/interface/option_table.hpp"
 #include "segmentation/interface/option_table.hpp"
-#include "segmentation/labels/label_table.hpp"
-#include "segmentation/septa/septa.hpp"
-#include "solve/cut/septum.hpp"
 #include "solve/interface/option_table.hpp"
 #include "solve/load/craniotomy_load.hpp"
-#include "solve/material/check_material.hpp"
 #include "solve/quadrature/cell_points.hpp"
-#include "solve/region/region.hpp"
 
 namespace brainshift::pipelines {
 namespace {
-
-/// Without a scene's file the options are those of a command.
-[[noreturn]] void fail(const Scene& scene, const std::string& path, const std::string& what) {
-  throw std::invalid_argument(scene.source.file.empty() ? what : place(scene.source, path) + ": " + what);
-}
-
-/// Runs a check of the library; the place in the scene comes before its message.
-template <class Check>
-void check_at(const Scene& scene, const std::string& path, const Check& check) {
-  try {
-    check();
-  } catch (const std::invalid_argument& error) {
-    fail(scene, path, error.what());
-  }
-}
 
 void check_files(const Scene& scene) {
   for (const Element& element : scene_elements()) {
@@ -63,10 +44,6 @@ void check_files(const Scene& scene) {
       }
     }
   }
-}
-
-bool is_ours(const Scene& scene, StageId stage) {
-  return scene.commands[index_of(stage)].empty();
 }
 
 void check_image(const Scene& scene) {
@@ -139,35 +116,6 @@ void check_late_files(const Scene& scene) {
   }
 }
 
-void check_cuts(const Scene& scene) {
-  if (!scene.cuts) {
-    return;
-  }
-  if (scene.cuts->files.empty()) {
-    fail(scene, "cuts", "<cuts> names no cut; name one, as <cut file=\"sheet.vtp\"/>, or leave <cuts> out");
-  }
-  for (std::size_t i = 0; i < scene.cuts->files.size(); ++i) {
-    check_at(scene, "cuts." + std::to_string(i + 1), [&] { read_cut(scene.cuts->files[i], solve::Plane::none); });
-  }
-}
-
-void check_septa(const Scene& scene) {
-  if (scene.septa && scene.septum) {
-    fail(scene, "septum", "there are both <septa>, from the label map, and <septum>, from a file; give one of them");
-  }
-  if (scene.septa && scene.image.labels.empty()) {
-    fail(scene, "septa",
-         "<septa> needs a label map with FreeSurfer's numbers, and the <image> names no labels; name them, or give the "
-         "sheet, as <septum file=\"falx.vtp\"/>");
-  }
-  if (scene.septa && is_ours(scene, StageId::segment)) {
-    check_at(scene, "septa", [&] { segmentation::septa_of(read_label_map(scene.image.labels)); });
-  }
-  if (scene.septum) {
-    check_at(scene, "septum", [&] { solve::read_septum(scene.septum->file); });
-  }
-}
-
 void check_options(const Scene& scene) {
   check_at(scene, "segment", [&] { segmentation::check_options(scene.segment); });
   check_at(scene, "discretise", [&] { discretise::check_options(scene.discretise); });
@@ -181,105 +129,6 @@ void check_options(const Scene& scene) {
   }
 }
 
-/// What of the scene a region of the body cannot do.
-void check_region(const Scene& scene) {
-  solve::Model model;
-  model.gravity = scene.loading.gravity;
-  if (scene.gravity) {
-    model.fluid.emplace();
-  }
-  model.resection = scene.resection;
-  model.cuts.resize(scene.cuts ? 1 : 0);
-  if (scene.septa || scene.septum) {
-    model.septum.emplace();
-  }
-  check_at(scene, "solve.region", [&] { solve::check_region(model, scene.solve); });
-}
-
-std::set<std::uint16_t> labels_in(const LabelMap& map) {
-  std::set<std::uint16_t> labels;
-  for (const auto& [label, volume] : segmentation::label_volumes(map)) {
-    labels.insert(label);
-  }
-  return labels;
-}
-
-/// The labels that the segment stage will give: of the map, with the numbers that tissues join, of the classes, or
-/// tissue 1 of a bare surface.
-std::set<std::uint16_t> labels_to_come(const Scene& scene) {
-  namespace label = segmentation::default_label;
-  std::set<std::uint16_t> labels = {label::parenchyma};
-  if (!scene.image.labels.empty()) {
-    labels = labels_in(read_labels(scene.image, label_reading(scene)).map);
-  } else if (!scene.image.brain_mask.empty()) {
-    labels.insert({label::ventricles, label::csf});
-  }
-  if (!scene.image.tumour_mask.empty() || !scene.image.tumour.empty()) {
-    labels.insert(label::tumour);
-  }
-  return labels;
-}
-
-std::string listed(const std::set<std::uint16_t>& labels) {
-  return labels.empty() ? "none" : write_numbers(labels);
-}
-
-bool by_class(const Tissue& tissue) {
-  return tissue.tissue_class != 0;
-}
-
-/// Of tissues named by class.
-void check_classes(const Scene& scene) {
-  if (!std::all_of(scene.tissues.begin(), scene.tissues.end(), by_class)) {
-    fail(scene, "tissues", "some tissues are named by class, others by label; name all of them in one way");
-  }
-  if (!scene.image.labels.empty()) {
-    check_at(scene, "image.labels", [&] { read_labels(scene.image, label_reading(scene)); });
-  }
-}
-
-void check_tissues(const Scene& scene) {
-  if (scene.tissues.empty()) {
-    fail(scene, "tissues", "the scene has no <tissues>; name a tissue with its material for each label of the brain");
-  }
-  for (const Tissue& tissue : scene.tissues) {
-    check_at(scene, "tissues." + std::to_string(tissue.label), [&] { check_material(tissue); });
-  }
-  if (!is_ours(scene, StageId::segment)) {
-    return;
-  }
-  if (std::any_of(scene.tissues.begin(), scene.tissues.end(), by_class)) {
-    check_classes(scene);
-    return;
-  }
-  const std::set<std::uint16_t> labels = labels_to_come(scene);
-  const bool lists = std::any_of(scene.tissues.begin(), scene.tissues.end(),
-                                 [](const Tissue& tissue) { return !tissue.labels.empty(); });
-  const std::string source = scene.image.labels.empty() ? "the segmentation" : scene.image.labels.string();
-  std::set<std::uint16_t> named(scene.image.other_labels.begin(), scene.image.other_labels.end());
-  for (const Tissue& tissue : scene.tissues) {
-    if (!labels.contains(tissue.label)) {
-      fail(scene, "tissues." + std::to_string(tissue.label),
-           "tissue " + std::to_string(tissue.label) + " is not in " + source + ", whose labels are " + listed(labels) +
-               "; remove the tissue or correct its label");
-    }
-    named.insert(tissue.label);
-  }
-  for (const std::uint16_t label : labels) {
-    if (!named.contains(label) && !lists) {
-      fail(
-          scene, "tissues",
-          "label " + std::to_string(label) + " of " + source +
-              " has no material; give it a <tissue>, or list it in the image's other_labels if it is not of the brain");
-    }
-  }
-  const auto skull = scene.image.skull_label;
-  if (skull && !labels.contains(*skull)) {
-    fail(scene, "image.skull_label",
-         "skull_label " + std::to_string(*skull) + " is not in " + source + ", whose labels are " + listed(labels));
-  }
-}
-
 }  // namespace
 
 void check_scene(const Scene& scene) {
@@ -289,13 +138,8 @@ void check_scene(const Scene& scene) {
   check_options(scene);
   check_solve_options(scene);
   check_tissues(scene);
-  check_cuts(scene);
-  check_septa(scene);
-  check_resection(scene);
+  check_parts(scene);
   check_late_files(scene);
-  if (scene.uncertainty) {
-    check_at(scene, "uncertainty", [&] { check_uncertainty(scene); });
-  }
 }
 
 void check_solve_options(const Scene& scene) {
@@ -332,40 +176,6 @@ void check_solve_options(const Scene& scene) {
     check_region(scene);
   }
   load_curve(loading);
-}
-
-void check_resection(const Scene& scene) {
-  if (!scene.resection) {
-    return;
-  }
-  std::set<std::int32_t> left;
-  for (const Tissue& tissue : scene.tissues) {
-    left.insert(tissue.label);
-  }
-  const std::string labels = write_numbers(left);
-  if (scene.resection->labels.empty()) {
-    fail(scene, "resection.labels", "the resection names no label; the tissues' labels are " + labels);
-  }
-  for (const std::int32_t label : scene.resection->labels) {
-    if (left.erase(label) == 0) {
-      fail(scene, "resection.labels",
-           "the resection names label " + std::to_string(label) +
-               ", which no tissue has or which is named twice; the tissues' labels are " + labels);
-    }
-  }
-  if (left.empty()) {
-    fail(scene, "resection.labels", "the resection takes out every tissue (" + labels + "); leave one");
-  }
-}
-
-void check_material(const Tissue& tissue) {
-  const std::string name = "the material of label " + std::to_string(tissue.label);
-  if (tissue.material.law != solve::Law::ogden && !tissue.material.ogden.empty()) {
-    throw std::invalid_argument(name + " has the Ogden terms " + find_option(tissue_options(), "ogden")->get(tissue) +
-                                " but follows the law " + find_option(tissue_options(), "law")->get(tissue) +
-                                "; set the law to ogden, or ogden to nothing");
-  }
-  solve::check_material(name, tissue.material);
 }
 
 }  // namespace brainshift::pipelines

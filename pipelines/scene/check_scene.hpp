@@ -13,11 +13,4 @@ void check_scene(const Scene& scene);
 /// The part of it for the options of the solve stage: those that exclude or need each other, and the load's curve.
 void check_solve_options(const Scene& scene);
 
-/// The part of it for the resection: its labels are some of the tissues', not all.
-void check_resection(const Scene& scene);
-
-/// Throws std::invalid_argument, one sentence, when the material has Ogden terms under another law or is one that
-/// solve::check_material refuses.
-void check_material(const Tissue& tissue);
-
 }  // namespace brainshift::pipelines

@@ -210,7 +210,7 @@ std::string explain_scene(const Scene& scene) {
   std::ostringstream text;
   text << "parts\n";
   explain_parts(scene, text);
-  if (scene.commands[index_of(StageId::solve)].empty()) {
+  if (is_ours(scene, StageId::solve)) {
     text << "physics\n";
     explain_physics(scene, text);
   }
@@ -226,7 +226,7 @@ std::string explain_scene(const Scene& scene) {
       text << stage_cost(stage, scene, size) << "\n";
     }
   }
-  if (scene.commands[index_of(StageId::solve)].empty()) {
+  if (is_ours(scene, StageId::solve)) {
     explain_shares(scene, size.solve, text);
   }
   return text.str();

@@ -277,7 +277,7 @@ void complete_tissues(Scene& scene) {
   const bool numbered = std::any_of(scene.tissues.begin(), scene.tissues.end(),
                                     [](const Tissue& tissue) { return tissue.tissue_class == 0; });
   const bool image = !scene.image.labels.empty() || !scene.image.brain_mask.empty();
-  if (numbered || !image || !scene.commands[index_of(StageId::segment)].empty()) {
+  if (numbered || !image || !is_ours(scene, StageId::segment)) {
     return;
   }
   struct Usual {

@@ -57,10 +57,14 @@ std::string place(const SceneSource& source, const std::string& path) {
   return found->second == 0 ? "--set" : source.file.string() + ":" + std::to_string(found->second);
 }
 
+bool is_ours(const Scene& scene, StageId stage) {
+  return scene.commands[index_of(stage)].empty();
+}
+
 bool is_active(StageId stage, const Scene& scene) {
   const bool needs_image = stage == StageId::registration || stage == StageId::report;
-  const bool labels = !scene.image.labels.empty() && scene.commands[index_of(StageId::segment)].empty();
-  return !needs_image || !scene.image.t1.empty() || labels || !scene.commands[index_of(stage)].empty();
+  const bool labels = !scene.image.labels.empty() && is_ours(scene, StageId::segment);
+  return !needs_image || !scene.image.t1.empty() || labels || !is_ours(scene, stage);
 }
 
 }  // namespace brainshift::pipelines

@@ -162,6 +162,9 @@ struct Scene {
 /// Whether the scene has what the stage needs: register and report a T1, or a label map in its place.
 bool is_active(StageId stage, const Scene& scene);
 
+/// Whether the stage is this library's own, not another program's.
+bool is_ours(const Scene& scene, StageId stage);
+
 /// "scene.xml:12" where the option or element was written, "--set" for the command line, the file alone when unknown.
 std::string place(const SceneSource& source, const std::string& path);
 
