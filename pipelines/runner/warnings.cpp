@@ -157,4 +157,10 @@ Warnings warnings_of(const registration::RegisterMeasures& measures) {
           "), where the warped images mean nothing; look at the load, or solve with more nodes"};
 }
 
+void warn(const Warnings& warnings, StageReport& report) {
+  for (const std::string& warning : warnings) {
+    report.notes.push_back("warning: " + warning);
+  }
+}
+
 }  // namespace brainshift::pipelines

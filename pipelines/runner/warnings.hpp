@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "discretise/interface/node_cloud.hpp"
+#include "pipelines/runner/stage_report.hpp"
 #include "register/interface/result.hpp"
 #include "solve/interface/model.hpp"
 #include "solve/interface/result.hpp"
@@ -38,5 +39,8 @@ Warnings warnings_of(const std::optional<solve::Outlier>& outlier);
 
 /// Of a field that folds.
 Warnings warnings_of(const registration::RegisterMeasures& measures);
+
+/// Adds them to the stage's notes, each marked as a warning.
+void warn(const Warnings& warnings, StageReport& report);
 
 }  // namespace brainshift::pipelines

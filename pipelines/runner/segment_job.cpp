@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/jobs.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "pipelines/runner/job_files.hpp"
+#include "pipelines/runner/measures.hpp"
+#include "pipelines/runner/warnings.hpp"
+#include "segmentation/files/surface_file.hpp"
+#include "segmentation/image/frame_note.hpp"
+#include "segmentation/septa/septa.hpp"
+
+namespace brainshift::pipelines {
+namespace fs = std::filesystem;
+namespace {
+
+/// A mask, which may be an image of other numbers: non-zero is inside.
+std::optional<LabelMap> mask_if(const fs::path& file) {
+  if (file.empty()) {
+    return std::nullopt;
+  }
+  const ScalarImage image = read_image(file);
+  LabelMap mask{image.geometry, std::vector<std::uint16_t>(image.voxels.size())};
+  std::transform(image.voxels.begin(), image.voxels.end(), mask.voxels.begin(),
+                 [](float value) { return static_cast<std::uint16_t>(value != 0); });
+  return mask;
+}
+
+/// A tumour's map as a mask: of BraTS's numbers the tumour without its oedema.
+std::optional<LabelMap> tumour_if(const fs::path& file) {
+  auto tumour = labels_if(file);
+  if (tumour) {
+    const auto volumes = segmentation::label_volumes(*tumour);
+    const bool brats = volumes.contains(2) && volumes.contains(1) + volumes.contains(3) + volumes.contains(4) > 0;
+    for (std::uint16_t& voxel : tumour->voxels) {
+      voxel = voxel != 0 && !(brats && voxel == 2) ? 1 : 0;
+    }
+  }
+  return tumour;
+}
+
+/// Takes a map to the reference's grid, and says so. `counted`: the labels that must lie within it, all when empty.
+void take_to_grid(std::optional<LabelMap>& map, const fs::path& file, const ImageGeometry& grid,
+                  const fs::path& grid_file, std::vector<std::string>& notes,
+                  const std::vector<std::uint16_t>& counted = {}) {
+  if (!map || same_geometry(map->geometry, grid)) {
+    return;
+  }
+  LabelMap inner = *map;
+  for (std::uint16_t& voxel : inner.voxels) {
+    voxel = counted.empty() || std::find(counted.begin(), counted.end(), voxel) != counted.end() ? voxel : 0;
+  }
+  if (const double share = share_within(inner, grid); share < 0.5) {
+    throw std::invalid_argument(file.string() + ": " + std::to_string(static_cast<int>(100 * share)) +
+                                " % of it lie within " + grid_file.string() + " (" + described(map->geometry) +
+                                " against " + described(grid) +
+                                "); are they of one patient and one frame? Register one to the other first");
+  }
+  *map = on_grid(*map, grid);
+  notes.push_back(file.string() + ": lies on another grid than " + grid_file.string() +
+                  "; taken to it, the nearest label at each voxel");
+}
+
+void note_frames(const ImageInputs& image, std::vector<std::string>& notes) {
+  for (const fs::path& file : std::set<fs::path>{image.t1, image.labels, image.brain_mask}) {
+    if (const std::string note = frame_note(file); !note.empty()) {
+      notes.push_back("warning: " + file.string() + ": " + note);
+    }
+  }
+}
+
+/// What a table told of the labels, as the stage's options.
+void set_classes(const LabelMap& labels, bool tumour, segmentation::SegmentOptions& options) {
+  namespace label = segmentation::default_label;
+  const auto volumes = segmentation::label_volumes(labels);
+  options.brain_labels.clear();
+  for (const std::uint16_t number : {label::parenchyma, label::ventricles, label::tumour}) {
+    if (volumes.contains(number) || (tumour && number == label::tumour)) {
+      options.brain_labels.push_back(number);
+    }
+  }
+  options.fluid_label = label::csf;
+  options.skull_label = volumes.contains(label::skull) ? std::optional(label::skull) : std::nullopt;
+  // Of eight heads and FreeSurfer's, 3 mm is the least that leaves no fold; more takes in more of the fluid outside.
+  constexpr double radius = 4;
+  options.closing = options.closing.value_or(radius);
+}
+
+/// From the numbers as the map has them: classes do not tell left from right.
+void write_septa(const fs::path& labels, const fs::path& file, StageReport& said) {
+  const Surface septa = naming(labels.string(), [&] { return segmentation::septa_of(read_label_map(labels)); });
+  write_surface(file, septa);
+  said.measures["septa_area_mm2"] = area(septa);
+}
+
+}  // namespace
+
+StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& progress) {
+  segmentation::SegmentInput input;
+  segmentation::SegmentOptions options = job.options;
+  std::vector<std::string> notes;
+  report(progress, 0, "reading");
+  if (!job.image.t1.empty()) {
+    input.t1 = read_image(job.image.t1);
+  }
+  if (!job.image.labels.empty()) {
+    ReadLabels read = read_labels(job.image, job.reading);
+    input.labels = std::move(read.map);
+    notes = std::move(read.notes);
+  }
+  input.brain_mask = mask_if(job.image.brain_mask);
+  input.tumour_mask = job.image.tumour.empty() ? mask_if(job.image.tumour_mask) : tumour_if(job.image.tumour);
+  if (!job.image.surface.empty()) {
+    input.surface = read_surface(job.image.surface);
+  }
+  if (input.labels && job.reading.by_class) {
+    set_classes(*input.labels, input.tumour_mask.has_value(), options);
+  }
+  const fs::path& tumour = job.image.tumour.empty() ? job.image.tumour_mask : job.image.tumour;
+  if (input.t1) {
+    take_to_grid(input.labels, job.image.labels, input.t1->geometry, job.image.t1, notes, options.brain_labels);
+    take_to_grid(input.brain_mask, job.image.brain_mask, input.t1->geometry, job.image.t1, notes);
+    take_to_grid(input.tumour_mask, tumour, input.t1->geometry, job.image.t1, notes);
+  } else if (input.labels) {
+    take_to_grid(input.tumour_mask, tumour, input.labels->geometry, job.image.labels, notes);
+  }
+  note_frames(job.image, notes);
+  if (input.t1 && input.labels) {
+    for (const std::string& warning : warnings_of(*input.t1, *input.labels, options.brain_labels)) {
+      notes.push_back("warning: " + warning);
+    }
+  }
+  const fs::path& file = input.labels ? job.image.labels : input.surface ? job.image.surface : job.image.brain_mask;
+  const segmentation::Segmentation result =
+      naming(file.string(), [&] { return segmentation::segment(input, options, progress); });
+  segmentation::write_segmentation(out, result);
+  StageReport stage = report_of(result);
+  if (job.septa) {
+    write_septa(job.image.labels, out / "septa.vtp", stage);
+  }
+  stage.notes.insert(stage.notes.begin(), notes.begin(), notes.end());
+  return stage;
+}
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/jobs.hpp"
+
+#include <stdexcept>
+
+#include "pipelines/runner/job_files.hpp"
+#include "pipelines/runner/measures.hpp"
+#include "pipelines/runner/patient_registration.hpp"
+#include "pipelines/runner/warnings.hpp"
+#include "register/field/nodal_values.hpp"
+#include "segmentation/files/surface_file.hpp"
+#include "solve/cut/septum.hpp"
+#include "solve/load/noisy_load.hpp"
+#include "solve/output/solution_file.hpp"
+#include "solve/run/measured.hpp"
+
+namespace brainshift::pipelines {
+namespace fs = std::filesystem;
+namespace {
+
+std::string load_files(const Load& load) {
+  if (load.craniotomy) {
+    return load.craniotomy->string();
+  }
+  const std::optional<BeforeAfter>& files = load.markups ? load.markups : load.surfaces;
+  return files ? files->before.string() + " and " + files->after.string() : "";
+}
+
+/// As measured where standard deviations are known, else exactly.
+void impose(const solve::CraniotomyLoad& load, const Load& how, solve::Model& model) {
+  if (load.sigma.rows() == 0) {
+    model.conditions.displacement = solve::prescribed_on_surface_nodes(model.cloud, load, how.opening);
+    return;
+  }
+  Points force = std::move(model.conditions.force);
+  model.conditions = solve::noisy_conditions(model.cloud, load, how.opening);
+  model.conditions.measured->weight = how.weight;
+  model.conditions.force = std::move(force);
+}
+
+/// Then what is said of points of the cortex alone does not hold.
+bool has_inner_points(const solve::Model& model) {
+  return model.conditions.measured && model.conditions.measured->inner.rows() > 0;
+}
+
+void need_noise(const solve::CraniotomyLoad& load) {
+  if (load.sigma.rows() == 0) {
+    throw std::invalid_argument(
+        "an unknown registration needs to know how well the points were measured; give <load> a noise, or the file a "
+        "column sigma");
+  }
+  if (load.positions.rows() < 3) {
+    throw std::invalid_argument("an unknown registration needs three measured points that are not in line, found " +
+                                std::to_string(load.positions.rows()));
+  }
+}
+
+/// What a load with noise leaves beside the solution.
+void write_measured(const SolveInput& input, const solve::SolveResult& result, const fs::path& out, StageReport& said) {
+  if (!result.measures.measured) {
+    return;
+  }
+  const solve::MeasuredFit& fit = *result.measures.measured;
+  warn(warnings_of(solve::worst_outlier(input.model, input.options, fit)), said);
+  if (input.registration) {
+    solve::write_rigid(out / "registration_error.tfm", *input.registration);
+    said.measures["registration_angle_deg"] = input.registration->angle();
+    const Points& x = input.load->positions;
+    said.measures["registration_shift_mm"] = ((*input.registration)(x)-x).colwise().mean().norm();
+    const double doubt = fit.motion_deviation.maxCoeff();
+    said.measures["registration_deviation_mm"] = doubt;
+    if (!input.model.skull) {
+      said.notes.push_back(
+          "no skull holds the brain: all rigid motion that was measured counts as the patient's registration");
+    } else if (doubt > 1) {
+      said.notes.push_back("warning: the error of the registration is known to " + std::to_string(doubt) +
+                           " mm only; the points do not tell it from the brain's own motion: measure some inside the "
+                           "brain, or away from the opening");
+    }
+  }
+}
+
+constexpr double solving_share = 0.3;  // of the stage's progress, where samples follow
+
+Progress part_of(const Progress& whole, double from, double to) {
+  return
+      [whole, from, to](double fraction, std::string_view what) { report(whole, from + fraction * (to - from), what); };
+}
+
+/// uncertainty.vtu where it is wanted, and uncertainty.csv where the landmarks' covariance is known.
+void add_uncertainty(const SolveJob& job, const SolveInput& input, const solve::SolveResult& result,
+                     const fs::path& out, StageReport& said, const Progress& progress) {
+  std::optional<Spread> spread;
+  if (job.uncertainty && result.failure.empty()) {
+    spread = write_spread(*job.uncertainty, {input.model, input.options, result}, out, said, progress);
+  }
+  if (job.landmarks.empty() || (!spread && !result.measures.measured)) {
+    return;
+  }
+  const Points places = solve::read_markup_positions(job.landmarks);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(places.rows(), 6);
+  if (result.measures.measured) {
+    covariance += result.measures.measured->covariance;
+  }
+  if (spread) {
+    covariance += registration::nodal_values_at(result.solution, spread->constants, false, places);
+  }
+  write_covariance(out / "uncertainty.csv", places, covariance);
+}
+
+void read_cuts(const SolveJob& job, solve::Model& model) {
+  model.cuts = job.cut_paths;
+  if (job.cuts) {
+    model.face_contact = job.cuts->contact;
+    for (const CutFile& cut : job.cuts->files) {
+      model.cuts.push_back(read_cut(cut, job.plane));
+    }
+  }
+}
+
+}  // namespace
+
+solve::CraniotomyLoad read_load(const Load& load, const fs::path& surface) {
+  if (load.craniotomy) {
+    return solve::read_craniotomy_csv(*load.craniotomy);
+  }
+  if (load.markups) {
+    return solve::read_markups(load.markups->before, load.markups->after);
+  }
+  if (load.surfaces) {
+    const Surface before = read_surface(load.surfaces->before), after = read_surface(load.surfaces->after);
+    return naming(load_files(load), [&] { return solve::load_from_surfaces(before, after); });
+  }
+  if (load.simulated) {
+    return solve::simulated_craniotomy(read_surface(surface), *load.simulated);
+  }
+  throw std::invalid_argument("no load is named: give measured displacements, markups, surfaces or a simulated one");
+}
+
+SolveInput read_input(const SolveJob& job) {
+  SolveInput input;
+  solve::Model& model = input.model;
+  model.cloud = read_node_cloud(job.nodes);
+  model.conditions = solve::read_conditions(job.nodes);
+  model.cells = read_background_cells(job.cells);
+  model.labels = labels_if(job.labels);
+  model.materials = job.materials;
+  model.plane = job.plane;
+  model.gravity = job.loading.gravity;
+  if (job.gravity) {
+    model.fluid = drained_fluid(*job.gravity, model.cloud.positions);
+  }
+  model.curve = load_curve(job.loading);
+  model.rupture = job.rupture;
+  model.resection = job.resection;
+  read_cuts(job, model);
+  if (!job.septum.empty()) {
+    model.septum = solve::read_septum(job.septum);
+  }
+  if (!job.surface.empty()) {
+    model.boundary = read_surface(job.surface);
+  }
+  if (!job.skull.empty()) {
+    model.skull = read_surface(job.skull);
+  }
+  if (job.load) {
+    input.load = read_load(*job.load, job.surface);
+    solve::CraniotomyLoad& load = *input.load;
+    if (load.sigma.rows() == 0 && job.load->noise) {
+      load.sigma = Points::Constant(load.positions.rows(), 3, *job.load->noise);
+    }
+    naming(load_files(*job.load), [&] {
+      if (!job.load->registration_unknown) {
+        impose(load, *job.load, model);
+        return;
+      }
+      need_noise(load);
+      input.registration = patient_registration(
+          load, job.options, [&](const auto& l, solve::Model& m) { impose(l, *job.load, m); }, model);
+    });
+    if (model.conditions.measured && !job.landmarks.empty()) {
+      model.conditions.measured->asked = solve::read_markup_positions(job.landmarks);
+    }
+  }
+  input.options = job.options;
+  return input;
+}
+
+StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& given) {
+  const Progress progress = job.uncertainty ? part_of(given, 0, solving_share) : given;
+  report(progress, 0, "reading");
+  const SolveInput input = read_input(job);
+  if (input.load) {
+    solve::write_craniotomy_csv(out / "load.csv", *input.load);
+  }
+  if (input.model.septum) {
+    write_surface(out / "septum.vtp", input.model.septum->sheet);
+  }
+  const solve::SolveResult result = naming(job.nodes.string() + " and " + job.cells.string(),
+                                           [&] { return solve::solve(input.model, input.options, progress); });
+  solve::write_solve(out, result);
+  StageReport said = report_of(result, input.options.dynamics);
+  write_measured(input, result, out, said);
+  add_uncertainty(job, input, result, out, said, part_of(given, solving_share, 1));
+  warn(warnings_of(result.measures), said);
+  warn(warnings_of_weight(input.model), said);
+  if (input.load && !has_inner_points(input.model)) {
+    warn(warnings_of(*input.load, input.model.cloud, input.model.conditions.displacement), said);
+    warn(warnings_of(input.model, result.solution.displacement), said);
+  }
+  return said;
+}
+
+}  // namespace brainshift::pipelines
