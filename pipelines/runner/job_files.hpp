@@ -15,7 +15,7 @@ inline std::optional<LabelMap> labels_if(const std::filesystem::path& file) {
   return file.empty() ? std::nullopt : std::optional(read_label_map(file));
 }
 
-/// Runs a stage; a stage knows no files; what it refuses is what these hold.
+/// Runs a stage. A stage knows no files: what it refuses is what these hold.
 template <class Work>
 auto naming(const std::string& files, const Work& work) {
   try {
