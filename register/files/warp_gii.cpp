@@ -8,13 +8,12 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "register/files/gii_claims.hpp"
 #include "register/files/warped_name.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
@@ -30,36 +29,6 @@ using GiftiFile = std::unique_ptr<gifti_image, decltype(&gifti_free_image)>;
 GiftiFile read_gifti(const fs::path& file, bool with_data) {
   gifti_set_verb(0);  // our sentence is what the user reads
   return {gifti_read_image(file.c_str(), with_data ? 1 : 0), gifti_free_image};
-}
-
-/// Of text that is cut off the library tells in words of its own.
-bool ends_as_gifti(const fs::path& file) {
-  constexpr std::streamoff tail = 64;  // blank lines may follow
-  std::ifstream in(file, std::ios::binary);
-  in.seekg(-std::min(tail, static_cast<std::streamoff>(fs::file_size(file))), std::ios::end);
-  return std::string(std::istreambuf_iterator<char>(in), {}).find("</GIFTI>") != std::string::npos;
-}
-
-/// Before memory is taken for what a damaged header says: deflated bytes become a thousand times as many at most.
-void check_claims(const fs::path& file) {
-  const GiftiFile header = ends_as_gifti(file) ? read_gifti(file, false) : GiftiFile(nullptr, gifti_free_image);
-  if (!header || header->numDA < 1) {
-    refuse(file, "is no GIFTI file, or is damaged or truncated; copy it again");
-  }
-  const double most = 1032.0 * static_cast<double>(fs::file_size(file));
-  for (int a = 0; a < header->numDA; ++a) {
-    const giiDataArray& array = *header->darray[a];
-    double bytes = array.nbyper;
-    for (int axis = 0; axis < array.num_dim; ++axis) {
-      bytes *= array.dims[axis];
-    }
-    if (!(bytes >= 0 && bytes <= most)) {
-      refuse(file, "an array of it says that it is larger than the file; it is damaged, copy it again");
-    }
-    if (array.encoding == GIFTI_ENCODING_EXTBIN) {
-      refuse(file, "keeps its numbers in another file; save it again with all in one file");
-    }
-  }
 }
 
 std::optional<double> number_in(const giiMetaData& metadata, const std::string& name) {
@@ -187,7 +156,7 @@ void write_shape(const fs::path& file, const std::vector<double>& values) {
 
 void warp_gii(const fs::path& in, PointMover& mover, const fs::path& out) {
   check_readable(in);
-  check_claims(in);
+  check_gii_claims(in);
   const GiftiFile surface = read_gifti(in, true);
   if (!surface || gifti_image_has_data(surface.get()) == 0) {
     refuse(in, "is damaged or truncated; copy it again");

@@ -169,7 +169,7 @@ void check_ply_claims(const std::filesystem::path& file) {
   std::string_view text = content;
   const auto header = take_header(text);
   if (!header) {
-    return;
+    refuse(file, "is no .ply file, or its header is damaged; copy it again");
   }
   const bool whole = header->format == "ascii"
                          ? has_all(TextRows(text), header->elements)

@@ -53,6 +53,12 @@ Visibility::Visibility(CutFacets facets)
         facets_.planar ? Eigen::Vector3d(-along.y(), along.x(), 0) : along.cross(vertex(f[2]) - a);
     plane_.push_back({a, normal.normalized()});
   }
+  for (const auto& [first, second] : facets_.front) {
+    const Eigen::Vector3d begin = vertex(first), edge = vertex(second) - begin;
+    const double length = edge.norm();
+    const Eigen::Vector3d along = length > 0 ? Eigen::Vector3d(edge / length) : Eigen::Vector3d::Zero();
+    front_.push_back({begin, along, begin + edge / 2, length, piece_[static_cast<std::size_t>(first)]});
+  }
   if (!facets_.planar) {
     std::vector<Triangle> triangles;
     for (const auto& f : facets_.facets.rowwise()) {
@@ -95,20 +101,20 @@ bool Visibility::between(std::size_t facet, const Eigen::Vector3d& x, const Eige
 
 /// Over a straight edge the way is shortest where it meets the edge at the same angle on both sides.
 Detour Visibility::round(std::int32_t piece, const Eigen::Vector3d& x, const Eigen::Vector3d& node) const {
+  constexpr double slack = 1 + 1e-12;  // of rounding
+  const Eigen::Vector3d centre = (x + node) / 2;
   Detour shortest{std::numeric_limits<double>::infinity(), Eigen::Vector3d::Zero()};
-  for (const auto& [first, second] : facets_.front) {
-    if (piece_[static_cast<std::size_t>(first)] != piece) {
+  for (const FrontEdge& edge : front_) {
+    // A way over a place is at least twice as long as from the middle between its ends to the place.
+    const double reach = slack * (shortest.length + edge.length) / 2;
+    if (edge.piece != piece || (edge.middle - centre).squaredNorm() > reach * reach) {
       continue;
     }
-    const Eigen::Vector3d a = vertex(first), edge = vertex(second) - a;
-    Eigen::Vector3d over = a;
-    if (const double length = edge.norm(); length > 0) {
-      const Eigen::Vector3d along = edge / length;
-      const double from = along.dot(x - a), to = along.dot(node - a);
-      const double off = (x - a - from * along).norm(), node_off = (node - a - to * along).norm();
-      const double share = off + node_off > 0 ? off / (off + node_off) : 0;
-      over += std::clamp(from + share * (to - from), 0.0, length) * along;
-    }
+    const Eigen::Vector3d& a = edge.begin;
+    const double from = edge.along.dot(x - a), to = edge.along.dot(node - a);
+    const double off = (x - a - from * edge.along).norm(), node_off = (node - a - to * edge.along).norm();
+    const double share = off + node_off > 0 ? off / (off + node_off) : 0;
+    const Eigen::Vector3d over = a + std::clamp(from + share * (to - from), 0.0, edge.length) * edge.along;
     const double way = (x - over).norm() + (node - over).norm();
     if (way < shortest.length) {
       shortest = {way, (x - over).normalized()};

@@ -45,6 +45,12 @@ class Visibility {
     Eigen::Vector3d origin, normal;
   };
 
+  struct FrontEdge {
+    Eigen::Vector3d begin, along, middle;  ///< along: a unit vector, zero of an edge without length
+    double length;
+    std::int32_t piece;
+  };
+
   bool segment_between(std::size_t facet, const Eigen::Vector3d& x, const Eigen::Vector3d& node) const;
   bool between(std::size_t facet, const Eigen::Vector3d& x, const Eigen::Vector3d& node) const;
   Detour round(std::int32_t piece, const Eigen::Vector3d& x, const Eigen::Vector3d& node) const;
@@ -53,6 +59,7 @@ class Visibility {
   CutFacets facets_;
   std::vector<Plane> plane_;         ///< of each facet
   std::vector<std::int32_t> piece_;  ///< of each vertex: those that hang together have the same
+  std::vector<FrontEdge> front_;
   Eigen::Vector3d low_, high_;
   std::optional<TriangleTree> tree_;  ///< of a sheet
 };

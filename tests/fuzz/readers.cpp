@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 
+#include "register/files/gii_claims.hpp"
 #include "segmentation/files/ply_claims.hpp"
 #include "segmentation/files/points_file.hpp"
 #include "segmentation/files/read_obj.hpp"
@@ -42,6 +43,7 @@ const std::map<std::string, Reader>& readers() {
       {"curve", {".csv", [](const fs::path& file) { solve::read_load_curve(file, solve::LoadCurve::Join::smooth); }}},
       {"dicom", {".dcm", [](const fs::path& file) { read_dicom_slice(file); }}},
       {"fcsv", {".fcsv", [](const fs::path& file) { PointsFile{file}; }}},
+      {"gii", {".gii", [](const fs::path& file) { registration::check_gii_claims(file); }}},
       {"load", {".csv", [](const fs::path& file) { solve::read_craniotomy_csv(file); }}},
       {"markups", {".mrk.json", [](const fs::path& file) { PointsFile{file}; }}},
       {"meta", {".mha", [](const fs::path& file) { check_header(file, read_meta_header(file), 1); }}},

@@ -147,6 +147,10 @@ TEST_F(WarpGii, WhatCannotBeUsedIsRefused) {
   expect_parts(refused(with("NIFTI_INTENT_POINTSET", "NIFTI_INTENT_SHAPE")), {"holds no points"});
   expect_parts(refused(with("Dim0=\"3\"", "Dim0=\"2000000000\"")), {"larger than the file"});
   expect_parts(refused(with("Encoding=\"ASCII\"", "Encoding=\"ExternalFileBinary\"")), {"another file"});
+  for (const char* what : {"Encoding=\"ASCII\"", "Dimensionality=\"2\"", "DataType=\"NIFTI_TYPE_FLOAT32\""}) {
+    expect_parts(refused(with(what, "")), {"lh.pial.surf.gii", "an encoding, a type or a size that is none"});
+  }
+  expect_parts(refused(whole + "<more/>"), {"no GIFTI file"});
   expect_parts(
       refused(
           surface(space("NIFTI_XFORM_UNKNOWN", "NIFTI_XFORM_SCANNER_ANAT", "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1"), in_ras)),

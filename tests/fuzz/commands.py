@@ -1,0 +1,236 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whole commands on damaged files: those that a library reads (ITK, VTK, GDCM), which libFuzzer does not watch.
+
+  python3 tests/fuzz/commands.py PROGRAM SECONDS [--seed N] [--failed DIR]
+
+A small phantom is run once. Then one of its files, in one of the formats that the program reads, is damaged and a
+command is run on it. Whatever the file holds, the command must end within 10 s and 2 GB with one of its own exit codes,
+and, where it refuses, with one line that names the file. Files that break this are kept in DIR, each with its command.
+Needs numpy and nibabel.
+"""
+import argparse
+import gzip
+import os
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import nibabel
+import numpy
+
+MOST_SECONDS = 10
+MOST_KILOBYTES = 2 << 20
+CODES = (0, 2, 3)  # done, refused, not converged
+EXTREMES = [struct.pack(kind, value) for kind, value in
+            [("<i", 0), ("<i", -1), ("<i", 2**31 - 1), ("<q", 2**40), ("<h", -32768), ("<f", float("nan")),
+             ("<f", 1e38), ("<d", float("inf")), ("<d", 1e308), ("<d", -1e-300)]]
+NUMBERS = [b"0", b"-1", b"nan", b"inf", b"1e308", b"2147483648", b"99999999999999999999", b"0.3", b"x", b""]
+
+
+def run(command, **more):
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, errors="replace", **more)
+
+
+def phantom(program, folder):
+    """A finished run of a small head, in `folder`/run."""
+    for arguments in (["phantom", "--size", 40, "--spacing", 6, "--out", "head"],
+                      ["run", "head/scene.xml", "--quiet", "--out", "run", "--until", "register",
+                       "--set=discretise.nodes=150", "--set=solve.tolerance=0.5", "--set=segment.edge_length=14"]):
+        done = run([program, *arguments], cwd=folder)
+        if done.returncode not in (0, 3):
+            sys.exit(f"{arguments[0]}: {done.stderr}")
+
+
+def other_formats(folder):
+    """The phantom's T1 and labels as .nii, .mgz, .nrrd and .mha; its surface as .vtk, .ply, .stl, .obj and .gii."""
+    for name in ("t1", "labels"):
+        image = nibabel.load(folder / f"head/{name}.nii.gz")
+        values = numpy.asanyarray(image.dataobj).astype("<f4" if name == "t1" else "<u2")
+        nibabel.save(nibabel.Nifti1Image(values, image.affine), folder / f"{name}.nii")
+        nibabel.save(nibabel.MGHImage(values.astype("f4" if name == "t1" else "i2"), image.affine), folder / f"{name}.mgz")
+        spacing = image.header.get_zooms()[:3]
+        kind, meta = ("float", "MET_FLOAT") if name == "t1" else ("ushort", "MET_USHORT")
+        sizes = " ".join(map(str, values.shape))
+        body = values.tobytes(order="F")
+        directions = " ".join("({})".format(",".join(str(s if i == j else 0) for j in range(3)))
+                              for i, s in enumerate(spacing))
+        (folder / f"{name}.nrrd").write_bytes(
+            f"NRRD0004\ntype: {kind}\ndimension: 3\nspace: left-posterior-superior\nsizes: {sizes}\n"
+            f"space directions: {directions}\nkinds: domain domain domain\nendian: little\nencoding: raw\n"
+            f"space origin: (0,0,0)\n\n".encode() + body)
+        (folder / f"{name}.mha").write_bytes(
+            f"ObjectType = Image\nNDims = 3\nBinaryData = True\nCompressedData = False\nOffset = 0 0 0\n"
+            f"ElementSpacing = {' '.join(map(str, spacing))}\nDimSize = {sizes}\nElementType = {meta}\n"
+            f"ElementDataFile = LOCAL\n".encode() + body)
+
+
+def surfaces(folder):
+    """Three triangles' worth of every format that is text, as whoever draws by hand writes it, and GIFTI."""
+    points = [(0, 0, 0), (30, 0, 0), (0, 30, 0), (0, 0, 30)]
+    faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    rows = "\n".join(" ".join(map(str, p)) for p in points)
+    triangles = "\n".join("3 " + " ".join(map(str, f)) for f in faces)
+    (folder / "s.vtk").write_text(f"# vtk DataFile Version 3.0\ns\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n{rows}\n"
+                                  f"POLYGONS 4 16\n{triangles}\n")
+    (folder / "s.ply").write_text("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                                  "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
+                                  f"end_header\n{rows}\n{triangles}\n")
+    (folder / "s.obj").write_text("".join("v {} {} {}\n".format(*p) for p in points) +
+                                  "".join("f {} {} {}\n".format(*(i + 1 for i in f)) for f in faces))
+    facets = "".join("facet normal 0 0 1\nouter loop\n" + "".join("vertex {} {} {}\n".format(*points[i]) for i in f) +
+                     "endloop\nendfacet\n" for f in faces)
+    (folder / "s.stl").write_text(f"solid s\n{facets}endsolid s\n")
+    arrays = [nibabel.gifti.GiftiDataArray(numpy.array(values, kind), intent) for values, kind, intent in
+              ((points, "f4", "NIFTI_INTENT_POINTSET"), (faces, "i4", "NIFTI_INTENT_TRIANGLE"))]
+    nibabel.save(nibabel.gifti.GiftiImage(darrays=arrays), folder / "s.gii")
+
+
+def targets(folder):
+    """What is damaged, and the command that reads it; {} is the damaged file."""
+    labels = ["segment", "--quiet", "--labels", "{}", "--brain-labels", 1, 2, 3, "--edge-length", 14, "--out", "out"]
+    image = ["segment", "--quiet", "--t1", "{}", "--labels", folder / "head/labels.nii.gz", "--brain-labels", 1, 2, 3,
+             "--edge-length", 14, "--out", "out"]
+    surface = ["discretise", "--quiet", "--surface", "{}", "--nodes", 150, "--out", "out"]
+    warp = ["warp", folder / "run", "{}", "--out", "out"]
+    solve = ["solve", "--quiet", "--nodes", folder / "run/discretise/nodes.vtu", "--cells",
+             folder / "run/discretise/cells.vtu", "--labels", folder / "head/labels.nii.gz", "--load",
+             folder / "head/craniotomy.csv", "--material=1:brain", "--material=2:brain", "--material=3:brain", "--tolerance", 0.5, "--out",
+             "out"]
+    found = [(folder / f"labels{ending}", labels) for ending in (".nii", ".mgz", ".nrrd", ".mha")]
+    found += [(folder / f"t1{ending}", image) for ending in (".nii", ".mgz", ".nrrd", ".mha")]
+    found += [(folder / f"s{ending}", warp) for ending in (".vtk", ".ply", ".obj", ".stl", ".gii")]
+    found += [(folder / f"s{ending}", surface) for ending in (".ply", ".obj", ".stl")]
+    found += [(folder / "head/labels.nii.gz", labels), (folder / "head/t1.nii.gz", warp),
+              (folder / "run/segment/brain.vtp", surface), (folder / "run/segment/brain.vtp", warp),
+              (folder / "run/solve/solution.vtu", warp)]
+    for option, file in (("--nodes", "nodes.vtu"), ("--cells", "cells.vtu")):
+        command = list(solve)
+        command[command.index(option) + 1] = "{}"
+        found.append((folder / "run/discretise" / file, command))
+    found.append((folder / "head/scene.xml", ["scene", "--check", "{}"]))
+    return found
+
+
+def damaged(data, chance):
+    """The bytes with one to four faults: cut off, bits, numbers, pieces that are missing, doubled or swapped."""
+    data = bytearray(data)
+    for _ in range(chance.choice((1, 1, 1, 2, 4))):
+        size = max(1, len(data))
+        at = chance.randrange(min(size, chance.choice((64, 512, size))))  # most faults that matter are in headers
+        piece = slice(at, at + chance.choice((1, 4, 8, 64, 1024)))
+        kind = chance.randrange(7)
+        if kind == 0:
+            del data[at:]
+        elif kind == 1 and data:
+            data[at] ^= 1 << chance.randrange(8)
+        elif kind == 2:
+            value = chance.choice(EXTREMES)
+            data[at:at + len(value)] = value
+        elif kind == 3:
+            del data[piece]
+        elif kind == 4:
+            data[at:at] = data[piece]
+        elif kind == 5:
+            other = chance.randrange(size)
+            data[piece], data[other:other + 8] = data[other:other + 8], data[piece]
+        else:
+            end = at
+            while end < len(data) and data[end:end + 1] in b"+-.0123456789eE":
+                end += 1
+            data[at:end] = chance.choice(NUMBERS)
+    return bytes(data)
+
+
+def damage(file, chance):
+    data = file.read_bytes()
+    if file.suffix in (".gz", ".mgz") and chance.random() < 0.7:
+        inner = gzip.decompress(data) if data[:2] == b"\x1f\x8b" else data
+        return gzip.compress(damaged(inner, chance), 1)
+    return damaged(data, chance)
+
+
+def fault_of(process, said, seconds, kilobytes, file):
+    """What of a command's end is wrong; empty: nothing."""
+    if seconds > MOST_SECONDS:
+        return f"took {seconds:.0f} s"
+    if os.WIFSIGNALED(process):
+        return f"killed by {signal.Signals(os.WTERMSIG(process)).name}"
+    code = os.WEXITSTATUS(process)
+    if code not in CODES:
+        return f"exit code {code}"
+    if kilobytes > MOST_KILOBYTES:
+        return f"took {kilobytes / 1e6:.1f} GB"
+    if code == 2:
+        lines = said.splitlines()
+        if len(lines) != 1 or not lines[0].startswith("brainshift: "):
+            return f"{len(lines)} lines where one sentence was expected"
+        if file.name not in lines[0]:
+            return "the sentence does not name the file"
+    return ""
+
+
+def attempt(program, command, file, folder):
+    """Runs the command on the file: its fault and what it said."""
+    shutil.rmtree(folder / "out", ignore_errors=True)
+    arguments = [str(program)] + [str(file) if part == "{}" else str(part) for part in command]
+    begin = time.monotonic()
+    with open(folder / "said", "w+", errors="replace") as said:
+        process = subprocess.Popen(arguments, cwd=folder, stdout=subprocess.DEVNULL, stderr=said)
+        while True:
+            found, status, usage = os.wait4(process.pid, os.WNOHANG)
+            seconds = time.monotonic() - begin
+            if found:
+                break
+            if seconds > MOST_SECONDS + 5:
+                process.kill()
+            time.sleep(0.005)
+        process.returncode = status
+        said.seek(0)
+        text = said.read()
+    return fault_of(status, text, seconds, usage.ru_maxrss, file), text, arguments
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=Path)
+    parser.add_argument("seconds", type=float)
+    parser.add_argument("--seed", type=int, default=random.randrange(10**6))
+    parser.add_argument("--failed", type=Path, default=Path("failed"), metavar="DIR")
+    options = parser.parse_args()
+    os.environ.update(OMP_NUM_THREADS="1", OMP_WAIT_POLICY="passive")
+    chance = random.Random(options.seed)
+    print(f"seed {options.seed}")
+    runs = faults = refused = 0
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        phantom(options.program.resolve(), folder)
+        other_formats(folder)
+        surfaces(folder)
+        all_targets = targets(folder)
+        end = time.monotonic() + options.seconds
+        while time.monotonic() < end:
+            original, command = chance.choice(all_targets)
+            file = folder / ("damaged" + "".join(original.suffixes))
+            file.write_bytes(damage(original, chance))
+            fault, said, arguments = attempt(options.program.resolve(), command, file, folder)
+            runs += 1
+            refused += bool(said)
+            if fault:
+                faults += 1
+                options.failed.mkdir(exist_ok=True)
+                kept = options.failed / f"{options.seed}-{runs}{file.name[len('damaged'):]}"
+                shutil.copy(file, kept)
+                print(f"FAULT: {fault}: {kept}\n  {' '.join(arguments)}\n  " + said[:600].replace("\n", "\n  "))
+    print(f"{runs} damaged files, {refused} of them refused or noted, {faults} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
