@@ -54,7 +54,8 @@ def other_formats(folder):
         image = nibabel.load(folder / f"head/{name}.nii.gz")
         values = numpy.asanyarray(image.dataobj).astype("<f4" if name == "t1" else "<u2")
         nibabel.save(nibabel.Nifti1Image(values, image.affine), folder / f"{name}.nii")
-        nibabel.save(nibabel.MGHImage(values.astype("f4" if name == "t1" else "i2"), image.affine), folder / f"{name}.mgz")
+        nibabel.save(nibabel.MGHImage(values.astype("f4" if name == "t1" else "i2"), image.affine),
+                     folder / f"{name}.mgz")
         spacing = image.header.get_zooms()[:3]
         kind, meta = ("float", "MET_FLOAT") if name == "t1" else ("ushort", "MET_USHORT")
         sizes = " ".join(map(str, values.shape))
@@ -101,8 +102,8 @@ def targets(folder):
     warp = ["warp", folder / "run", "{}", "--out", "out"]
     solve = ["solve", "--quiet", "--nodes", folder / "run/discretise/nodes.vtu", "--cells",
              folder / "run/discretise/cells.vtu", "--labels", folder / "head/labels.nii.gz", "--load",
-             folder / "head/craniotomy.csv", "--material=1:brain", "--material=2:brain", "--material=3:brain", "--tolerance", 0.5, "--out",
-             "out"]
+             folder / "head/craniotomy.csv", "--material=1:brain", "--material=2:brain", "--material=3:brain",
+             "--tolerance", 0.5, "--out", "out"]
     found = [(folder / f"labels{ending}", labels) for ending in (".nii", ".mgz", ".nrrd", ".mha")]
     found += [(folder / f"t1{ending}", image) for ending in (".nii", ".mgz", ".nrrd", ".mha")]
     found += [(folder / f"s{ending}", warp) for ending in (".vtk", ".ply", ".obj", ".stl", ".gii")]
