@@ -22,8 +22,12 @@ import tempfile
 import time
 from pathlib import Path
 
-import nibabel
-import numpy
+try:
+    import nibabel
+    import numpy
+except ImportError:
+    print("not tried: it needs Python's nibabel and numpy (python3-nibabel)")
+    sys.exit(77)
 
 MOST_SECONDS = 10
 MOST_KILOBYTES = 2 << 20
