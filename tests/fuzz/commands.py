@@ -6,7 +6,7 @@
 
 A small phantom is run once. Then one of its files, in one of the formats that the program reads, is damaged and a
 command is run on it. Whatever the file holds, the command must end within 10 s of processor time and 2 GB with one of
-its own exit codes, and, where it refuses, with one line that names the file. Files that break this are kept in DIR, each with its command.
+its own exit codes, and, where it refuses, with one line that names the file. Files that break this are kept in DIR.
 Needs numpy and nibabel.
 """
 import argparse
