@@ -34,6 +34,11 @@ struct Outlier {
 /// be averaged away. Throws as solve() does.
 std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
 
+/// Raises the standard deviations of the measured points that contradict the others, by the root of robust_weights(),
+/// which are left in the conditions as their trust. Throws as solve_measured() does, and std::invalid_argument where
+/// nothing is measured with noise.
+void lessen_outliers(Model& model, const SolveOptions& options);
+
 /// solve() of a model whose conditions were measured with noise: the weight is chosen on a cloud of some hundred of the
 /// nodes, choose_weight(), unless the conditions name one. Throws as solve() does, and std::invalid_argument with a
 /// part that noise does not go with: motion in time, the simplified imposition, a region, cuts, tears, a resection, a
