@@ -93,11 +93,6 @@ void write_measured(const SolveInput& input, const solve::SolveResult& result, c
     return;
   }
   const solve::MeasuredFit& fit = *result.measures.measured;
-  const solve::Measurement& measured = *input.model.conditions.measured;
-  if (measured.trust.size() > 0) {
-    said.measures["lessened_points"] = (measured.trust.array() < 0.5).count();
-    warn(warnings_of(measured), said);
-  }
   warn(warnings_of(solve::worst_outlier(input.model, input.options, fit)), said);
   if (input.registration) {
     solve::write_rigid(out / "registration_error.tfm", *input.registration);
@@ -226,7 +221,10 @@ SolveInput read_input(const SolveJob& job) {
     });
   }
   if (job.load && job.load->robust) {
-    solve::lessen_outliers(model, job.options);
+    for (const std::string& warning : warnings_of(naming(
+             load_files(*job.load), [&] { return solve::lessen_outliers(model, job.options, job.load->opening); }))) {
+      input.notes.push_back("warning: " + warning);
+    }
   }
   if (model.conditions.measured && !job.landmarks.empty()) {
     model.conditions.measured->asked = solve::read_markup_positions(job.landmarks);

@@ -148,21 +148,15 @@ Warnings warnings_of(const std::optional<solve::Outlier>& outlier) {
       "sigma or take it out"};
 }
 
-Warnings warnings_of(const solve::Measurement& measured) {
-  std::string places;
-  Eigen::Index count = 0;
-  for (Eigen::Index i = 0; i < measured.trust.size(); ++i) {
-    if (measured.trust[i] < 0.5) {
-      const Eigen::Index inner = i - measured.cortex.rows();
-      const Eigen::RowVector3d x = inner < 0 ? measured.cortex.row(i) : measured.inner.row(inner);
-      places += (places.empty() ? "(" : ", (") + write_numbers(x.array().round().matrix()) + ")";
-      ++count;
-    }
-  }
-  if (count == 0) {
+Warnings warnings_of(const solve::LessenedPoints& lessened) {
+  if (lessened.positions.rows() == 0) {
     return {};
   }
-  return {"of " + std::to_string(measured.trust.size()) + " measured points " + std::to_string(count) +
+  std::string places;
+  for (const auto& x : lessened.positions.rowwise()) {
+    places += (places.empty() ? "(" : ", (") + write_numbers(Eigen::RowVector3d(x.array().round())) + ")";
+  }
+  return {"of " + std::to_string(lessened.all) + " measured points " + std::to_string(lessened.positions.rows()) +
           " contradict the others and count for less than half: at " + places + " mm; look at what was measured there"};
 }
 

@@ -97,6 +97,12 @@ void check_load(const Scene& scene) {
          "<load> has " + std::to_string(parts) +
              " parts; give exactly one of craniotomy, markups, surfaces, field, simulated");
   }
+  if (load.robust && load.field) {
+    fail(
+        scene, "load.robust",
+        "robust=\"yes\" is of single points, and the load is a <field>, whose faults are alike at neighbours; leave it "
+        "out");
+  }
   if (load.robust && load.registration_unknown) {
     fail(
         scene, "load.robust",
@@ -107,11 +113,6 @@ void check_load(const Scene& scene) {
     fail(scene, "load.registration",
          "registration=\"unknown\" is of points that a tracker measured, and the load is a <field>, which goes from "
          "image to image; leave it out");
-  }
-  if (load.field && load.field->where.empty() && !load.noise) {
-    fail(scene, "load.field",
-         "a <field> on all of the brain's surface needs to know how well it is known; give <load> a noise, as "
-         "<load noise=\"1\">, or the <field> an opening, as where=\"opening.vtp\"");
   }
 }
 

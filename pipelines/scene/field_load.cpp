@@ -25,15 +25,6 @@ Points read_opening(const std::filesystem::path& file) {
 /// The surface nodes under the opening, those on which measured points there would act.
 std::vector<Eigen::Index> nodes_under(const std::filesystem::path& where, const solve::OpeningOptions& opening,
                                       const NodeCloud& cloud) {
-  std::vector<Eigen::Index> nodes;
-  if (where.empty()) {
-    for (std::size_t a = 0; a < cloud.size(); ++a) {
-      if (cloud.on_surface[a] != 0) {
-        nodes.push_back(static_cast<Eigen::Index>(a));
-      }
-    }
-    return nodes;
-  }
   const Points rim = read_opening(where);
   Points reached;
   try {
@@ -41,6 +32,7 @@ std::vector<Eigen::Index> nodes_under(const std::filesystem::path& where, const 
   } catch (const std::invalid_argument& fault) {
     refuse(where, fault.what());
   }
+  std::vector<Eigen::Index> nodes;
   for (Eigen::Index a = 0; a < reached.rows(); ++a) {
     if (reached.row(a).allFinite()) {
       nodes.push_back(a);
@@ -75,9 +67,7 @@ Moves direction_of(const FieldLoad& field) {
 void check_field_load(const FieldLoad& field) {
   direction_of(field);
   registration::read_place_map(field.file);
-  if (!field.where.empty()) {
-    read_opening(field.where);
-  }
+  read_opening(field.where);
 }
 
 FieldOnSurface field_on_surface_nodes(const FieldLoad& field, const solve::OpeningOptions& opening,
@@ -100,8 +90,8 @@ FieldOnSurface field_on_surface_nodes(const FieldLoad& field, const solve::Openi
   result.known = known.size();
   if (known.empty()) {
     refuse(field.file,
-           "it says nothing of the " + std::to_string(nodes.size()) + " places of the brain's surface" +
-               (field.where.empty() ? "" : " under " + field.where.string()) +
+           "it says nothing of the " + std::to_string(nodes.size()) + " places of the brain's surface" + " under " +
+               field.where.string() +
                ": they lie outside its grid, or it takes no place to them; is it of this patient, and in the "
                "image's frame?");
   }

@@ -127,10 +127,9 @@ OptionTable<Scene> field_load_options() {
   return {required(file_option<Scene>("file", MEMBER(load->field->file),
                                       "displacements, mm, as an image of vectors (.nii, .nii.gz, .nrrd, .mha), or an "
                                       "ITK transform (.h5, .tfm, .txt, .mat)")),
-          file_option<Scene>("where", MEMBER(load->field->where),
-                             "the opening: a surface over it (.vtp, .stl, .ply, .obj), or markups about it or on it "
-                             "(.mrk.json, .fcsv); without it all of the brain's surface that the field knows, which "
-                             "needs a noise"),
+          required(file_option<Scene>("where", MEMBER(load->field->where),
+                                      "the opening: a surface over it (.vtp, .stl, .ply, .obj), or markups about it or "
+                                      "on it (.mrk.json, .fcsv)")),
           choice_option<Scene>("moves", MEMBER(load->field->moves),
                                {{"by_name", FieldLoad::Moves::by_name},
                                 {"points", FieldLoad::Moves::points},

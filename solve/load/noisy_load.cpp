@@ -119,7 +119,8 @@ Eigen::SparseMatrix<double> shares(const NodeCloud& cloud, const CraniotomyLoad&
 /// What each node has of the faults of some others: Shepard's weights of the four nearest (Shepard 1968).
 Eigen::SparseMatrix<double> shares_of_nearest(const Points& positions, const std::vector<Eigen::Index>& nodes,
                                               const std::vector<Eigen::Index>& measured) {
-  const PointTree tree(positions(measured, Eigen::all));
+  const Points places = positions(measured, Eigen::all);
+  const PointTree tree(places);
   std::vector<Eigen::Triplet<double>> entries;
   for (const Eigen::Index node : nodes) {
     std::array<std::size_t, 4> row{};

@@ -161,7 +161,7 @@ Eigen::VectorXd surprise(const Response& response, const Points& displacement, c
 Eigen::VectorXd robust_weights(const Response& response, const Points& displacement, const Points& sigma,
                                double weight) {
   constexpr int most_rounds = 50;
-  constexpr double settled = 0.01, least = 1e-3;  // the weight is chosen between bounds by the mean σ
+  constexpr double settled = 0.01;
   const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(displacement.data(), displacement.size());
   const Eigen::VectorXd own = Eigen::Map<const Eigen::VectorXd>(sigma.data(), sigma.size()).cwiseAbs2();
   Eigen::VectorXd left = Eigen::VectorXd::Ones(displacement.rows());
@@ -171,7 +171,7 @@ Eigen::VectorXd robust_weights(const Response& response, const Points& displacem
     const double s = choose_weight(response, displacement, raised, weight).weight;
     const Eigen::VectorXd off = Gaussian(response, d, variance, millijoule * s).surprise(variance - own);
     const double usual = std::max(1.0, median(off) / usual_surprise);
-    const Eigen::VectorXd next = off.unaryExpr([&](double r) { return std::max(least, biweight(r / usual)); });
+    const Eigen::VectorXd next = off.unaryExpr([&](double r) { return std::max(least_trust, biweight(r / usual)); });
     const double moved = (next - left).cwiseAbs().maxCoeff();
     left = next;
     if (moved < settled) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "solve/cut/resection.hpp"
+#include "solve/load/noisy_load.hpp"
 #include "solve/load/spread_out.hpp"
 #include "solve/measured/inner_rows.hpp"
 #include "solve/measured/weight.hpp"
@@ -215,21 +216,32 @@ std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& opt
   return Outlier{thin.positions.row(worst), off[worst]};
 }
 
-void lessen_outliers(Model& model, const SolveOptions& options) {
+LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const OpeningOptions& opening) {
   check_parts(model, options);
-  if (!model.conditions.measured) {
-    throw std::invalid_argument(
-        "load: to tell points that contradict the others, their standard deviations are needed");
-  }
-  Measurement& m = *model.conditions.measured;
   std::optional<ShapeFunctions> shape;
   const BodyParts parts = few_nodes(model, options.shape, shape);
   const Seen seen = seen_points(model, true);
+  const double weight = model.conditions.measured->weight;
   const Response response = linear_response(parts, inner_rows(*shape, seen.positions), model.skull.has_value());
-  m.trust = robust_weights(response, seen.displacement, seen.sigma, m.weight);
-  const Eigen::ArrayXd raise = m.trust.array().rsqrt();
-  m.sigma.array().colwise() *= raise.head(m.sigma.rows());
-  m.inner_sigma.array().colwise() *= raise.tail(m.inner_sigma.rows());
+  const Eigen::VectorXd trust = robust_weights(response, seen.displacement, seen.sigma, weight);
+  std::vector<Eigen::Index> kept, lessened;
+  for (Eigen::Index i = 0; i < trust.size(); ++i) {
+    if (trust[i] > least_trust) {
+      kept.push_back(i);
+    }
+    if (trust[i] < 0.5) {
+      lessened.push_back(i);
+    }
+  }
+  const Points raised = seen.sigma.array().colwise() / trust.array().sqrt();
+  Conditions weighed = noisy_conditions(
+      model.cloud, {seen.positions(kept, Eigen::all), seen.displacement(kept, Eigen::all), raised(kept, Eigen::all)},
+      opening);
+  weighed.force = std::move(model.conditions.force);
+  weighed.measured->weight = weight;
+  weighed.measured->trust = trust(kept);
+  model.conditions = std::move(weighed);
+  return {seen.positions(lessened, Eigen::all), trust.size()};
 }
 
 SolveResult solve_measured(const Model& model, const SolveOptions& options, const Progress& progress) {

