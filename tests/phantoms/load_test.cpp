@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -111,7 +112,6 @@ double off_nodes(const solve::CraniotomyLoad& load, const Solution& solution) {
 TEST_F(Load, OfItsOwnTransformsGivesARunItsDisplacementsBack) {
   const auto measures = nlohmann::json::parse(contents_of(at("truth/register/stage.json")))["entry"]["measures"];
   const double voxel_error = measures["fit_error_mm"];
-  RecordProperty("voxel_error", std::to_string(voxel_error));
   for (const char* name :
        {"preop_to_intraop.nii.gz", "intraop_to_preop.nii.gz", "from-preop_to-intraop_mode-points_xfm.h5",
         "from-preop_to-intraop_mode-image_xfm.h5", "from-preop_to-intraop_mode-image_xfm.nrrd"}) {
