@@ -151,10 +151,11 @@ TEST_F(Load, OfAFieldThatSaysNothingIsRefused) {
   write_image(at("far.mha"), far);
   EXPECT_NE(refused(field(at("far.mha").string(), " moves=\"points\"")).find("it says nothing of the"),
             std::string::npos);
-  EXPECT_NE(
-      refused("<load registration=\"unknown\" noise=\"1\"><field file=\"" + written("preop_to_intraop.nii.gz") + "\"/>")
-          .find("from image to image"),
-      std::string::npos);
+  for (const char* with : {" registration=\"unknown\"", " robust=\"yes\""}) {
+    std::string unfit = field(written("preop_to_intraop.nii.gz"));
+    unfit.replace(0, 5, std::string("<load noise=\"1\"") + with);
+    EXPECT_NE(refused(unfit).find("the load is a <field>"), std::string::npos) << with;
+  }
 }
 
 /// Twenty of the measured points, spread evenly, with noise.
