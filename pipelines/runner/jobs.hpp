@@ -76,10 +76,12 @@ struct SolveInput {
   solve::SolveOptions options;
   std::optional<solve::CraniotomyLoad> load;       ///< as it was read
   std::optional<solve::RigidMotion> registration;  ///< from image to tracker, where it is unknown
+  std::vector<std::string> notes = {};             ///< of the load, for people
 };
 SolveInput read_input(const SolveJob& job);
 
-/// The measured displacements of a load. surface: the brain's, for a simulated one.
+/// The measured displacements of a load. surface: the brain's, for a simulated one and a field, which is looked up at
+/// its vertices.
 solve::CraniotomyLoad read_load(const Load& load, const std::filesystem::path& surface);
 
 }  // namespace brainshift::pipelines

@@ -10,6 +10,7 @@
 #include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/sha256.hpp"
 #include "pipelines/scene/describe_scene.hpp"
+#include "pipelines/scene/field_load.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/output/solution_file.hpp"
@@ -171,6 +172,9 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
                  .work = {}};
   add_artefacts(plan, folder,
                 {"discretise/nodes.vtu", "discretise/cells.vtu", "segment/brain.vtp", "segment/labels.nii.gz"});
+  if (scene.load && scene.load->field) {
+    plan.options["field_moves_points"] = direction_of(*scene.load->field) == registration::Moves::points;
+  }
   if (scene.contact && scene.contact->skull.empty()) {
     add_artefacts(plan, folder, {"segment/skull.vtp"});
   }

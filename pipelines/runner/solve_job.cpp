@@ -7,6 +7,7 @@
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/patient_registration.hpp"
 #include "pipelines/runner/warnings.hpp"
+#include "pipelines/scene/field_load.hpp"
 #include "register/field/nodal_values.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/cut/septum.hpp"
@@ -36,6 +37,37 @@ void impose(const solve::CraniotomyLoad& load, const Load& how, solve::Model& mo
   model.conditions = solve::noisy_conditions(model.cloud, load, how.opening);
   model.conditions.measured->weight = how.weight;
   model.conditions.force = std::move(force);
+}
+
+/// Measured at the nodes themselves, of which some have no displacement.
+solve::CraniotomyLoad at_known_nodes(const Points& positions, const Points& displacement) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index a = 0; a < displacement.rows(); ++a) {
+    if (displacement.row(a).allFinite()) {
+      rows.push_back(a);
+    }
+  }
+  return {positions(rows, Eigen::all), displacement(rows, Eigen::all)};
+}
+
+void impose_field(const Load& how, SolveInput& input) {
+  solve::Conditions& conditions = input.model.conditions;
+  FieldOnSurface found = field_on_surface_nodes(*how.field, how.opening, input.model.cloud);
+  input.load = at_known_nodes(input.model.cloud.positions, found.displacement);
+  if (found.not_found > 0) {
+    input.notes.push_back("warning: " + how.field->file.string() + " takes no place to " +
+                          std::to_string(found.not_found) + " of " + std::to_string(found.known + found.not_found) +
+                          " nodes of the brain's surface: it folds there, or ends; they are left free");
+  }
+  if (!how.noise) {
+    conditions.displacement = std::move(found.displacement);
+    return;
+  }
+  input.load->sigma = Points::Constant(input.load->positions.rows(), 3, *how.noise);
+  Points force = std::move(conditions.force);
+  conditions = solve::noisy_field(input.model.cloud, found.displacement, *how.noise);
+  conditions.measured->weight = how.weight;
+  conditions.force = std::move(force);
 }
 
 /// Then what is said of points of the cortex alone does not hold.
@@ -134,6 +166,13 @@ solve::CraniotomyLoad read_load(const Load& load, const fs::path& surface) {
   if (load.simulated) {
     return solve::simulated_craniotomy(read_surface(surface), *load.simulated);
   }
+  if (load.field) {
+    const Points vertices = read_surface(surface).vertices;
+    const NodeCloud cloud{.positions = vertices,
+                          .spacing = std::vector<double>(static_cast<std::size_t>(vertices.rows()), 1.0),
+                          .on_surface = std::vector<std::uint8_t>(static_cast<std::size_t>(vertices.rows()), 1)};
+    return at_known_nodes(vertices, field_on_surface_nodes(*load.field, load.opening, cloud).displacement);
+  }
   throw std::invalid_argument("no load is named: give measured displacements, markups, surfaces or a simulated one");
 }
 
@@ -163,7 +202,9 @@ SolveInput read_input(const SolveJob& job) {
   if (!job.skull.empty()) {
     model.skull = read_surface(job.skull);
   }
-  if (job.load) {
+  if (job.load && job.load->field) {
+    impose_field(*job.load, input);
+  } else if (job.load) {
     input.load = read_load(*job.load, job.surface);
     solve::CraniotomyLoad& load = *input.load;
     if (load.sigma.rows() == 0 && job.load->noise) {
@@ -178,9 +219,15 @@ SolveInput read_input(const SolveJob& job) {
       input.registration = patient_registration(
           load, job.options, [&](const auto& l, solve::Model& m) { impose(l, *job.load, m); }, model);
     });
-    if (model.conditions.measured && !job.landmarks.empty()) {
-      model.conditions.measured->asked = solve::read_markup_positions(job.landmarks);
+  }
+  if (job.load && job.load->robust) {
+    for (const std::string& warning : warnings_of(naming(
+             load_files(*job.load), [&] { return solve::lessen_outliers(model, job.options, job.load->opening); }))) {
+      input.notes.push_back("warning: " + warning);
     }
+  }
+  if (model.conditions.measured && !job.landmarks.empty()) {
+    model.conditions.measured->asked = solve::read_markup_positions(job.landmarks);
   }
   input.options = job.options;
   return input;
@@ -200,6 +247,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
                                            [&] { return solve::solve(input.model, input.options, progress); });
   solve::write_solve(out, result);
   StageReport said = report_of(result, input.options.dynamics);
+  said.notes.insert(said.notes.end(), input.notes.begin(), input.notes.end());
   write_measured(input, result, out, said);
   add_uncertainty(job, input, result, out, said, part_of(given, solving_share, 1));
   warn(warnings_of(result.measures), said);

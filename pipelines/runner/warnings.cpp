@@ -148,6 +148,18 @@ Warnings warnings_of(const std::optional<solve::Outlier>& outlier) {
       "sigma or take it out"};
 }
 
+Warnings warnings_of(const solve::LessenedPoints& lessened) {
+  if (lessened.positions.rows() == 0) {
+    return {};
+  }
+  std::string places;
+  for (const auto& x : lessened.positions.rowwise()) {
+    places += (places.empty() ? "(" : ", (") + write_numbers(Eigen::RowVector3d(x.array().round())) + ")";
+  }
+  return {"of " + std::to_string(lessened.all) + " measured points " + std::to_string(lessened.positions.rows()) +
+          " contradict the others and count for less than half: at " + places + " mm; look at what was measured there"};
+}
+
 Warnings warnings_of(const registration::RegisterMeasures& measures) {
   if (measures.folded_voxels == 0) {
     return {};

@@ -37,6 +37,9 @@ Warnings warnings_of(const solve::SolveMeasures& measures);
 /// Of what was measured where it contradicts itself.
 Warnings warnings_of(const std::optional<solve::Outlier>& outlier);
 
+/// Of measured points that count for less than half.
+Warnings warnings_of(const solve::LessenedPoints& lessened);
+
 /// Of a field that folds.
 Warnings warnings_of(const registration::RegisterMeasures& measures);
 

@@ -80,6 +80,11 @@ void check_parts(const Scene& scene) {
   check_cuts(scene);
   check_septa(scene);
   check_resection(scene);
+  if (scene.load && scene.load->robust && !has_noise(*scene.load)) {
+    fail(scene, "load.robust",
+         "robust=\"yes\" needs to know how well the points were measured; give <load> a noise, or the file a column "
+         "sigma");
+  }
   if (scene.uncertainty) {
     check_at(scene, "uncertainty", [&] { check_uncertainty(scene); });
   }

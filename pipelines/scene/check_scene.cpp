@@ -7,6 +7,7 @@
 #include "discretise/interface/option_table.hpp"
 #include "pipelines/scene/check_parts.hpp"
 #include "pipelines/scene/check_tissues.hpp"
+#include "pipelines/scene/field_load.hpp"
 #include "pipelines/scene/scene_fault.hpp"
 #include "pipelines/scene/scene_labels.hpp"
 #include "pipelines/scene/scene_table.hpp"
@@ -90,11 +91,28 @@ void check_load(const Scene& scene) {
   }
   const Load& load = *scene.load;
   const int parts = int{load.craniotomy.has_value()} + int{load.markups.has_value()} + int{load.surfaces.has_value()} +
-                    int{load.simulated.has_value()};
+                    int{load.field.has_value()} + int{load.simulated.has_value()};
   if (parts != 1) {
+    fail(scene, "load",
+         "<load> has " + std::to_string(parts) +
+             " parts; give exactly one of craniotomy, markups, surfaces, field, simulated");
+  }
+  if (load.robust && load.field) {
     fail(
-        scene, "load",
-        "<load> has " + std::to_string(parts) + " parts; give exactly one of craniotomy, markups, surfaces, simulated");
+        scene, "load.robust",
+        "robust=\"yes\" is of single points, and the load is a <field>, whose faults are alike at neighbours; leave it "
+        "out");
+  }
+  if (load.robust && load.registration_unknown) {
+    fail(
+        scene, "load.robust",
+        "robust=\"yes\" does not go with registration=\"unknown\": where the patient lies is not known yet, all points "
+        "may contradict the brain; leave the one or the other out");
+  }
+  if (load.field && load.registration_unknown) {
+    fail(scene, "load.registration",
+         "registration=\"unknown\" is of points that a tracker measured, and the load is a <field>, which goes from "
+         "image to image; leave it out");
   }
 }
 
@@ -106,6 +124,9 @@ void check_late_files(const Scene& scene) {
   if (scene.load && scene.load->markups) {
     check_at(scene, "load.markups",
              [&] { solve::read_markups(scene.load->markups->before, scene.load->markups->after); });
+  }
+  if (scene.load && scene.load->field) {
+    check_at(scene, "load.field", [&] { check_field_load(*scene.load->field); });
   }
   if (scene.landmarks) {
     check_at(scene, "landmarks", [&] { solve::read_markup_positions(*scene.landmarks); });

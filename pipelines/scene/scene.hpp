@@ -63,18 +63,27 @@ struct BeforeAfter {
   std::filesystem::path after;
 };
 
-/// What is measured and imposed: at most one of the four.
+/// Another program's registration of the preop to the intraop brain.
+struct FieldLoad {
+  std::filesystem::path file;   ///< field or transform, registration::read_place_map()
+  std::filesystem::path where;  ///< the opening: a surface over it, or markups about it
+  enum class Moves : std::uint8_t { by_name, points, image } moves = Moves::by_name;  ///< registration::Moves
+};
+
+/// What is measured and imposed: at most one of the five.
 struct Load {
   solve::OpeningOptions opening;
   std::optional<double> noise;                      ///< standard deviation where the file says none, mm; absent: exact
   double weight = 0;                                ///< s of solve::Measurement, mJ; 0: chosen
+  bool robust = false;                              ///< points that contradict the others count for less
   bool registration_unknown = false;                ///< what was measured holds the error of the patient's registration
   std::optional<std::filesystem::path> craniotomy;  ///< craniotomy.csv
   std::optional<BeforeAfter> markups;
   std::optional<BeforeAfter> surfaces;
+  std::optional<FieldLoad> field = {};
   std::optional<solve::SimulatedCraniotomy> simulated;
 
-  bool empty() const { return !craniotomy && !markups && !surfaces && !simulated; }
+  bool empty() const { return !craniotomy && !markups && !surfaces && !field && !simulated; }
 };
 
 struct Contact {

@@ -113,11 +113,30 @@ OptionTable<Scene> load_options() {
                                          "of a load with noise: how much energy of deformation a misfit of one "
                                          "standard deviation is worth; 0: chosen from "
                                          "the measured points"));
+  options.push_back(choice_option<Scene>("robust", MEMBER(load->robust), {{"no", false}, {"yes", true}},
+                                         "of a load with noise: measured points that contradict the others count for "
+                                         "less"));
   options.push_back(choice_option<Scene>(
       "registration", MEMBER(load->registration_unknown), {{"known", false}, {"unknown", true}},
       "unknown: what was measured holds a rigid motion of the patient against the image, too, which is estimated with "
       "the deformation; needs a noise"));
   return options;
+}
+
+OptionTable<Scene> field_load_options() {
+  return {required(file_option<Scene>("file", MEMBER(load->field->file),
+                                      "displacements, mm, as an image of vectors (.nii, .nii.gz, .nrrd, .mha), or an "
+                                      "ITK transform (.h5, .tfm, .txt, .mat)")),
+          required(file_option<Scene>("where", MEMBER(load->field->where),
+                                      "the opening: a surface over it (.vtp, .stl, .ply, .obj), or markups about it or "
+                                      "on it (.mrk.json, .fcsv)")),
+          choice_option<Scene>("moves", MEMBER(load->field->moves),
+                               {{"by_name", FieldLoad::Moves::by_name},
+                                {"points", FieldLoad::Moves::points},
+                                {"image", FieldLoad::Moves::image}},
+                               "what the file takes from preop to intraop: points (it leads from preop places to "
+                               "intraop ones) or the image (it resamples, and leads back); by_name: it is named, or "
+                               "has a .json beside it, as this program writes them")};
 }
 
 std::vector<Element> load_elements() {
@@ -137,6 +156,8 @@ std::vector<Element> load_elements() {
       load_part("surfaces", "Two surfaces of the exposed cortex.", &Load::surfaces,
                 {required(file_option<Scene>("before", MEMBER(load->surfaces->before), "preop surface")),
                  required(file_option<Scene>("after", MEMBER(load->surfaces->after), "intraop surface"))}),
+      load_part("field", "Another program's registration of the two brains, on the brain's surface.", &Load::field,
+                field_load_options()),
       load_part("simulated", "A craniotomy made up on the brain's surface: say so when you show the result.",
                 &Load::simulated,
                 of_whole<Scene>(solve::simulated_craniotomy_options(), MEMBER(load->simulated.value())))};

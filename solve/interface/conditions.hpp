@@ -17,12 +17,16 @@ namespace brainshift::solve {
 /// with E the share of each measured point in what is prescribed at a node: noise there is noise here, as far as the
 /// displacement was extended. Nodes without a share are held exactly. exp(−W/s) is the prior of the deformation.
 struct Measurement {
-  Eigen::SparseMatrix<double> spread;        ///< E, (nodes × measured points of the cortex)
-  Points sigma = Points(0, 3);               ///< of these points, mm, > 0
-  Points inner = Points(0, 3);               ///< measured points inside the body, undeformed, mm
-  Points inner_displacement = Points(0, 3);  ///< mm
-  Points inner_sigma = Points(0, 3);         ///< mm, > 0
-  double weight = 0;                         ///< s, mJ; 0: chosen by choose_weight()
+  Eigen::SparseMatrix<double> spread;         ///< E, (nodes × measured points of the cortex)
+  Points sigma = Points(0, 3);                ///< of these points, mm, > 0
+  Points inner = Points(0, 3);                ///< measured points inside the body, undeformed, mm
+  Points inner_displacement = Points(0, 3);   ///< mm
+  Points inner_sigma = Points(0, 3);          ///< mm, > 0
+  Points cortex = Points(0, 3);               ///< the points of the cortex, undeformed, mm
+  Points cortex_displacement = Points(0, 3);  ///< as measured there, before it was extended, mm
+  /// What lessen_outliers() left of each point's weight, those of the cortex first, 0 to 1; empty: not asked.
+  Eigen::VectorXd trust = {};
+  double weight = 0;                  ///< s, mJ; 0: chosen by choose_weight()
   bool registration_unknown = false;  ///< what was measured may hold a rigid motion of the patient against the image
   Points asked = Points(0, 3);        ///< undeformed places whose spread is wanted, mm
 };

@@ -75,4 +75,16 @@ void check_near_surface(const Points& measured, const Points& surface, double fa
   }
 }
 
+void check_moved(const Points& displacement, const Points& surface) {
+  const double across = (surface.colwise().maxCoeff() - surface.colwise().minCoeff()).maxCoeff();
+  Eigen::Index farthest = 0;
+  const double moved = displacement.rowwise().norm().maxCoeff(&farthest);
+  if (!(moved <= 0.5 * across)) {
+    throw std::invalid_argument("load: measured point " + std::to_string(farthest + 1) + " of " +
+                                std::to_string(displacement.rows()) + " moves by " + rounded(moved) +
+                                " mm, more than half of the body (" + rounded(across) +
+                                " mm across); displacements in mm are expected");
+  }
+}
+
 }  // namespace brainshift::solve

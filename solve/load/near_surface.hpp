@@ -12,6 +12,10 @@ namespace brainshift::solve {
 /// RAS was then taken for LPS, or LPS for RAS.
 void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed);
 
+/// Throws std::invalid_argument, with the point, when one moves by more than half of the body: a brain sinks or swells
+/// by a part of itself; what moves farther is in another unit, or is a place and no movement.
+void check_moved(const Points& displacement, const Points& surface);
+
 /// One decimal, for sentences.
 std::string rounded(double number);
 

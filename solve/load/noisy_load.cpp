@@ -10,6 +10,7 @@
 #include <string>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/load/spread_out.hpp"
 
 namespace brainshift::solve {
 
@@ -115,6 +116,34 @@ Eigen::SparseMatrix<double> shares(const NodeCloud& cloud, const CraniotomyLoad&
   return spread;
 }
 
+/// What each node has of the faults of some others: Shepard's weights of the four nearest (Shepard 1968).
+Eigen::SparseMatrix<double> shares_of_nearest(const Points& positions, const std::vector<Eigen::Index>& nodes,
+                                              const std::vector<Eigen::Index>& measured) {
+  const Points places = positions(measured, Eigen::all);
+  const PointTree tree(places);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Eigen::Index node : nodes) {
+    std::array<std::size_t, 4> row{};
+    std::array<double, 4> squared{};
+    const Eigen::RowVector3d x = positions.row(node);
+    std::size_t count = tree.nearest(x.data(), row.size(), row.data(), squared.data());
+    if (squared[0] == 0) {
+      count = 1;
+      squared[0] = 1;
+    }
+    double total = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      total += 1 / squared[i];
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      entries.emplace_back(static_cast<int>(node), static_cast<int>(row[i]), 1 / squared[i] / total);
+    }
+  }
+  Eigen::SparseMatrix<double> spread(positions.rows(), static_cast<Eigen::Index>(measured.size()));
+  spread.setFromTriplets(entries.begin(), entries.end());
+  return spread;
+}
+
 }  // namespace
 
 CraniotomyLoad joined(const CraniotomyLoad& load, int most) {
@@ -148,11 +177,40 @@ Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, 
     conditions.displacement = prescribed_on_surface_nodes(cloud, cortex, options);
     measured.spread = shares(cloud, cortex, options);
     measured.sigma = cortex.sigma;
+    measured.cortex = cortex.positions;
+    measured.cortex_displacement = cortex.displacement;
   }
   const CraniotomyLoad inner = joined(rows_of(load, inside), most_measured_points);
   measured.inner = inner.positions;
   measured.inner_displacement = inner.displacement;
   measured.inner_sigma = inner.sigma;
+  return conditions;
+}
+
+Conditions noisy_field(const NodeCloud& cloud, const Points& displacement, double sigma) {
+  if (!(sigma >= smallest_noise)) {
+    throw std::invalid_argument("load: a standard deviation of 0.000001 mm or more is needed");
+  }
+  std::vector<Eigen::Index> nodes;
+  for (Eigen::Index a = 0; a < displacement.rows(); ++a) {
+    if (displacement.row(a).allFinite()) {
+      nodes.push_back(a);
+    }
+  }
+  if (nodes.empty()) {
+    throw std::invalid_argument("load: no node has a displacement");
+  }
+  std::vector<Eigen::Index> measured = spread_out(cloud.positions(nodes, Eigen::all), most_measured_points);
+  for (Eigen::Index& row : measured) {
+    row = nodes[static_cast<std::size_t>(row)];
+  }
+  Conditions conditions;
+  conditions.displacement = displacement;
+  Measurement& m = conditions.measured.emplace();
+  m.spread = shares_of_nearest(cloud.positions, nodes, measured);
+  m.sigma = Points::Constant(static_cast<Eigen::Index>(measured.size()), 3, sigma);
+  m.cortex = cloud.positions(measured, Eigen::all);
+  m.cortex_displacement = displacement(measured, Eigen::all);
   return conditions;
 }
 

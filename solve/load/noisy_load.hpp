@@ -23,4 +23,11 @@ CraniotomyLoad joined(const CraniotomyLoad& load, int most);
 /// that does; std::invalid_argument on a point without a standard deviation.
 Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options = {});
 
+/// The conditions of displacements that are known at nodes (n × 3, mm; NaN: free) with the same standard deviation
+/// along each axis, mm, as of a field of another program, whose faults are alike at neighbours: at most
+/// most_measured_points of the nodes count as measured, and each other one shares the faults of the four nearest of
+/// these, by the inverse squares of their distances. Throws std::invalid_argument where no node has a displacement, or
+/// the standard deviation is too small.
+Conditions noisy_field(const NodeCloud& cloud, const Points& displacement, double sigma);
+
 }  // namespace brainshift::solve

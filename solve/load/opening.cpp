@@ -95,19 +95,6 @@ double default_margin(const Points& measured, const NodeCloud& cloud, const std:
   return std::min(0.5 * *middle, widest_default_margin);
 }
 
-/// A brain sinks or swells by a part of itself; what moves farther is in another unit, or is a place and no movement.
-void check_moved(const Points& displacement, const Points& surface) {
-  const double across = (surface.colwise().maxCoeff() - surface.colwise().minCoeff()).maxCoeff();
-  Eigen::Index farthest = 0;
-  const double moved = displacement.rowwise().norm().maxCoeff(&farthest);
-  if (!(moved <= 0.5 * across)) {
-    throw std::invalid_argument("load: measured point " + std::to_string(farthest + 1) + " of " +
-                                std::to_string(displacement.rows()) + " moves by " + rounded(moved) +
-                                " mm, more than half of the body (" + rounded(across) +
-                                " mm across); displacements in mm are expected");
-  }
-}
-
 }  // namespace
 
 Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options) {

@@ -2,11 +2,13 @@
 #include "solve/measured/weight.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace brainshift::solve {
 
@@ -68,8 +70,9 @@ class Gaussian {
     return result;
   }
 
-  /// Of each measured point the residual of leaving it out, P_ii⁻¹ (P d)_i, whose covariance is P_ii⁻¹.
-  Eigen::VectorXd surprise() const {
+  /// Of each measured point the residual of leaving it out, P_ii⁻¹ (P d)_i, whose covariance is P_ii⁻¹; less what its
+  /// variance was raised by.
+  Eigen::VectorXd surprise(const Eigen::VectorXd& raised) const {
     const Eigen::Index m = push.size();
     Eigen::MatrixXd p = factor_.solve(Eigen::MatrixXd::Identity(m, m));
     if (motion.size() > 0) {
@@ -77,8 +80,10 @@ class Gaussian {
     }
     Eigen::VectorXd result(m / 3);
     for (Eigen::Index i = 0; i < m / 3; ++i) {
-      const Eigen::Vector3d own = push.segment<3>(3 * i);
-      result[i] = std::sqrt(std::max(0.0, own.dot(p.block<3, 3>(3 * i, 3 * i).ldlt().solve(own))));
+      Eigen::Matrix3d covariance = p.block<3, 3>(3 * i, 3 * i).inverse();
+      const Eigen::Vector3d left_out = covariance * push.segment<3>(3 * i);
+      covariance.diagonal() -= raised.segment<3>(3 * i);
+      result[i] = std::sqrt(std::max(0.0, left_out.dot(covariance.ldlt().solve(left_out))));
     }
     return result;
   }
@@ -94,6 +99,19 @@ class Gaussian {
   Eigen::LLT<Eigen::MatrixXd> factor_, normal_;
   Eigen::MatrixXd inverse_rigid_;
 };
+
+double median(const Eigen::VectorXd& values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+double biweight(double r) {
+  constexpr double c = 5.49;  // of three components; of one it is the usual 4.685
+  const double in = 1 - std::min(1.0, r * r / (c * c));
+  return in * in;
+}
 
 }  // namespace
 
@@ -137,7 +155,30 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
 Eigen::VectorXd surprise(const Response& response, const Points& displacement, const Points& sigma, double weight) {
   const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(displacement.data(), displacement.size());
   const Eigen::VectorXd variance = Eigen::Map<const Eigen::VectorXd>(sigma.data(), sigma.size()).cwiseAbs2();
-  return Gaussian(response, d, variance, millijoule * weight).surprise();
+  return Gaussian(response, d, variance, millijoule * weight).surprise(Eigen::VectorXd::Zero(d.size()));
+}
+
+Eigen::VectorXd robust_weights(const Response& response, const Points& displacement, const Points& sigma,
+                               double weight) {
+  constexpr int most_rounds = 50;
+  constexpr double settled = 0.01;
+  const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(displacement.data(), displacement.size());
+  const Eigen::VectorXd own = Eigen::Map<const Eigen::VectorXd>(sigma.data(), sigma.size()).cwiseAbs2();
+  Eigen::VectorXd left = Eigen::VectorXd::Ones(displacement.rows());
+  for (int round = 0; round < most_rounds; ++round) {
+    const Points raised = sigma.array().colwise() / left.array().sqrt();
+    const Eigen::VectorXd variance = Eigen::Map<const Eigen::VectorXd>(raised.data(), raised.size()).cwiseAbs2();
+    const double s = choose_weight(response, displacement, raised, weight).weight;
+    const Eigen::VectorXd off = Gaussian(response, d, variance, millijoule * s).surprise(variance - own);
+    const double usual = std::max(1.0, median(off) / usual_surprise);
+    const Eigen::VectorXd next = off.unaryExpr([&](double r) { return std::max(least_trust, biweight(r / usual)); });
+    const double moved = (next - left).cwiseAbs().maxCoeff();
+    left = next;
+    if (moved < settled) {
+      break;
+    }
+  }
+  return left;
 }
 
 Eigen::MatrixXd posterior_covariance(const Response& response, const Points& sigma, const MeasuredFit& fit) {

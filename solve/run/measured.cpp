@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "solve/cut/resection.hpp"
+#include "solve/load/noisy_load.hpp"
+#include "solve/load/spread_out.hpp"
 #include "solve/measured/inner_rows.hpp"
 #include "solve/measured/weight.hpp"
 #include "solve/quadrature/cell_points.hpp"
@@ -51,9 +53,20 @@ struct Seen {
   Points positions, displacement, sigma;
 };
 
-/// Of each point of the cortex the node that it has the largest share in.
-Seen seen_points(const Model& model) {
+Points stacked(const Points& above, const Points& below) {
+  Points both(above.rows() + below.rows(), 3);
+  both << above, below;
+  return both;
+}
+
+/// Of each point of the cortex the node that it has the largest share in; the point itself where some count for less,
+/// as one that is wrong has shares in the nodes at its neighbours, too.
+Seen seen_points(const Model& model, bool themselves) {
   const Measurement& m = *model.conditions.measured;
+  if (themselves) {
+    return {stacked(m.cortex, m.inner), stacked(m.cortex_displacement, m.inner_displacement),
+            stacked(m.sigma, m.inner_sigma)};
+  }
   const Eigen::Index cortex = m.sigma.rows();
   Seen seen{Points(cortex + m.inner.rows(), 3), Points(cortex + m.inner.rows(), 3), Points(cortex + m.inner.rows(), 3)};
   for (Eigen::Index p = 0; p < cortex; ++p) {
@@ -67,21 +80,6 @@ Seen seen_points(const Model& model) {
   seen.displacement.bottomRows(m.inner.rows()) = m.inner_displacement;
   seen.sigma.bottomRows(m.inner.rows()) = m.inner_sigma;
   return seen;
-}
-
-/// At most so many, each the farthest from those before it.
-std::vector<Eigen::Index> spread_out(const Points& positions, Eigen::Index most) {
-  std::vector<Eigen::Index> chosen = {0};
-  Eigen::VectorXd distance = (positions.rowwise() - positions.row(0)).rowwise().norm();
-  while (static_cast<Eigen::Index>(chosen.size()) < std::min(most, positions.rows())) {
-    Eigen::Index next = 0;
-    if (!(distance.maxCoeff(&next) > 0)) {
-      break;
-    }
-    chosen.push_back(next);
-    distance = distance.cwiseMin((positions.rowwise() - positions.row(next)).rowwise().norm());
-  }
-  return chosen;
 }
 
 /// The model on a few hundred of its nodes.
@@ -117,12 +115,6 @@ BodyParts few_nodes(const Model& model, ShapeOptions shape_options, std::optiona
   return parts;
 }
 
-Points stacked(const Points& above, const Points& below) {
-  Points both(above.rows() + below.rows(), 3);
-  both << above, below;
-  return both;
-}
-
 /// Each node by itself: the response to forces on its parameters.
 void append_nodes(std::size_t nodes, ShapeRows& rows) {
   constexpr double one = 1;
@@ -155,8 +147,10 @@ struct Thinned {
   BodyParts parts;
   Points positions, displacement, sigma;
 
-  Thinned(const Model& model, const SolveOptions& options) : parts(few_nodes(model, options.shape, shape)) {
-    const Seen seen = seen_points(model);
+  Thinned(const Model& model, const SolveOptions& options)
+      : Thinned(model, options, seen_points(model, model.conditions.measured->trust.size() > 0)) {}
+  Thinned(const Model& model, const SolveOptions& options, const Seen& seen)
+      : parts(few_nodes(model, options.shape, shape)) {
     const std::vector<Eigen::Index> used = spread_out(seen.positions, most_points);
     positions = seen.positions(used, Eigen::all);
     displacement = seen.displacement(used, Eigen::all);
@@ -208,19 +202,46 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
 }
 
 std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options, const MeasuredFit& fit) {
-  constexpr double surprising = 5;       // 60 points of a Gaussian have one in a thousand runs
-  constexpr double usual_median = 1.54;  // of the root of chi-squared with three degrees of freedom
+  constexpr double surprising = 5;  // 60 points of a Gaussian have one in a thousand runs
   const Thinned thin(model, options);
   const Response response = response_of(thin, model, inner_rows(*thin.shape, thin.positions), thin.positions);
   const Eigen::VectorXd off = surprise(response, thin.displacement, thin.sigma, fit.weight);
   std::vector<double> sorted(off.begin(), off.end());
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double usual = std::max(1.0, sorted[sorted.size() / 2] / usual_median);
+  const double usual = std::max(1.0, sorted[sorted.size() / 2] / usual_surprise);
   Eigen::Index worst = 0;
   if (!(off.maxCoeff(&worst) > surprising * usual)) {
     return std::nullopt;
   }
   return Outlier{thin.positions.row(worst), off[worst]};
+}
+
+LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const OpeningOptions& opening) {
+  check_parts(model, options);
+  std::optional<ShapeFunctions> shape;
+  const BodyParts parts = few_nodes(model, options.shape, shape);
+  const Seen seen = seen_points(model, true);
+  const double weight = model.conditions.measured->weight;
+  const Response response = linear_response(parts, inner_rows(*shape, seen.positions), model.skull.has_value());
+  const Eigen::VectorXd trust = robust_weights(response, seen.displacement, seen.sigma, weight);
+  std::vector<Eigen::Index> kept, lessened;
+  for (Eigen::Index i = 0; i < trust.size(); ++i) {
+    if (trust[i] > least_trust) {
+      kept.push_back(i);
+    }
+    if (trust[i] < 0.5) {
+      lessened.push_back(i);
+    }
+  }
+  const Points raised = seen.sigma.array().colwise() / trust.array().sqrt();
+  Conditions weighed = noisy_conditions(
+      model.cloud, {seen.positions(kept, Eigen::all), seen.displacement(kept, Eigen::all), raised(kept, Eigen::all)},
+      opening);
+  weighed.force = std::move(model.conditions.force);
+  weighed.measured->weight = weight;
+  weighed.measured->trust = trust(kept);
+  model.conditions = std::move(weighed);
+  return {seen.positions(lessened, Eigen::all), trust.size()};
 }
 
 SolveResult solve_measured(const Model& model, const SolveOptions& options, const Progress& progress) {

@@ -8,6 +8,7 @@
 #include "solve/interface/model.hpp"
 #include "solve/interface/options.hpp"
 #include "solve/interface/result.hpp"
+#include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::solve {
 
@@ -33,6 +34,18 @@ struct Outlier {
 /// what is looked at has been extended over the opening: the fault lies near, and among dense points a single one may
 /// be averaged away. Throws as solve() does.
 std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
+
+/// Measured points that contradict the others.
+struct LessenedPoints {
+  Points positions;      ///< of those that keep less than half of their weight, undeformed, mm
+  Eigen::Index all = 0;  ///< points that were looked at
+};
+
+/// Lets the measured points that contradict the others count for less: the conditions are made anew,
+/// noisy_conditions(), without those that robust_weights() leaves nothing, and with the standard deviations of the
+/// others raised by the root of their weights. Of a load of points with noise, not of a field. Throws as
+/// solve_measured() and noisy_conditions() do.
+LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const OpeningOptions& opening);
 
 /// solve() of a model whose conditions were measured with noise: the weight is chosen on a cloud of some hundred of the
 /// nodes, choose_weight(), unless the conditions name one. Throws as solve() does, and std::invalid_argument with a

@@ -220,7 +220,7 @@ TEST_F(SceneFile, FaultsOfOverridesNameThePath) {
   expect_parts(fault("<scene/>", {"segment.edge_length"}), {"--set", "PATH=VALUE"});
   expect_parts(fault("<scene/>", {"tissues.3.density=1"}), {"--set", "no tissue of label '3'"});
   expect_parts(fault("<scene/>", {"load.simulated.depth=4"}), {"--set", "load.simulated.centre"});
-  expect_parts(fault("<scene/>", {"cuts.1.speed=4"}), {"--set", "cuts.1", "cuts, resection"});
+  expect_parts(fault("<scene/>", {"cuts.1.speed=4"}), {"--set", "cuts.1", "cuts, septa, septum, resection"});
   expect_parts(fault("<scene/>", {"resection.pressure=4"}), {"--set", "resection.labels"});
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "tests/unit/scratch_folder.hpp"
@@ -78,6 +79,35 @@ TEST(NoisyLoad, RefusesAPointOutsideTheHeadAndOneWithoutStandardDeviation) {
   load = face_and_middle();
   load.sigma(3, 1) = 0;
   EXPECT_NE(refusal([&] { noisy_conditions(cloud, load); }).find("standard deviation"), std::string::npos);
+}
+
+TEST(NoisyField, SharesTheFaultsOfAtMostSoManyNodesAmongAllWithADisplacement) {
+  const NodeCloud cloud = test::irregular_box(16, side);
+  Points displacement = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+  Eigen::Index known = 0;
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    if (cloud.positions(a, 2) > side - 1e-9) {
+      displacement.row(a) << 0, 0, -0.1 * cloud.positions(a, 0);
+      ++known;
+    }
+  }
+  ASSERT_GT(known, most_measured_points);
+  const Conditions conditions = noisy_field(cloud, displacement, 0.5);
+  const Measurement& m = *conditions.measured;
+  ASSERT_EQ(m.sigma.rows(), most_measured_points);
+  EXPECT_EQ(m.inner.rows(), 0);
+  const Eigen::MatrixXd spread = m.spread;
+  EXPECT_GE(spread.minCoeff(), 0);
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    EXPECT_NEAR(spread.row(a).sum(), conditions.is_prescribed(a) ? 1 : 0, 1e-12);
+    const bool stands_for_itself = spread.row(a).maxCoeff() > 1 - 1e-12;
+    Eigen::Index point = 0;
+    spread.row(a).maxCoeff(&point);
+    EXPECT_TRUE(!stands_for_itself || m.cortex.row(point) == cloud.positions.row(a));
+  }
+  EXPECT_NE(refusal([&] { noisy_field(cloud, displacement, 0); }).find("standard deviation"), std::string::npos);
+  displacement.setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_NE(refusal([&] { noisy_field(cloud, displacement, 1); }).find("no node"), std::string::npos);
 }
 
 }  // namespace brainshift::solve::noisy_load_test

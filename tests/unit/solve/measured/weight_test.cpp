@@ -145,6 +145,33 @@ TEST(Surprise, IsChiSquaredOfPointsThatAgreeAndLargeOfOneThatDoesNot) {
   EXPECT_EQ(most, 7);
 }
 
+TEST(RobustWeights, TakePointsOutThatContradictTheOthersAndLeaveTheRestAlmostWhole) {
+  std::mt19937 random(5);
+  const Points places = test::random_points(30, 100);
+  const Response response = smooth_response(places);
+  const Points sigma = Points::Constant(30, 3, 0.3);
+  for (int draw = 0; draw < 10; ++draw) {
+    const Points noise = Eigen::Map<const Points>(normals(90, random).data(), 30, 3);
+    Points d = drawn(response, 4e3, random) + 0.3 * noise;
+    const Eigen::VectorXd sound = robust_weights(response, d, sigma, 0);
+    EXPECT_GT(sound.mean(), 0.75);
+    d.row(3) += Eigen::RowVector3d(0, 10, 0);
+    d.row(20) += Eigen::RowVector3d(-6, 0, 8);
+    const Eigen::VectorXd weights = robust_weights(response, d, sigma, 0);
+    EXPECT_LT(std::max(weights[3], weights[20]), 0.01) << draw;
+    EXPECT_GT(weights.sum() / 28, 0.75) << draw;
+  }
+}
+
+TEST(RobustWeights, DoNotBlameThePointsWhereTheNoiseIsSaidToBeTooSmall) {
+  std::mt19937 random(6);
+  const Points places = test::random_points(30, 100);
+  const Response response = smooth_response(places);
+  const Points noise = Eigen::Map<const Points>(normals(90, random).data(), 30, 3);
+  const Points d = drawn(response, 4e3, random) + noise;
+  EXPECT_GT(robust_weights(response, d, Points::Constant(30, 3, 0.1), 0).mean(), 0.7);
+}
+
 TEST(Weight, FindsARigidMotionBesideTheDeformation) {
   std::mt19937 random(4);
   const Points places = test::random_points(12, 100);
