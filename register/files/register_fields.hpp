@@ -23,6 +23,7 @@ class RegisterFields {
   /// std::invalid_argument when the folder lacks the fields.
   RegisterFields(std::filesystem::path folder, Towards towards, std::filesystem::path solution = {});
 
+  Towards towards() const { return towards_; }
   const VectorImage& of_points() { return read(towards_ == Towards::intraop); }
   const VectorImage& of_images() { return read(towards_ == Towards::preop); }
 

@@ -12,6 +12,7 @@
 #include "register/files/warp_model.hpp"
 #include "register/files/warp_tracts.hpp"
 #include "register/files/warped_name.hpp"
+#include "register/files/warped_series.hpp"
 #include "register/warp/recognise_labels.hpp"
 #include "register/warp/warp.hpp"
 #include "segmentation/files/lower_case.hpp"
@@ -89,7 +90,7 @@ bool may_be_image(const fs::path& file) {
          std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
-WarpedFile warp_image(const fs::path& in, const VectorImage& field, const fs::path& out,
+WarpedFile warp_image(const fs::path& in, const VectorImage& field, Towards towards, const fs::path& out,
                       const WarpAnyOptions& options) {
   if (is_image_series(in)) {
     return warp_series(in, field, out, options);
@@ -102,8 +103,13 @@ WarpedFile warp_image(const fs::path& in, const VectorImage& field, const fs::pa
     return warp_labels(read_label_map(in), field, out, options);
   }
   const ImageGeometry grid = options.grid.value_or(image.geometry);
-  write_image(out, warp(image, field, options.interpolation, grid));
-  return {.is_image = true, .is_label_map = false, .grid = grid, .moved = {}};
+  const ScalarImage warped = warp(image, field, options.interpolation, grid);
+  write_image(out, warped);
+  WarpedFile result{.is_image = true, .is_label_map = false, .grid = grid, .moved = {}};
+  if (fs::is_directory(in)) {
+    result.no_series = write_warped_series(series_name(out), warped, in, towards);
+  }
+  return result;
 }
 
 }  // namespace
@@ -116,7 +122,7 @@ WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& 
            "model (.vtp, .vtu, .vtk, .gii, .stl, .ply, .obj), tracts (.tck, .trk) or points (.mrk.json, .fcsv, .csv)");
   }
   if (move == nullptr) {
-    const WarpedFile warped = warp_image(in, fields.of_images(), out, options);
+    const WarpedFile warped = warp_image(in, fields.of_images(), fields.towards(), out, options);
     if (const auto error = fields.error_on(warped.grid)) {
       write_image(error_name(out), *error);
     }

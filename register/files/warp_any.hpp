@@ -25,10 +25,13 @@ struct WarpedFile {
   bool is_image = false, is_label_map = false;
   ImageGeometry grid;  ///< of a warped image
   MovedPoints moved;   ///< of what is no image
+  /// Why an image that was a DICOM series has not become one again.
+  std::string no_series = {};
 };
 
 /// Takes a file from one brain to the other with the fields of a register folder; what it is, its ending says:
 /// - .nii, .nii.gz, .nrrd, .mha, .mgz, a DICOM folder: an image or label map on any grid; a 4-D NIfTI volume by volume;
+///   an image of a DICOM folder is written as a series, too (series_name() of warped_name.hpp);
 /// - .vtp, .vtu, .vtk: surfaces, lines, points and grids; all arrays stay, "displacement" (mm) joins them;
 /// - .tck, .trk: tracts, with all that is kept beside their points;
 /// - .gii: GIFTI surfaces, all arrays, metadata and coordinate systems stay;

@@ -30,4 +30,9 @@ std::filesystem::path warped_name(const std::filesystem::path& in) {
   return name;
 }
 
+std::filesystem::path series_name(const std::filesystem::path& warped) {
+  const std::filesystem::path name = warped.parent_path() / warped.stem();
+  return name.extension() == ".nii" ? name.parent_path() / name.stem() : name;
+}
+
 }  // namespace brainshift::registration

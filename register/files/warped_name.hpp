@@ -13,4 +13,8 @@ std::filesystem::path warped_name(const std::filesystem::path& in);
 /// "estimated_error_" and its name.
 std::filesystem::path error_name(const std::filesystem::path& warped);
 
+/// The folder of the DICOM series that a warped image is written as, too, where it was one: beside it, under its name
+/// without the ending.
+std::filesystem::path series_name(const std::filesystem::path& warped);
+
 }  // namespace brainshift::registration
