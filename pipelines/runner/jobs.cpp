@@ -69,7 +69,7 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
   registration::write_registration(out, result);
   write_shown_fields(out, input.solution, input.brain, result.forward);
   if (!job.uncertainty.empty()) {
-    write_nodal_image(out / "uncertainty.nii.gz", input.solution, read_deviations(job.uncertainty));
+    write_nodal_image(out / "uncertainty.nii.gz", input.solution, registration::read_deviations(job.uncertainty));
   }
   StageReport said = report_of(result);
   if (fs::is_directory(job.t1)) {

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 void warp_points(const fs::path& in, PointMover& mover, const fs::path& out) {
   const PointsFile points(in);
   const Points moved = move_points(mover, points.positions());
-  points.write_moved(out, moved, mover.error(points.positions()).value_or(std::vector<double>{}));
+  points.write_moved(out, moved, mover.values(points.positions()));
 }
 
 void warp_surface(const fs::path& in, PointMover& mover, const fs::path& out) {
@@ -123,8 +123,8 @@ WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& 
   }
   if (move == nullptr) {
     const WarpedFile warped = warp_image(in, fields.of_images(), fields.towards(), out, options);
-    if (const auto error = fields.error_on(warped.grid)) {
-      write_image(error_name(out), *error);
+    for (const auto& [name, image] : fields.values_on(warped.grid)) {
+      write_image(values_name(name, out), image);
     }
     return warped;
   }
@@ -132,7 +132,7 @@ WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& 
     refuse(out,
            "the moved points of " + in.string() + " keep its format; write to a " + in.extension().string() + " file");
   }
-  PointMover mover(fields.of_points(), [&](const Points& places) { return fields.error_of_points(places); });
+  PointMover mover(fields.of_points(), [&](const Points& places) { return fields.values_of_points(places); });
   move(in, mover, out);
   return {.is_image = false, .is_label_map = false, .grid = {}, .moved = mover.moved()};
 }

@@ -38,8 +38,9 @@ struct WarpedFile {
 /// - .obj, .ply: models, all else in them stays; .stl: a surface;
 /// - .csv (`x,y,z` among its columns, frame named by a line "# frame: LPS" or "# frame: RAS"), .mrk.json, .fcsv:
 /// points. Images are resampled, all else is moved, in the frame of its file, and keeps what else it holds. `out` must
-/// have the same ending. Where the run has an estimate of its error (mm), models of VTK get it as the array
-/// "estimated_error", a .csv as a column, and images and .gii as a file beside, warped_name.hpp. Throws
+/// have the same ending. What the run knows of how far the displacement may be off (RegisterFields::values_of_points())
+/// goes along: in models of VTK, .ply and .trk as arrays, in a .csv as columns, in 3D Slicer's markups as words,
+/// beside images, .gii and .tck as files (values_name() of warped_name.hpp); .obj and .stl have no place for it. Throws
 /// std::invalid_argument, naming the file, when it cannot be used, and std::runtime_error when `out` cannot be written
 /// whole.
 WarpedFile warp_any(const std::filesystem::path& in, RegisterFields& fields, const std::filesystem::path& out,

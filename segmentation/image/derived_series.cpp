@@ -13,7 +13,6 @@
 #include <initializer_list>
 #include <limits>
 #include <stdexcept>
-#include <string_view>
 #include <vector>
 
 #include "segmentation/files/make_folder.hpp"
@@ -130,15 +129,15 @@ bool fits(const ScalarImage& image, Stored& stored) {
 Stored store(const ScalarImage& image, const gdcm::File& source) {
   const std::vector<double> rescale = gdcm::ImageHelper::GetRescaleInterceptSlopeValue(source);
   Stored stored;
-  stored.intercept = std::strtod(decimal(rescale[0]).c_str(), nullptr);  // as the header will have them
-  stored.slope = std::strtod(decimal(rescale[1]).c_str(), nullptr);
+  stored.intercept = rounded_to_decimal(rescale[0]);  // as the header will have them
+  stored.slope = rounded_to_decimal(rescale[1]);
   if (stored.slope > 0 && (fits<std::uint16_t>(image, stored) || fits<std::int16_t>(image, stored))) {
     return stored;
   }
   const auto [low, high] = std::minmax_element(image.voxels.begin(), image.voxels.end());
   constexpr double steps = 65000;  // room for what the header rounds off
-  stored.intercept = std::strtod(decimal(*low).c_str(), nullptr);
-  stored.slope = std::strtod(decimal(std::max((double{*high} - *low) / steps, 1e-12)).c_str(), nullptr);
+  stored.intercept = rounded_to_decimal(*low);
+  stored.slope = rounded_to_decimal(std::max((double{*high} - *low) / steps, 1e-12));
   if (!fits<std::uint16_t>(image, stored)) {
     throw std::logic_error("the image's values do not fit its own range");
   }
@@ -177,13 +176,13 @@ void write_slice(const fs::path& file, const DataSet& header) {
 }
 
 void write_slices(const fs::path& folder, DataSet header, const ImageGeometry& grid, const Stored& stored,
-                  const std::string& name) {
-  set(header, series_uid, uid_of(name));
+                  const std::string& series) {
+  set(header, series_uid, series);
   const std::size_t size = 2 * static_cast<std::size_t>(grid.size.x()) * static_cast<std::size_t>(grid.size.y());
   for (int k = 0; k < grid.size.z(); ++k) {
     const std::string number = std::to_string(k + 1);
     const Eigen::Vector3d place = grid.to_world({0, 0, static_cast<double>(k)});
-    set(header, sop_instance_uid, uid_of(name + " " + number));
+    set(header, sop_instance_uid, uid_of(series + " " + number));
     set(header, Tag(0x0020, 0x0013), number);
     set(header, Tag(0x0020, 0x0032), decimals({place.x(), place.y(), place.z()}));
     set(header, pixel_data, stored.bytes.substr(static_cast<std::size_t>(k) * size, size));
@@ -231,7 +230,7 @@ std::string write_derived_series(const fs::path& folder, const ScalarImage& imag
   make_folder(folder);
   try {
     write_slices(folder, common, image.geometry, stored,
-                 name_of(text_of(header, series_uid), derivation, image.geometry, stored));
+                 uid_of(name_of(text_of(header, series_uid), derivation, image.geometry, stored)));
     read_dicom_series(folder);  // what was written must be there
   } catch (const std::exception&) {
     throw std::runtime_error(folder.string() +

@@ -9,8 +9,8 @@
 #include <gdcmSystem.h>
 
 #include <array>
+#include <charconv>
 #include <cstdint>
-#include <cstdio>
 #include <stdexcept>
 #include <string_view>
 
@@ -53,11 +53,19 @@ std::string text_of(const DataSet& header, const Tag& tag) {
 }
 
 std::string decimal(double value) {
+  constexpr std::ptrdiff_t longest = 16;
   std::array<char, 32> text{};
-  for (int digits = 15, length = 17; length > 16; --digits) {
-    length = std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  const char* end = nullptr;
+  for (int digits = 15; end == nullptr || end - text.data() > longest; --digits) {
+    end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr;
   }
-  return text.data();
+  return {text.data(), static_cast<std::size_t>(end - text.data())};
+}
+
+double rounded_to_decimal(double value) {
+  const std::string text = decimal(value);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
 }
 
 std::string decimals(std::initializer_list<double> values) {

@@ -30,6 +30,8 @@ void set_number(gdcm::DataSet& header, const gdcm::Tag& tag, std::uint16_t value
 
 /// Numbers as decimal strings, which have at most 16 characters, with backslashes between.
 std::string decimal(double value);
+/// The number that decimal() writes.
+double rounded_to_decimal(double value);
 std::string decimals(std::initializer_list<double> values);
 
 /// A UID made of a name: a UUID of version 5 as a number behind 2.25 (DICOM PS3.5, B.2). Equal names give equal UIDs.
