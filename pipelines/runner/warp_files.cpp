@@ -39,8 +39,12 @@ void check_names(const std::vector<fs::path>& files, const fs::path& out) {
     if (!fs::exists(file)) {
       refuse(file, "no such file; check the path");
     }
-    for (const fs::path& name : {warped, registration::values_name("estimated_error", warped),
-                                 registration::values_name("uncertainty", warped), registration::series_name(warped)}) {
+    std::vector<fs::path> made = {warped, registration::values_name("estimated_error", warped),
+                                  registration::values_name("uncertainty", warped)};
+    if (fs::is_directory(file)) {
+      made.push_back(registration::series_name(warped));
+    }
+    for (const fs::path& name : made) {
       if (fs::exists(out / name) || !names.insert(name).second) {
         refuse(file, "there is a " + name.string() + " already; rename the file that is to be warped");
       }
