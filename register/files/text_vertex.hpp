@@ -28,8 +28,8 @@ inline std::vector<std::string_view> words_in(std::string_view line) {
 }
 
 /// The line with the coordinates in three of its words moved; as it was where they do not move. `place`, where it is
-/// given, becomes where they were, LPS. Throws
-/// std::invalid_argument with file and line where they are no finite numbers.
+/// given, becomes where they were, LPS. Throws std::invalid_argument with file and line where they are no finite
+/// numbers.
 inline std::string with_moved_words(const std::string& line, const std::array<std::size_t, 3>& places,
                                     const Eigen::Vector3d& to_lps, PointMover& mover, const std::filesystem::path& file,
                                     std::size_t number, Eigen::Vector3d* place = nullptr) {

@@ -23,7 +23,8 @@ struct TrkHeader {
   Eigen::Affine3d to_lps;   ///< from the file's coordinates: voxels scaled to mm, from the corner of the first
 };
 
-/// Names more scalars of a point in the header, as many as it has room for, behind those that are there; how many.
+/// Names more scalars of a point in the header, as many as it has room for, behind those that are there.
+/// Returns how many.
 int add_scalars(TrkBytes& bytes, const TrkHeader& header, const std::vector<PointValues>& scalars);
 
 /// Throws std::invalid_argument, naming the file, when it is none, of version 1, which knows no place in the world, or

@@ -17,8 +17,8 @@
 
 #include "segmentation/files/make_folder.hpp"
 #include "segmentation/files/refuse.hpp"
-#include "segmentation/image/dicom_elements.hpp"
 #include "segmentation/image/dicom_series.hpp"
+#include "segmentation/image/gdcm_bridge.hpp"
 
 namespace brainshift {
 namespace {

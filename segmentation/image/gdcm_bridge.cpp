@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "segmentation/image/dicom_elements.hpp"
+#include "segmentation/image/gdcm_bridge.hpp"
 
 #include <gdcmDicts.h>
 #include <gdcmFileExplicitFilter.h>
