@@ -13,6 +13,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-nibabel)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+  ${PROJECT_SOURCE_DIR}/pipelines/python/postinst ${PROJECT_SOURCE_DIR}/pipelines/python/prerm)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module of brainshift
 Computes from a labelled head MRI and the displacements measured on the
 exposed cortex how the whole brain moved, by mechanics, on numpy arrays or by

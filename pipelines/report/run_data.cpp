@@ -8,7 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "pipelines/show/shown_fields.hpp"
+#include "register/files/register_fields.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/output/field_difference.hpp"
@@ -83,7 +83,7 @@ RunData read_run(const fs::path& run_folder) {
   run.load = text_of(run_folder / "solve/load.csv");
   run.uncertainty = text_of(run_folder / "solve/uncertainty.csv");
   if (const fs::path file = run_folder / "solve/uncertainty.vtu"; run.solution && fs::exists(file)) {
-    run.deviation = read_deviations(file);
+    run.deviation = registration::read_deviations(file);
   }
   run.warped_labels = read_if_there(run_folder / "register/warped_labels.nii.gz", label_map);
   run.jacobian = read_if_there(run_folder / "register/jacobian.nii.gz", image);

@@ -8,6 +8,7 @@
 #include "pipelines/runner/warnings.hpp"
 #include "pipelines/runner/warp_files.hpp"
 #include "pipelines/show/shown_fields.hpp"
+#include "register/files/warped_series.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/output/solution_file.hpp"
 
@@ -68,9 +69,15 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
   registration::write_registration(out, result);
   write_shown_fields(out, input.solution, input.brain, result.forward);
   if (!job.uncertainty.empty()) {
-    write_nodal_image(out / "uncertainty.nii.gz", input.solution, read_deviations(job.uncertainty));
+    write_nodal_image(out / "uncertainty.nii.gz", input.solution, registration::read_deviations(job.uncertainty));
   }
   StageReport said = report_of(result);
+  if (fs::is_directory(job.t1)) {
+    const fs::path series = out / "warped_dicom";
+    const std::string why =
+        registration::write_warped_series(series, result.warped, job.t1, registration::Towards::intraop);
+    add(why.empty() ? std::vector<std::string>{} : std::vector{"no warped_dicom was written: " + why}, said);
+  }
   warn(warnings_of(result.measures), said);
   if (!job.warp.empty() || !job.warp_labels.empty()) {
     registration::RegisterFields fields(out, registration::Towards::intraop, job.solution);

@@ -8,6 +8,7 @@
 
 #include "pipelines/runner/own_folder.hpp"
 #include "segmentation/files/make_folder.hpp"
+#include "segmentation/files/refuse.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -31,6 +32,19 @@ fs::path partial_of(const fs::path& place) {
   partial += ".partial";
   refuse_foreign_folder(partial);
   return partial;
+}
+
+/// Old slices or steps among new ones would be taken for theirs.
+void refuse_strangers(const fs::path& folder, const fs::path& taking_its_place) {
+  if (!fs::is_directory(folder)) {
+    return;
+  }
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!fs::exists(taking_its_place / entry.path().filename())) {
+      refuse(folder, "holds a " + entry.path().filename().string() +
+                         " that is not written anew; remove the folder, or choose another with --out");
+    }
+  }
 }
 
 }  // namespace
@@ -100,8 +114,18 @@ void StageFolder::merge() {
   const auto hold = interruption_.hold();
   make_folder(place_);
   for (const auto& entry : fs::directory_iterator(partial_)) {
-    if (entry.path().filename() != unfinished_mark) {
-      move(entry.path(), place_ / entry.path().filename());
+    if (entry.is_directory()) {
+      refuse_strangers(place_ / entry.path().filename(), entry.path());
+    }
+  }
+  for (const auto& entry : fs::directory_iterator(partial_)) {
+    const fs::path there = place_ / entry.path().filename();
+    if (entry.is_directory() && fs::is_directory(there)) {
+      for (const auto& part : fs::directory_iterator(entry.path())) {
+        move(part.path(), there / part.path().filename());
+      }
+    } else if (entry.path().filename() != unfinished_mark) {
+      move(entry.path(), there);
     }
   }
 }

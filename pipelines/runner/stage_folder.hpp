@@ -24,7 +24,8 @@ class StageFolder {
 
   /// Takes the place, and with it all that was there.
   void replace();
-  /// Moves the files into the place, each over one of the same name; other files there stay.
+  /// Moves the files into the place, each over one of the same name; other files there stay. The same with those in
+  /// a folder, but std::invalid_argument is thrown, before any is moved, when other files are in the one there.
   void merge();
 
  private:

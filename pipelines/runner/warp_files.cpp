@@ -16,8 +16,12 @@ namespace {
 /// What became of a file, as a sentence.
 std::string told(const fs::path& file, const registration::WarpedFile& warped) {
   const std::string name = file.filename().string() + ": ";
+  if (warped.is_label_map) {
+    return name + "a label map, each voxel took the nearest label";
+  }
   if (warped.is_image) {
-    return name + (warped.is_label_map ? "a label map, each voxel took the nearest label" : "an image, interpolated");
+    return name + "an image, interpolated" +
+           (warped.no_series.empty() ? "" : "; no DICOM series was written: " + warped.no_series);
   }
   const registration::MovedPoints& moved = warped.moved;
   std::string sentence = name + std::to_string(moved.points) + " points, moved by up to " +
@@ -35,7 +39,12 @@ void check_names(const std::vector<fs::path>& files, const fs::path& out) {
     if (!fs::exists(file)) {
       refuse(file, "no such file; check the path");
     }
-    for (const fs::path& name : {warped, registration::error_name(warped)}) {
+    std::vector<fs::path> made = {warped, registration::values_name("estimated_error", warped),
+                                  registration::values_name("uncertainty", warped)};
+    if (fs::is_directory(file)) {
+      made.push_back(registration::series_name(warped));
+    }
+    for (const fs::path& name : made) {
       if (fs::exists(out / name) || !names.insert(name).second) {
         refuse(file, "there is a " + name.string() + " already; rename the file that is to be warped");
       }

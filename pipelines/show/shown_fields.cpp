@@ -8,7 +8,6 @@
 
 #include "register/field/nodal_values.hpp"
 #include "register/warp/point_mover.hpp"
-#include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtk_bridge.hpp"
 #include "segmentation/files/vtu_file.hpp"
 
@@ -39,16 +38,6 @@ void write_brain(const fs::path& file, const Solution& solution, Surface brain, 
 }
 
 }  // namespace
-
-std::vector<double> read_deviations(const fs::path& file) {
-  const auto grid = vtu::read(file);
-  const auto nodes = static_cast<std::size_t>(grid->GetNumberOfPoints());
-  std::vector<double> values = vtu::array(file, *grid->GetPointData(), "uncertainty", nodes);
-  if (values.empty()) {
-    refuse(file, "it has no point array `uncertainty`.");
-  }
-  return values;
-}
 
 void write_nodal_image(const fs::path& file, const Solution& solution, const std::vector<double>& values) {
   const ImageGeometry grid = registration::grid_around_nodes(solution, true);

@@ -17,10 +17,6 @@ namespace brainshift::pipelines {
 void write_shown_fields(const std::filesystem::path& folder, const Solution& solution, const Surface& brain,
                         const VectorImage& forward);
 
-/// The array uncertainty of a solve stage's uncertainty.vtu, mm, one a node. Throws std::invalid_argument, naming the
-/// file, when it is at fault.
-std::vector<double> read_deviations(const std::filesystem::path& file);
-
 /// Writes values at the solution's nodes as an image of the intraop brain, on voxels of 4 mm, 0 outside. Throws
 /// std::runtime_error, naming the file, when it cannot be written whole.
 void write_nodal_image(const std::filesystem::path& file, const Solution& solution, const std::vector<double>& values);

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "segmentation/geometry/point_tree.hpp"
 
@@ -20,31 +22,48 @@ Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-}  // namespace
+/// The nodes in a tree, and what is known at them.
+struct KnownNodes {
+  Points places;
+  std::vector<double> spacing;
+  Eigen::MatrixXd values;
+  PointTree tree{places};
+};
 
-Eigen::MatrixXd nodal_values_at(const Solution& solution, const Eigen::MatrixXd& values, bool moved,
-                                const Points& points) {
+Eigen::MatrixXd look_up(const KnownNodes& nodes, const Points& points) {
   constexpr std::size_t neighbours = 8;
-  const Points nodes = places_of_nodes(solution, moved);
-  const PointTree tree(nodes);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), values.cols());
-#pragma omp parallel for schedule(static)
+  constexpr Eigen::Index many = 1000;  // threads for fewer cost more than they bring
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), nodes.values.cols());
+#pragma omp parallel for schedule(static) if (points.rows() >= many)
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     std::array<std::size_t, neighbours> index{};
     std::array<double, neighbours> squared{};
-    const auto found = tree.nearest(points.row(i).data(), neighbours, index.data(), squared.data());
-    if (std::sqrt(squared[0]) > solution.spacing[index[0]]) {
+    const auto found = nodes.tree.nearest(points.row(i).data(), neighbours, index.data(), squared.data());
+    if (std::sqrt(squared[0]) > nodes.spacing[index[0]]) {
       continue;
     }
     double weights = 0;
     for (std::size_t n = 0; n < found; ++n) {
       const double weight = 1.0 / (squared[n] + 1e-12);
-      result.row(i) += weight * values.row(static_cast<Eigen::Index>(index[n]));
+      result.row(i) += weight * nodes.values.row(static_cast<Eigen::Index>(index[n]));
       weights += weight;
     }
     result.row(i) /= weights;
   }
   return result;
+}
+
+}  // namespace
+
+NodalLookUp nodal_look_up(const Solution& solution, Eigen::MatrixXd values, bool moved) {
+  const std::shared_ptr<const KnownNodes> nodes(
+      new KnownNodes{places_of_nodes(solution, moved), solution.spacing, std::move(values)});
+  return [nodes](const Points& points) { return look_up(*nodes, points); };
+}
+
+Eigen::MatrixXd nodal_values_at(const Solution& solution, const Eigen::MatrixXd& values, bool moved,
+                                const Points& points) {
+  return nodal_look_up(solution, values, moved)(points);
 }
 
 ScalarImage nodal_values_on(const Solution& solution, const std::vector<double>& values, bool moved,

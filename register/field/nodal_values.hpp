@@ -2,12 +2,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "segmentation/image/image.hpp"
 #include "solve/interface/solution.hpp"
 
 namespace brainshift::registration {
+
+/// Looks values that are known at nodes (n × k) up at points (m × 3): m × k, as nodal_values_at().
+using NodalLookUp = std::function<Eigen::MatrixXd(const Points& points)>;
+NodalLookUp nodal_look_up(const Solution& solution, Eigen::MatrixXd values, bool moved);
 
 /// Values that are known at the solution's nodes (n × k), at points (m × 3, mm, LPS) of the preop or, with `moved`, the
 /// intraop brain: m × k, weights 1 / distance² over the eight nearest nodes. 0 at a point farther than the spacing from

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/files/register_fields.hpp"
 
-#include "register/field/nodal_values.hpp"
+#include <vtkPointData.h>
+
 #include "register/warp/warp.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/vtu_file.hpp"
 #include "solve/output/solution_file.hpp"
 
 namespace brainshift::registration {
@@ -32,31 +34,67 @@ const VectorImage& RegisterFields::read(bool forward) {
   return *field;
 }
 
-const Solution* RegisterFields::estimate() {
-  if (!solution_) {
-    solution_ = std::filesystem::exists(solution_file_) ? read_solution(solution_file_) : Solution{};
+void RegisterFields::read_nodes() {
+  if (solution_) {
+    return;
   }
-  return solution_->estimated_error.empty() ? nullptr : &*solution_;
+  solution_ = std::filesystem::exists(solution_file_) ? read_solution(solution_file_) : Solution{};
+  if (!solution_->estimated_error.empty()) {
+    at_nodes_.push_back({"estimated_error", solution_->estimated_error});
+  }
+  const std::filesystem::path deviations = solution_file_.parent_path() / "uncertainty.vtu";
+  if (!solution_file_.empty() && std::filesystem::exists(deviations)) {
+    at_nodes_.push_back({"uncertainty", read_deviations(deviations)});
+  }
+  if (at_nodes_.empty()) {
+    return;
+  }
+  Eigen::MatrixXd columns(solution_->positions.rows(), static_cast<Eigen::Index>(at_nodes_.size()));
+  for (std::size_t c = 0; c < at_nodes_.size(); ++c) {
+    const std::vector<double>& values = at_nodes_[c].values;
+    if (values.size() != static_cast<std::size_t>(columns.rows())) {
+      refuse(deviations, "has " + std::to_string(values.size()) + " nodes, " + solution_file_.filename().string() +
+                             " beside it " + std::to_string(columns.rows()) + "; solve again");
+    }
+    columns.col(static_cast<Eigen::Index>(c)) = Eigen::VectorXd::Map(values.data(), columns.rows());
+  }
+  look_up_ = nodal_look_up(*solution_, std::move(columns), towards_ == Towards::preop);
 }
 
-std::optional<std::vector<double>> RegisterFields::error_of_points(const Points& points) {
-  const Solution* solution = estimate();
-  if (solution == nullptr) {
-    return std::nullopt;
+std::vector<PointValues> RegisterFields::values_of_points(const Points& points) {
+  read_nodes();
+  if (at_nodes_.empty()) {
+    return {};
   }
-  return estimated_error_at(*solution, towards_ == Towards::preop, points);
+  const Eigen::MatrixXd found = look_up_(points);
+  std::vector<PointValues> values;
+  for (std::size_t c = 0; c < at_nodes_.size(); ++c) {
+    const auto column = found.col(static_cast<Eigen::Index>(c));
+    values.push_back({at_nodes_[c].name, {column.begin(), column.end()}});
+  }
+  return values;
 }
 
-std::optional<ScalarImage> RegisterFields::error_on(const ImageGeometry& grid) {
-  const Solution* solution = estimate();
-  if (solution == nullptr) {
-    return std::nullopt;
-  }
+std::vector<std::pair<std::string, ScalarImage>> RegisterFields::values_on(const ImageGeometry& grid) {
+  read_nodes();
   const bool moved = towards_ == Towards::intraop;
-  const ScalarImage coarse =
-      nodal_values_on(*solution, solution->estimated_error, moved, grid_around_nodes(*solution, moved));
   const VectorImage still{{.size = {1, 1, 1}}, {{0, 0, 0}}};  // outside its grid nothing moves either
-  return warp(coarse, still, Interpolation::linear, grid);
+  std::vector<std::pair<std::string, ScalarImage>> images;
+  for (const PointValues& each : at_nodes_) {
+    const ScalarImage coarse = nodal_values_on(*solution_, each.values, moved, grid_around_nodes(*solution_, moved));
+    images.emplace_back(each.name, warp(coarse, still, Interpolation::linear, grid));
+  }
+  return images;
+}
+
+std::vector<double> read_deviations(const std::filesystem::path& file) {
+  const auto grid = vtu::read(file);
+  const auto nodes = static_cast<std::size_t>(grid->GetNumberOfPoints());
+  std::vector<double> values = vtu::array(file, *grid->GetPointData(), "uncertainty", nodes);
+  if (values.empty()) {
+    refuse(file, "it has no point array `uncertainty`.");
+  }
+  return values;
 }
 
 }  // namespace brainshift::registration

@@ -4,8 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "register/field/nodal_values.hpp"
+#include "segmentation/files/point_values.hpp"
 #include "segmentation/image/image.hpp"
 #include "solve/interface/solution.hpp"
 
@@ -15,32 +19,41 @@ namespace brainshift::registration {
 enum class Towards : std::uint8_t { intraop, preop };
 
 /// The fields of a register folder, each read when it is first asked for. Points move with the map that goes their way,
-/// images are resampled by the one that comes back. With the run's solution it knows, too, how far the displacement may
-/// be off, where that was estimated.
+/// images are resampled by the one that comes back. With the run's solution, and the uncertainty.vtu beside it, it
+/// knows, too, how far the displacement may be off.
 class RegisterFields {
  public:
-  /// `solution`: the run's solution.vtu; where there is none, nothing is known of the error. Throws
+  /// `solution`: the run's solution.vtu; where there is none, nothing is known of that. Throws
   /// std::invalid_argument when the folder lacks the fields.
   RegisterFields(std::filesystem::path folder, Towards towards, std::filesystem::path solution = {});
 
+  Towards towards() const { return towards_; }
   const VectorImage& of_points() { return read(towards_ == Towards::intraop); }
   const VectorImage& of_images() { return read(towards_ == Towards::preop); }
 
-  /// The estimated error, mm, at points (n × 3, LPS) before they are moved; none where the run has no estimate.
-  std::optional<std::vector<double>> error_of_points(const Points& points);
+  /// How far the displacement may be off, mm, at points (n × 3, LPS) before they are moved: what the run has of
+  /// "estimated_error", for want of nodes, and "uncertainty", the standard deviation of its uncertainty.vtu. Throws
+  /// std::invalid_argument, naming the file, when one of both cannot be read.
+  std::vector<PointValues> values_of_points(const Points& points);
   /// The same at the voxels of a warped image's grid.
-  std::optional<ScalarImage> error_on(const ImageGeometry& grid);
+  std::vector<std::pair<std::string, ScalarImage>> values_on(const ImageGeometry& grid);
 
  private:
   const VectorImage& read(bool forward);
-  /// Null where there is no estimate.
-  const Solution* estimate();
+  /// Reads what is known at the nodes, once.
+  void read_nodes();
 
   std::filesystem::path folder_;
   Towards towards_;
   std::filesystem::path solution_file_;
   std::optional<VectorImage> forward_, resampling_;
   std::optional<Solution> solution_;
+  std::vector<PointValues> at_nodes_;
+  NodalLookUp look_up_;
 };
+
+/// The array uncertainty of a solve stage's uncertainty.vtu, mm, one a node. Throws std::invalid_argument, naming the
+/// file, when it is at fault.
+std::vector<double> read_deviations(const std::filesystem::path& file);
 
 }  // namespace brainshift::registration

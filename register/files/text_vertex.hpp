@@ -27,11 +27,12 @@ inline std::vector<std::string_view> words_in(std::string_view line) {
   return words;
 }
 
-/// The line with the coordinates in three of its words moved; as it was where they do not move. Throws
-/// std::invalid_argument with file and line where they are no finite numbers.
+/// The line with the coordinates in three of its words moved; as it was where they do not move. `place`, where it is
+/// given, becomes where they were, LPS. Throws std::invalid_argument with file and line where they are no finite
+/// numbers.
 inline std::string with_moved_words(const std::string& line, const std::array<std::size_t, 3>& places,
                                     const Eigen::Vector3d& to_lps, PointMover& mover, const std::filesystem::path& file,
-                                    std::size_t number) {
+                                    std::size_t number, Eigen::Vector3d* place = nullptr) {
   const std::vector<std::string_view> words = words_in(line);
   Eigen::Vector3d x;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -40,7 +41,11 @@ inline std::string with_moved_words(const std::string& line, const std::array<st
     }
     x[static_cast<Eigen::Index>(axis)] = parse_number(std::string(words[places[axis]]), file, number);
   }
-  const Eigen::Vector3d u = to_lps.cwiseProduct(mover.displacement(to_lps.cwiseProduct(x)));
+  const Eigen::Vector3d in_lps = to_lps.cwiseProduct(x);
+  if (place != nullptr) {
+    *place = in_lps;
+  }
+  const Eigen::Vector3d u = to_lps.cwiseProduct(mover.displacement(in_lps));
   if (u == Eigen::Vector3d::Zero()) {
     return line;
   }

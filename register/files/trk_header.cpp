@@ -2,6 +2,7 @@
 #include "register/files/trk_header.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <string>
@@ -113,6 +114,24 @@ Eigen::Affine3d to_lps(const fs::path& file, const TrkFields& fields) {
 }
 
 }  // namespace
+
+int add_scalars(TrkBytes& bytes, const TrkHeader& header, const std::vector<PointValues>& scalars) {
+  constexpr int most = 10;
+  constexpr std::size_t count_at = 36, names_at = 38, name_size = 20;
+  const int added = std::min(static_cast<int>(scalars.size()), most - header.scalars);
+  if (added <= 0) {
+    return 0;
+  }
+  for (int s = 0; s < added; ++s) {
+    char* const name = bytes.data() + names_at + name_size * static_cast<std::size_t>(header.scalars + s);
+    std::fill_n(name, name_size, '\0');
+    scalars[static_cast<std::size_t>(s)].name.copy(name, name_size - 1);
+  }
+  const auto count = static_cast<std::int16_t>(header.scalars + added);
+  const std::int16_t written = header.swapped ? with_bytes_swapped(count) : count;
+  std::memcpy(bytes.data() + count_at, &written, sizeof(written));
+  return added;
+}
 
 TrkHeader read_trk_header(const fs::path& file, const TrkBytes& bytes) {
   constexpr std::int32_t size = trk_header_size;

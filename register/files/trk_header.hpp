@@ -5,6 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <vector>
+
+#include "segmentation/files/point_values.hpp"
 
 namespace brainshift::registration {
 
@@ -19,6 +22,10 @@ struct TrkHeader {
   std::int64_t tracts = 0;  ///< 0: not known
   Eigen::Affine3d to_lps;   ///< from the file's coordinates: voxels scaled to mm, from the corner of the first
 };
+
+/// Names more scalars of a point in the header, as many as it has room for, behind those that are there.
+/// Returns how many.
+int add_scalars(TrkBytes& bytes, const TrkHeader& header, const std::vector<PointValues>& scalars);
 
 /// Throws std::invalid_argument, naming the file, when it is none, of version 1, which knows no place in the world, or
 /// a field cannot be.

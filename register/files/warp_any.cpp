@@ -12,6 +12,7 @@
 #include "register/files/warp_model.hpp"
 #include "register/files/warp_tracts.hpp"
 #include "register/files/warped_name.hpp"
+#include "register/files/warped_series.hpp"
 #include "register/warp/recognise_labels.hpp"
 #include "register/warp/warp.hpp"
 #include "segmentation/files/lower_case.hpp"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 void warp_points(const fs::path& in, PointMover& mover, const fs::path& out) {
   const PointsFile points(in);
   const Points moved = move_points(mover, points.positions());
-  points.write_moved(out, moved, mover.error(points.positions()).value_or(std::vector<double>{}));
+  points.write_moved(out, moved, mover.values(points.positions()));
 }
 
 void warp_surface(const fs::path& in, PointMover& mover, const fs::path& out) {
@@ -89,7 +90,7 @@ bool may_be_image(const fs::path& file) {
          std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
-WarpedFile warp_image(const fs::path& in, const VectorImage& field, const fs::path& out,
+WarpedFile warp_image(const fs::path& in, const VectorImage& field, Towards towards, const fs::path& out,
                       const WarpAnyOptions& options) {
   if (is_image_series(in)) {
     return warp_series(in, field, out, options);
@@ -102,8 +103,13 @@ WarpedFile warp_image(const fs::path& in, const VectorImage& field, const fs::pa
     return warp_labels(read_label_map(in), field, out, options);
   }
   const ImageGeometry grid = options.grid.value_or(image.geometry);
-  write_image(out, warp(image, field, options.interpolation, grid));
-  return {.is_image = true, .is_label_map = false, .grid = grid, .moved = {}};
+  const ScalarImage warped = warp(image, field, options.interpolation, grid);
+  write_image(out, warped);
+  WarpedFile result{.is_image = true, .is_label_map = false, .grid = grid, .moved = {}};
+  if (fs::is_directory(in)) {
+    result.no_series = write_warped_series(series_name(out), warped, in, towards);
+  }
+  return result;
 }
 
 }  // namespace
@@ -116,9 +122,9 @@ WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& 
            "model (.vtp, .vtu, .vtk, .gii, .stl, .ply, .obj), tracts (.tck, .trk) or points (.mrk.json, .fcsv, .csv)");
   }
   if (move == nullptr) {
-    const WarpedFile warped = warp_image(in, fields.of_images(), out, options);
-    if (const auto error = fields.error_on(warped.grid)) {
-      write_image(error_name(out), *error);
+    const WarpedFile warped = warp_image(in, fields.of_images(), fields.towards(), out, options);
+    for (const auto& [name, image] : fields.values_on(warped.grid)) {
+      write_image(values_name(name, out), image);
     }
     return warped;
   }
@@ -126,7 +132,7 @@ WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& 
     refuse(out,
            "the moved points of " + in.string() + " keep its format; write to a " + in.extension().string() + " file");
   }
-  PointMover mover(fields.of_points(), [&](const Points& places) { return fields.error_of_points(places); });
+  PointMover mover(fields.of_points(), [&](const Points& places) { return fields.values_of_points(places); });
   move(in, mover, out);
   return {.is_image = false, .is_label_map = false, .grid = {}, .moved = mover.moved()};
 }

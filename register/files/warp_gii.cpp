@@ -140,15 +140,15 @@ void write_gifti(const fs::path& file, gifti_image& image) {
 }
 
 /// One value a vertex, as NIFTI_INTENT_SHAPE.
-void write_shape(const fs::path& file, const std::vector<double>& values) {
-  const std::array<int, 2> size = {static_cast<int>(values.size()), 1};
+void write_shape(const fs::path& file, const PointValues& values) {
+  const std::array<int, 2> size = {static_cast<int>(values.values.size()), 1};
   const GiftiFile shape(gifti_create_image(1, NIFTI_INTENT_SHAPE, NIFTI_TYPE_FLOAT32, 1, size.data(), 1),
                         gifti_free_image);
   if (!shape) {
     throw std::bad_alloc();
   }
-  std::copy(values.begin(), values.end(), static_cast<float*>(shape->darray[0]->data));
-  gifti_add_to_meta(&shape->darray[0]->meta, "Name", "estimated_error", 1);
+  std::copy(values.values.begin(), values.values.end(), static_cast<float*>(shape->darray[0]->data));
+  gifti_add_to_meta(&shape->darray[0]->meta, "Name", values.name.c_str(), 1);
   write_gifti(file, *shape);
 }
 
@@ -163,8 +163,8 @@ void warp_gii(const fs::path& in, PointMover& mover, const fs::path& out) {
   }
   const Points places = move_arrays(in, *surface, mover);
   write_gifti(out, *surface);
-  if (const auto error = mover.error(places)) {
-    write_shape(error_name(out), *error);
+  for (const PointValues& each : mover.values(places)) {
+    write_shape(values_name(each.name, out), each);
   }
 }
 

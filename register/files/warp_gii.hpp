@@ -10,8 +10,8 @@ namespace brainshift::registration {
 /// Moves the points of a GIFTI surface (.gii). All arrays, metadata, label tables and coordinate systems stay. Its
 /// points lie in the scanner's RAS, mm: as they are where their data space says so or nothing does, else by their
 /// matrix to NIFTI_XFORM_SCANNER_ANAT or, of a file of FreeSurfer, by the volume (VolGeom…) that its metadata hold.
-/// What the points move by turns with that. The estimated error at the points, where it is known, is written beside as
-/// the .shape.gii of error_name(). Throws as warp_any().
+/// What the points move by turns with that. What goes along with the points is written beside, as the .shape.gii of
+/// values_name(). Throws as warp_any().
 void warp_gii(const std::filesystem::path& in, PointMover& mover, const std::filesystem::path& out);
 
 }  // namespace brainshift::registration

@@ -12,7 +12,7 @@ namespace brainshift::registration {
 void warp_obj(const std::filesystem::path& in, PointMover& mover, const std::filesystem::path& out);
 
 /// The same of a .ply, in text or either binary form: header, other properties and other elements stay byte for byte.
-/// Points without faces are fine in both.
+/// What goes along with the vertices become properties behind theirs. Points without faces are fine in both.
 void warp_ply(const std::filesystem::path& in, PointMover& mover, const std::filesystem::path& out);
 
 }  // namespace brainshift::registration

@@ -40,8 +40,8 @@ void warp_model(const std::filesystem::path& in, PointMover& mover, const std::f
     points.SetPoint(p, place.data());
   }
   arrays.AddArray(displacement);
-  if (const auto error = mover.error(places)) {
-    vtu::add_array(arrays, free_name(arrays, "estimated_error").c_str(), *error);
+  for (const PointValues& each : mover.values(places)) {
+    vtu::add_array(arrays, free_name(arrays, each.name).c_str(), each.values);
   }
   write_model(out, *model, in);
 }

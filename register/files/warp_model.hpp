@@ -8,7 +8,7 @@
 namespace brainshift::registration {
 
 /// Moves the points of a .vtp, .vtu or .vtk in its own frame. All arrays and cells stay as they are (so do normals);
-/// the point array "displacement" (mm, in that frame) joins them and, where the error is known, "estimated_error" (mm);
+/// the point array "displacement" (mm, in that frame) joins them, and what goes along with the points;
 /// "warp_" goes before the name of an array that is there already. Throws as warp_any().
 void warp_model(const std::filesystem::path& in, PointMover& mover, const std::filesystem::path& out);
 

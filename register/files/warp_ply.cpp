@@ -49,8 +49,18 @@ void add_property(const fs::path& file, const std::vector<std::string_view>& wor
   vertices.row_bytes += *bytes;
 }
 
+/// Says in the header that more numbers stand behind those of each vertex.
+void write_added(const PlyVertices& vertices, const std::vector<PointValues>& added, OutStream& out) {
+  for (const PointValues& each : added) {
+    const bool taken = std::any_of(vertices.properties.begin(), vertices.properties.end(),
+                                   [&](const PlyProperty& property) { return property.name == each.name; });
+    const std::string line = std::string("property float ") + (taken ? "warp_" : "") + each.name + "\n";
+    out.write(line.data(), line.size());
+  }
+}
+
 /// Copies the header line by line.
-PlyVertices take_header(const fs::path& file, std::istream& in, OutStream& out) {
+PlyVertices take_header(const fs::path& file, std::istream& in, const std::vector<PointValues>& added, OutStream& out) {
   PlyVertices vertices;
   std::string line, element;
   bool found = false;
@@ -59,6 +69,9 @@ PlyVertices take_header(const fs::path& file, std::istream& in, OutStream& out) 
     const std::string_view keyword = words.empty() ? std::string_view() : words.front();
     if (vertices.header_lines++ == 0 && keyword != "ply") {
       break;
+    }
+    if (element == "vertex" && (keyword == "element" || keyword == "end_header")) {
+      write_added(vertices, added, out);
     }
     const std::string with_end = line + "\n";
     out.write(with_end.data(), with_end.size());
@@ -86,8 +99,13 @@ void move_text(const fs::path& file, const PlyVertices& vertices, const std::arr
                const Eigen::Vector3d& to_lps, std::istream& in, PointMover& mover, OutStream& out) {
   std::string line;
   for (std::size_t row = 0; row < vertices.rows && std::getline(in, line); ++row) {
-    const std::string moved =
-        with_moved_words(line, places, to_lps, mover, file, vertices.header_lines + row + 1) + (in.eof() ? "" : "\n");
+    Eigen::Vector3d place;
+    std::string moved = with_moved_words(line, places, to_lps, mover, file, vertices.header_lines + row + 1, &place);
+    for (const PointValues& each : mover.values(place.transpose())) {
+      moved.insert(moved.size() - (moved.ends_with('\r') ? 1 : 0),
+                   std::string(" ").append(write_number(each.values[0])));
+    }
+    moved += in.eof() ? "" : "\n";
     out.write(moved.data(), moved.size());
   }
 }
@@ -108,13 +126,19 @@ void move_bytes(const fs::path& file, const PlyVertices& vertices, const std::ar
     if (!in || !here.allFinite()) {
       refuse(file, "vertex " + std::to_string(row + 1) + " is missing or not finite; repair the file");
     }
-    const Eigen::Vector3d moved = here + to_lps.cwiseProduct(mover.displacement(to_lps.cwiseProduct(here)));
+    const Eigen::Vector3d place = to_lps.cwiseProduct(here);
+    const Eigen::Vector3d moved = here + to_lps.cwiseProduct(mover.displacement(place));
     x = {static_cast<Number>(moved[0]), static_cast<Number>(moved[1]), static_cast<Number>(moved[2])};
     swap_if(swapped, x);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::memcpy(bytes.data() + vertices.properties[places[axis]].offset, &x[axis], sizeof(Number));
     }
     out.write(bytes.data(), bytes.size());
+    for (const PointValues& each : mover.values(place.transpose())) {
+      std::array<float, 1> value = {static_cast<float>(each.values[0])};
+      swap_if(swapped, value);
+      out.write(value.data(), sizeof(value));
+    }
   }
 }
 
@@ -133,7 +157,7 @@ void warp_ply(const fs::path& in, PointMover& mover, const fs::path& out) {
   const Eigen::Vector3d to_lps = axes_to_lps(frame_in_header(in));
   std::ifstream stream(in, std::ios::binary);
   OutStream moved(out);
-  const PlyVertices vertices = take_header(in, stream, moved);
+  const PlyVertices vertices = take_header(in, stream, mover.values(Points(0, 3)), moved);
   const std::array<std::size_t, 3> places = {vertices.place_of(in, "x"), vertices.place_of(in, "y"),
                                              vertices.place_of(in, "z")};
   const auto all_are = [&](const char* a, const char* b) {

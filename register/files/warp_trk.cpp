@@ -16,19 +16,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Moves the points of a tract, which begin its values with their scalars behind each.
-void move_tract(const fs::path& file, const TrkHeader& header, const Eigen::Affine3d& from_lps, std::size_t points,
-                std::vector<float>& values, PointMover& mover) {
+/// Moves the points of a tract, which begin its values with their scalars behind each. Where they were, LPS.
+Points move_tract(const fs::path& file, const TrkHeader& header, const Eigen::Affine3d& from_lps, std::size_t points,
+                  std::vector<float>& values, PointMover& mover) {
   const std::size_t stride = 3 + static_cast<std::size_t>(header.scalars);
+  Points places(static_cast<Eigen::Index>(points), 3);
   for (std::size_t p = 0; p < points; ++p) {
     const Eigen::Map<Eigen::Vector3f> place(values.data() + p * stride);
     const Eigen::Vector3d here = place.cast<double>();
     if (!here.allFinite()) {
       refuse(file, "point " + std::to_string(mover.moved().points + 1) + " is not finite; repair the file");
     }
-    const Eigen::Vector3d u = from_lps.linear() * mover.displacement(header.to_lps * here);
+    const Eigen::Vector3d in_lps = header.to_lps * here;
+    places.row(static_cast<Eigen::Index>(p)) = in_lps;
+    const Eigen::Vector3d u = from_lps.linear() * mover.displacement(in_lps);
     Eigen::Map<Eigen::Vector3f>(values.data() + p * stride) = (here + u).cast<float>();
   }
+  return places;
+}
+
+/// The tract's values with the first `added` of more scalars behind those of each point.
+std::vector<float> with_scalars(const std::vector<float>& values, const TrkHeader& header, std::size_t points,
+                                const std::vector<PointValues>& scalars, int added) {
+  const std::size_t stride = 3 + static_cast<std::size_t>(header.scalars);
+  std::vector<float> result;
+  for (std::size_t p = 0; p < points; ++p) {
+    result.insert(result.end(), &values[p * stride], &values[p * stride] + stride);
+    for (int s = 0; s < added; ++s) {
+      result.push_back(static_cast<float>(scalars[static_cast<std::size_t>(s)].values[p]));
+    }
+  }
+  result.insert(result.end(), values.begin() + static_cast<std::ptrdiff_t>(points * stride), values.end());
+  return result;
 }
 
 /// The number of points of the next tract; -1 at the end of the file.
@@ -61,6 +80,7 @@ void warp_trk(const fs::path& in, PointMover& mover, const fs::path& out) {
   }
   const TrkHeader header = read_trk_header(in, bytes);
   const Eigen::Affine3d from_lps = header.to_lps.inverse();
+  const int added = add_scalars(bytes, header, mover.values(Points(0, 3)));
   OutStream moved(out);
   moved.write(bytes.data(), bytes.size());
   std::int64_t tracts = 0;
@@ -77,7 +97,10 @@ void warp_trk(const fs::path& in, PointMover& mover, const fs::path& out) {
     swap_if(header.swapped, written);
     moved.write(written.data(), sizeof(written));
     swap_if(header.swapped, values);
-    move_tract(in, header, from_lps, count, values, mover);
+    const Points places = move_tract(in, header, from_lps, count, values, mover);
+    if (added > 0) {
+      values = with_scalars(values, header, count, mover.values(places), added);
+    }
     swap_if(header.swapped, values);
     moved.write(values.data(), 4 * values.size());
   }

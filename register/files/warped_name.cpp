@@ -8,15 +8,17 @@
 
 namespace brainshift::registration {
 
-std::filesystem::path error_name(const std::filesystem::path& warped) {
+std::filesystem::path values_name(const std::string& values, const std::filesystem::path& warped) {
   std::string name = warped.filename().string();
   if (ending_of(warped) == ".gii") {  // as programs expect of values at the vertices of a surface
     for (const std::string_view ending : {".gii", ".surf"}) {
       name.resize(name.size() - (name.ends_with(ending) ? ending.size() : 0));
     }
     name += ".shape.gii";
+  } else if (ending_of(warped) == ".tck") {
+    name = std::filesystem::path(name).replace_extension(".tsf").string();
   }
-  return warped.parent_path() / ("estimated_error_" + name);
+  return warped.parent_path() / (values + "_" + name);
 }
 
 std::filesystem::path warped_name(const std::filesystem::path& in) {
@@ -28,6 +30,11 @@ std::filesystem::path warped_name(const std::filesystem::path& in) {
     name += ".nii.gz";
   }
   return name;
+}
+
+std::filesystem::path series_name(const std::filesystem::path& warped) {
+  const std::filesystem::path name = warped.parent_path() / warped.stem();
+  return name.extension() == ".nii" ? name.parent_path() / name.stem() : name;
 }
 
 }  // namespace brainshift::registration

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace brainshift::registration {
 
@@ -9,8 +10,12 @@ namespace brainshift::registration {
 /// format as .nii.gz.
 std::filesystem::path warped_name(const std::filesystem::path& in);
 
-/// Where the estimated error of a warped image (on its grid) or .gii (at its vertices) is written: beside it, under
-/// "estimated_error_" and its name.
-std::filesystem::path error_name(const std::filesystem::path& warped);
+/// Where the values that go along with a warped image (on its grid), .gii (at its vertices) or .tck (at its points) are
+/// written: beside it, as "estimated_error_" and its name, a .gii as .shape.gii, a .tck as .tsf.
+std::filesystem::path values_name(const std::string& values, const std::filesystem::path& warped);
+
+/// The folder of the DICOM series that a warped image is written as, too, where it was one: beside it, under its name
+/// without the ending.
+std::filesystem::path series_name(const std::filesystem::path& warped);
 
 }  // namespace brainshift::registration

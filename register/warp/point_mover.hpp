@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "register/field/field_sampler.hpp"
+#include "segmentation/files/point_values.hpp"
 #include "segmentation/geometry/points.hpp"
 
 namespace brainshift::registration {
@@ -20,14 +19,12 @@ struct MovedPoints {
   double largest = 0;       ///< displacement, mm
 };
 
-/// The estimated error of the displacement, mm, at places (n × 3, mm, LPS) before they move; none: it is not known.
-using ErrorOfPoints = std::function<std::optional<std::vector<double>>(const Points& places)>;
-
 /// Moves points with a field, linear interpolation, and counts them. Zero displacement outside the image; a point on
 /// the outermost half voxel is inside. The field must outlive it.
 class PointMover {
  public:
-  explicit PointMover(const VectorImage& field, ErrorOfPoints error = {}) : sampler_(field), error_(std::move(error)) {}
+  explicit PointMover(const VectorImage& field, ValuesOfPoints values = {})
+      : sampler_(field), values_(std::move(values)) {}
 
   /// mm, LPS.
   Eigen::Vector3d displacement(const Eigen::Vector3d& place) {
@@ -42,15 +39,17 @@ class PointMover {
     return u;
   }
 
-  std::optional<std::vector<double>> error(const Points& places) const {
-    return error_ ? error_(places) : std::nullopt;
+  /// What goes along with points, at their places before they move: how far the displacement may be off, where that is
+  /// known.
+  std::vector<PointValues> values(const Points& places) const {
+    return values_ ? values_(places) : std::vector<PointValues>{};
   }
 
   const MovedPoints& moved() const { return moved_; }
 
  private:
   FieldSampler sampler_;
-  ErrorOfPoints error_;
+  ValuesOfPoints values_;
   MovedPoints moved_;
 };
 

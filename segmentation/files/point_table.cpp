@@ -89,6 +89,14 @@ void append_field(std::string& line, const std::string& field) {
   line += "," + field + (dos ? "\r" : "");
 }
 
+/// A field with words behind its own, within its quotes.
+std::string with_words(std::string_view field, const std::string& words) {
+  const bool quoted = field.size() > 1 && field.ends_with('"');
+  std::string text(field.substr(0, field.size() - (quoted ? 1 : 0)));
+  text += words.empty() || text.empty() || text == "\"" ? "" : "; ";
+  return text + words + (quoted ? "\"" : "");
+}
+
 /// Six decimals, as fine as a file of points needs.
 std::string decimal(double value) {
   std::array<char, 40> text{};
@@ -155,7 +163,9 @@ std::vector<std::string> texts_in(const PointTable& table, const std::string& na
 }
 
 void write_point_table(const std::filesystem::path& out, const PointTable& table, const Points& places,
-                       std::span<const double> error) {
+                       const std::vector<PointValues>& values) {
+  const bool is_csv = table.file.extension() == ".csv";
+  const std::size_t description = is_csv ? std::string::npos : table.find_column("desc").value_or(std::string::npos);
   Points in_frame = places;
   to_lps(in_frame, *table.frame);  // the way there and back is the same
   std::vector<std::string> lines = table.lines;
@@ -167,6 +177,11 @@ void write_point_table(const std::filesystem::path& out, const PointTable& table
       text[axis] = decimal(in_frame(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis)));
       fields[*table.find_column(std::string(1, "xyz"[axis]))] = text[axis];
     }
+    std::string described;
+    if (description < fields.size()) {
+      described = with_words(fields[description], in_words(values, row));
+      fields[description] = described;
+    }
     std::string joined;
     for (const std::string_view field : fields) {
       joined += joined.empty() ? "" : ",";
@@ -174,11 +189,10 @@ void write_point_table(const std::filesystem::path& out, const PointTable& table
     }
     line = std::move(joined);
   }
-  if (!error.empty() && table.file.extension() == ".csv") {
-    append_field(lines[table.header],
-                 table.find_column("estimated_error") ? "warp_estimated_error" : "estimated_error");
+  for (const PointValues& each : is_csv ? values : std::vector<PointValues>{}) {
+    append_field(lines[table.header], (table.find_column(each.name) ? "warp_" : "") + each.name);
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
-      append_field(lines[table.rows[row]], decimal(error[row]));
+      append_field(lines[table.rows[row]], decimal(each.values[row]));
     }
   }
   std::ofstream stream(out);

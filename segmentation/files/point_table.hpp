@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "segmentation/files/frame.hpp"
+#include "segmentation/files/point_values.hpp"
 #include "segmentation/geometry/points.hpp"
 
 namespace brainshift {
@@ -39,9 +39,9 @@ Points vectors_in(const PointTable& table, const std::string& x, const std::stri
 std::vector<std::string> texts_in(const PointTable& table, const std::string& column);
 
 /// Writes the table with the columns x, y and z replaced by places (rows × 3), mm, LPS, in the table's frame; all else
-/// stays. A .csv gets a last column "estimated_error" (mm, one value a row) unless that is empty. Throws
-/// std::runtime_error when it cannot be written whole.
+/// stays. A .csv gets the values as its last columns, "warp_" before the name of one that is there already, a .fcsv as
+/// words in its description, where its rows have one. Throws std::runtime_error when it cannot be written whole.
 void write_point_table(const std::filesystem::path& out, const PointTable& table, const Points& places,
-                       std::span<const double> error = {});
+                       const std::vector<PointValues>& values = {});
 
 }  // namespace brainshift

@@ -92,6 +92,13 @@ Eigen::RowVector3d position_of(const Json& point, const std::string& which, cons
   return place;
 }
 
+/// 3D Slicer shows a point's description in its table.
+void add_words(Json& point, const std::string& words) {
+  const bool described = point.contains("description") && point.at("description").is_string();
+  const std::string before = described ? point.at("description").get<std::string>() : "";
+  point["description"] = before + (before.empty() ? "" : "; ") + words;
+}
+
 bool is_placed(const Json& point) {
   return !point.contains("positionStatus") || point.at("positionStatus") == "defined";
 }
@@ -203,9 +210,9 @@ PointsFile::PointsFile(const std::filesystem::path& file) {
 }
 
 void PointsFile::write_moved(const std::filesystem::path& out, const Points& places,
-                             std::span<const double> error) const {
+                             const std::vector<PointValues>& values) const {
   if (const auto* table = std::get_if<PointTable>(&content_->as_read)) {
-    write_point_table(out, *table, places, error);
+    write_point_table(out, *table, places, values);
     return;
   }
   Markups markups = std::get<Markups>(content_->as_read);
@@ -222,7 +229,11 @@ void PointsFile::write_moved(const std::filesystem::path& out, const Points& pla
   for (std::size_t i = 0; i < markups.points.size(); ++i) {
     Points place = places.row(static_cast<Eigen::Index>(i));
     to_lps(place, markups.points[i].frame);  // the way there and back is the same
-    markups.document[Json::json_pointer(markups.points[i].position)] = {place(0, 0), place(0, 1), place(0, 2)};
+    const Json::json_pointer position(markups.points[i].position);
+    markups.document[position] = {place(0, 0), place(0, 1), place(0, 2)};
+    if (!values.empty()) {
+      add_words(markups.document[position.parent_pointer()], in_words(values, i));
+    }
   }
   write_json(out, markups.document);
 }

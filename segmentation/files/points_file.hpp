@@ -3,10 +3,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "segmentation/files/point_values.hpp"
 #include "segmentation/geometry/points.hpp"
 
 namespace brainshift {
@@ -29,9 +29,10 @@ class PointsFile {
   /// Markup lists in the file; 1 for a table.
   std::size_t lists() const { return lists_; }
 
-  /// Copies the file with its placed points at other places (n × 3), mm, LPS. A .csv gets a column "estimated_error"
-  /// (mm, one value a point) unless that is empty. Throws std::runtime_error when it cannot be written whole.
-  void write_moved(const std::filesystem::path& out, const Points& places, std::span<const double> error = {}) const;
+  /// Copies the file with its placed points at other places (n × 3), mm, LPS. The values become columns of a .csv, and
+  /// words of a point's description in 3D Slicer's markups. Throws std::runtime_error when it cannot be written whole.
+  void write_moved(const std::filesystem::path& out, const Points& places,
+                   const std::vector<PointValues>& values = {}) const;
 
   struct Content;
 

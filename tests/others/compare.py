@@ -81,6 +81,10 @@ def by_mrtrix(head):
     quietly("tcktransform", head.folder / "in.tck", places, head.folder / "mrtrix.tck", "-force", "-quiet")
     moved = nibabel.streamlines.load(str(head.folder / "mrtrix.tck")).streamlines.get_data()
     yield "tract", points_apart(head, moved * TO_RAS)
+    head.warp("in.tck")
+    quietly("tsfinfo", "-ascii", head.folder / "errors", head.folder / "estimated_error_warped_in.tsf", "-force", "-quiet")
+    errors = np.loadtxt(next(head.folder.glob("errors*.txt"))).ravel()
+    yield "values along a tract", (len(errors), np.abs(errors - head.errors).max())
     mrtrix_places(head, head.resampling_file, places)
     yield "image", head.ramps_apart(lambda image, out: quietly(
         "mrtransform", image, "-warp", places, "-interp", "linear", out, "-force", "-quiet"))

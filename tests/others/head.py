@@ -59,7 +59,8 @@ class Head:
             file.write("# frame: LPS\nx,y,z\n" + "".join("%.6f,%.6f,%.6f\n" % tuple(p) for p in self.points))
         self.warp("points.csv")
         with open(self.folder / "warped_points.csv") as file:
-            rows = csv.DictReader(line for line in file if not line.startswith("#"))
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+            self.errors = np.array([float(row["estimated_error"]) for row in rows])
             return np.array([[float(row[axis]) for axis in "xyz"] for row in rows])
 
     def warp(self, *names):

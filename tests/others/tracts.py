@@ -22,12 +22,14 @@ def write_trk(path, tracts, image, order):
 
 
 def header_of(path):
+    """Of a .trk without its scalars, which become more."""
     content = path.read_bytes()
-    return content[:1000] if path.suffix == ".trk" else content[:content.index(b"END")]
+    return content[:36] + content[238:1000] if path.suffix == ".trk" else content[:content.index(b"END")]
 
 
 def apart(head):
-    """Names, and how many points brainshift warp lays how far from where the Head's points went."""
+    """Names, and how many points brainshift warp lays how far from where the Head's points went; of a .trk, too, how far
+    the estimated error of its points is from that of the Head's."""
     tracts = np.array_split(head.points * TO_RAS, 40)
     write_tck(head.folder / "tracts.tck", tracts)
     for order in ORDERS:
@@ -35,5 +37,10 @@ def apart(head):
     for name in ["tracts.tck"] + [f"tracts_{order}.trk" for order in ORDERS]:
         head.warp(name)
         assert header_of(head.folder / name) == header_of(head.folder / f"warped_{name}"), name
-        ours = nibabel.streamlines.load(str(head.folder / f"warped_{name}")).streamlines.get_data()
+        moved = nibabel.streamlines.load(str(head.folder / f"warped_{name}"))
+        ours = moved.streamlines.get_data()
         yield name, (len(ours), np.abs(ours * TO_RAS - head.moved).max())
+        if name.endswith(".trk"):
+            values = moved.tractogram.data_per_point
+            assert set(values) == {"count", "estimated_error"}, set(values)
+            yield f"{name}, values", (len(ours), np.abs(values["estimated_error"].get_data()[:, 0] - head.errors).max())

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "register/registration.hpp"
+#include "segmentation/files/point_values.hpp"
 #include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
 #include "solve/interface/solution.hpp"
@@ -149,6 +150,13 @@ inline Eigen::Vector3d sinking(const Eigen::Vector3d& x) {
 /// A smooth picture with detail in all directions.
 inline double texture(const Eigen::Vector3d& x) {
   return 100 + 40 * std::sin(0.4 * x.x()) * std::cos(0.3 * x.y()) + 30 * std::sin(0.35 * x.z() + 0.1 * x.x());
+}
+
+/// What might go along with points: their height as estimated_error, twice that as uncertainty.
+inline std::vector<PointValues> heights(const Points& places) {
+  const Eigen::VectorXd z = places.col(2), twice = 2 * z;
+  return {{"estimated_error", {z.data(), z.data() + z.size()}},
+          {"uncertainty", {twice.data(), twice.data() + twice.size()}}};
 }
 
 inline RegisterInput head(const DisplacementOf& displacement, const ImageGeometry& g = grid()) {

@@ -36,6 +36,25 @@ TEST_F(StageFolderTest, ASingleStageKeepsOtherFilesOfItsFolder) {
   EXPECT_EQ(read(folder_ / "stage/made"), "new");
 }
 
+TEST_F(StageFolderTest, ASingleStageWritesAFolderAnewUnlessOtherFilesWouldBeAmongIts) {
+  write("stage/series/1", "old");
+  {
+    StageFolder finished(folder_ / "stage", interruption_);
+    fs::create_directory(finished.path() / "series");
+    std::ofstream(finished.path() / "series/1") << "new";
+    std::ofstream(finished.path() / "series/2") << "new";
+    finished.merge();
+  }
+  EXPECT_EQ(read(folder_ / "stage/series/1"), "new");
+  EXPECT_EQ(read(folder_ / "stage/series/2"), "new");
+  StageFolder shorter(folder_ / "stage", interruption_);
+  fs::create_directory(shorter.path() / "series");
+  std::ofstream(shorter.path() / "series/1") << "newer";
+  brainshift::test::expect_parts(brainshift::test::refusal([&] { shorter.merge(); }),
+                                 {(folder_ / "stage/series").string(), "holds a 2", "--out"});
+  EXPECT_EQ(read(folder_ / "stage/series/1"), "new");
+}
+
 TEST_F(StageFolderTest, WhatSomebodyElsePutInItsPlaceStays) {
   write("stage.partial/precious", "mine");
   brainshift::test::expect_parts(

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "pipelines/runner/jobs.hpp"
-#include "pipelines/show/shown_fields.hpp"
+#include "register/files/register_fields.hpp"
 #include "segmentation/files/vtu_file.hpp"
 #include "tests/unit/expect_parts.hpp"
 #include "tests/unit/pipelines/ball_folder.hpp"
@@ -72,7 +72,7 @@ class UncertaintyTest : public BallFolder {
 TEST_F(UncertaintyTest, IsWrittenAtTheNodesAndSaidForEachTissue) {
   const StageReport said = solved(solve_job(4), "out");
   ASSERT_EQ(said.failure, "");
-  const std::vector<double> deviation = read_deviations(folder_ / "out/uncertainty.vtu");
+  const std::vector<double> deviation = registration::read_deviations(folder_ / "out/uncertainty.vtu");
   const Solution solution = read_solution(folder_ / "out/solution.vtu");
   ASSERT_EQ(deviation.size(), solution.spacing.size());
   double largest = 0;

@@ -77,6 +77,12 @@ TEST_F(WarpFiles, WhatLiesOutsideTheImageIsTold) {
   expect_parts(warp({file}, Towards::intraop, "out").front(), {"2 points", "1 lie outside the run's image"});
 }
 
+TEST_F(WarpFiles, FilesThatDifferInTheirEndingsAloneGoTogether) {
+  const fs::path table = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n"),
+                 model = write("points.obj", "v 3 -5 8\n");
+  EXPECT_EQ(warp({table, model}, Towards::intraop, "out").size(), 2U);
+}
+
 TEST_F(WarpFiles, NothingIsWrittenWhereAFileIsMissingOrTwoHaveOneName) {
   const fs::path file = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n");
   const fs::path other = write("other/points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n");

@@ -2,7 +2,11 @@
 #include "register/files/register_fields.hpp"
 
 #include <gtest/gtest.h>
+#include <vtkPointData.h>
 
+#include <numeric>
+
+#include "segmentation/files/vtu_file.hpp"
 #include "solve/output/solution_file.hpp"
 #include "tests/unit/register/builders.hpp"
 #include "tests/unit/scratch_folder.hpp"
@@ -48,35 +52,60 @@ TEST_F(RegisterFieldsError, IsThatOfTheNodesAboutThePlaceInTheBrainItIsIn) {
   RegisterFields there(folder_.path(), Towards::intraop, folder_ / "solution.vtu"),
       back(folder_.path(), Towards::preop, folder_ / "solution.vtu");
   const Points preop = solution_.positions.topRows(20), intraop = preop.rowwise() + Eigen::RowVector3d(0, 0, -5);
-  const auto before = there.error_of_points(preop), after = back.error_of_points(intraop);
-  ASSERT_TRUE(before && after);
+  const auto before = there.values_of_points(preop), after = back.values_of_points(intraop);
+  ASSERT_TRUE(before.size() == 1 && after.size() == 1);
+  EXPECT_EQ(before[0].name, "estimated_error");
   for (Eigen::Index node = 0; node < 20; ++node) {
-    EXPECT_NEAR((*before)[static_cast<std::size_t>(node)], error_at(preop.row(node)), 1e-9);
-    EXPECT_NEAR((*after)[static_cast<std::size_t>(node)], error_at(preop.row(node)), 1e-9);
+    EXPECT_NEAR(before[0].values[static_cast<std::size_t>(node)], error_at(preop.row(node)), 1e-9);
+    EXPECT_NEAR(after[0].values[static_cast<std::size_t>(node)], error_at(preop.row(node)), 1e-9);
   }
 }
 
 TEST_F(RegisterFieldsError, OfAnImageIsThatOfItsVoxelsInTheWarpedBrain) {
   RegisterFields there(folder_.path(), Towards::intraop, folder_ / "solution.vtu");
-  const auto error = there.error_on(grid({30, 30, 30}, {2.5, 2.5, 2.5}, oblique()));
-  ASSERT_TRUE(error);
-  for_each_voxel(error->geometry, [&](const Eigen::Vector3d& x, std::size_t v) {
+  const auto images = there.values_on(grid({30, 30, 30}, {2.5, 2.5, 2.5}, oblique()));
+  ASSERT_EQ(images.size(), 1U);
+  const ScalarImage& error = images[0].second;
+  for_each_voxel(error.geometry, [&](const Eigen::Vector3d& x, std::size_t v) {
     const double from_middle = (x - centre - Eigen::Vector3d(0, 0, -5)).norm();
     if (from_middle < radius - 8) {
-      ASSERT_NEAR(error->voxels[v], error_at(x), 0.03);  // of nodes 5 mm apart and voxels of 4 mm
+      ASSERT_NEAR(error.voxels[v], error_at(x), 0.03);  // of nodes 5 mm apart and voxels of 4 mm
     } else if (from_middle > radius + 12) {
-      ASSERT_EQ(error->voxels[v], 0);
+      ASSERT_EQ(error.voxels[v], 0);
     }
   });
 }
 
+TEST_F(RegisterFieldsError, TheStandardDeviationBesideTheSolutionGoesAlong) {
+  const auto write_deviations = [&](std::size_t nodes) {
+    const auto grid = vtu::vertex_grid(solution_.positions.topRows(static_cast<Eigen::Index>(nodes)));
+    std::vector<double> values(nodes);
+    std::iota(values.begin(), values.end(), 1);
+    vtu::add_array(*grid->GetPointData(), "uncertainty", values);
+    vtu::write(folder_ / "uncertainty.vtu", *grid);
+  };
+  const auto count = static_cast<std::size_t>(solution_.positions.rows());
+  write_deviations(count);
+  RegisterFields fields(folder_.path(), Towards::intraop, folder_ / "solution.vtu");
+  const auto values = fields.values_of_points(solution_.positions.topRows(5));
+  ASSERT_EQ(values.size(), 2U);
+  EXPECT_EQ(values[1].name, "uncertainty");
+  for (std::size_t node = 0; node < 5; ++node) {
+    EXPECT_NEAR(values[1].values[node], static_cast<double>(node + 1), 1e-6);
+  }
+  EXPECT_EQ(fields.values_on(grid({4, 4, 4}))[1].first, "uncertainty");
+  write_deviations(count - 1);
+  RegisterFields other(folder_.path(), Towards::intraop, folder_ / "solution.vtu");
+  EXPECT_NE(test::refusal([&] { other.values_of_points(solution_.positions); }).find("solve again"), std::string::npos);
+}
+
 TEST_F(RegisterFieldsError, IsNotKnownWithoutAnEstimateOrASolution) {
   RegisterFields without(folder_.path(), Towards::intraop);
-  EXPECT_FALSE(without.error_of_points(Points::Zero(1, 3)));
+  EXPECT_TRUE(without.values_of_points(Points::Zero(1, 3)).empty());
   solution_.estimated_error.clear();
   write_solution(folder_ / "solution.vtu", solution_);
   RegisterFields fields(folder_.path(), Towards::intraop, folder_ / "solution.vtu");
-  EXPECT_FALSE(fields.error_on(grid({4, 4, 4})));
+  EXPECT_TRUE(fields.values_on(grid({4, 4, 4})).empty());
 }
 
 TEST(RegisterFields, AFolderWithoutThemIsRefused) {

@@ -13,6 +13,7 @@
 #include "segmentation/image/image_series.hpp"
 #include "tests/unit/register/builders.hpp"
 #include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/segmentation/image/drawn_dicom.hpp"
 
 namespace brainshift::registration::warp_any_test {
 
@@ -118,6 +119,25 @@ TEST_F(WarpAny, ResamplesImagesAndLabelMapsOnTheirOwnGrid) {
   EXPECT_NEAR(t1.at(10, 10, 10), slope(g.to_world({10, 10, 10}) - shift), 1e-3);
   EXPECT_EQ(labels.at(10, 10, 10), 3);
   EXPECT_EQ(labels.at(12, 10, 10), 9);
+}
+
+TEST_F(WarpAny, ADicomSeriesComesBackAsAnotherBesideTheImage) {
+  std::filesystem::create_directory(path("in"));
+  for (int k = 0; k < 8; ++k) {
+    test::DrawnSlice slice;
+    slice.study = "1.2.3.8";
+    slice.frame_of_reference = "1.2.3.7";
+    slice.value = static_cast<std::uint64_t>(100 * (k + 1));
+    slice.position = "1\\-7\\" + std::to_string(2 * k);
+    write("in/" + std::to_string(k), slice.bytes());
+  }
+  warp("in", "out.nii.gz", {.values = Values::intensities, .grid = {}});
+  const ScalarImage image = read_image(path("out.nii.gz")), series = read_image(path("out"));
+  ASSERT_TRUE(same_geometry(series.geometry, image.geometry));
+  for (std::size_t v = 0; v < image.voxels.size(); ++v) {
+    ASSERT_NEAR(series.voxels[v], image.voxels[v], 0.5001);
+  }
+  EXPECT_NE(read("out/0001.dcm").find("Warped to intraop by brainshift, NOT FOR DIAGNOSIS"), std::string::npos);
 }
 
 TEST_F(WarpAny, ResamplesASeriesVolumeByVolume) {

@@ -127,12 +127,11 @@ TEST_F(WarpGii, FreeSurfersSurfaceLiesByTheVolumeOfItsMetadata) {
 }
 
 TEST_F(WarpGii, TheErrorAtItsVerticesIsASurfacesShape) {
-  PointMover mover(field_, [](const Points& places) -> std::optional<std::vector<double>> {
-    return std::vector<double>(places.col(2).begin(), places.col(2).end());
-  });
+  PointMover mover(field_, heights);
   warp_gii(folder_.write("lh.surf.gii", surface(no_metadata, in_ras)), mover, folder_ / "warped_lh.surf.gii");
   const std::string text = test::bytes_of(folder_ / "estimated_error_warped_lh.shape.gii");
   expect_parts(text, {"NIFTI_INTENT_SHAPE", "Dim0=\"3\"", "estimated_error"});
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "uncertainty_warped_lh.shape.gii"));
 }
 
 TEST_F(WarpGii, WhatCannotBeUsedIsRefused) {

@@ -75,6 +75,30 @@ TEST_F(WarpMesh, APlyKeepsPropertiesAndElementsWithoutAFace) {
   }
 }
 
+TEST_F(WarpMesh, WhatGoesAlongWithThePointsOfAPlyAreProperties) {
+  PointMover mover(field_, heights);
+  const auto with_values = [&](const std::string& text) {
+    warp_ply(folder_.write("v.ply", text), mover, folder_ / "out.ply");
+    return test::bytes_of(folder_ / "out.ply");
+  };
+  const auto expected = [](std::string text) {
+    return text.insert(text.find("element face"), "property float estimated_error\nproperty float uncertainty\n");
+  };
+  EXPECT_EQ(with_values(ply("ascii", "float", "200 3 -5 8 0.25\r\n7 500 0 0 1\n")),
+            expected(ply("ascii", "float", "200 4.5 -7 11 0.25 8 16\r\n7 500 0 0 1 0 0\n")));
+  for (const bool big : {false, true}) {
+    const std::string format = big ? "binary_big_endian" : "binary_little_endian";
+    std::string rows = binary_vertices<float>(big, shift);
+    const auto number = [&](float value) {
+      value = big ? with_bytes_swapped(value) : value;
+      return std::string(reinterpret_cast<const char*>(&value), sizeof(value));
+    };
+    rows = rows.substr(0, 17) + number(8) + number(16) + rows.substr(17) + number(9) + number(18);
+    EXPECT_EQ(with_values(ply(format, "float", binary_vertices<float>(big, Eigen::Vector3d::Zero()))),
+              expected(ply(format, "float", rows)));
+  }
+}
+
 TEST_F(WarpMesh, RefusesWhatItCannotReadAndLeavesNothing) {
   EXPECT_NE(refused("text.obj", "nothing\n").find("text.obj: holds no vertex"), std::string::npos);
   EXPECT_NE(refused("short.obj", "v 1 2\n").find("short.obj:1"), std::string::npos);

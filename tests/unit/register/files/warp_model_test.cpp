@@ -58,15 +58,14 @@ std::string legacy(const std::string& version, const std::string& cells) {
 }
 
 TEST_F(WarpModel, TheErrorIsThatOfThePlacesBeforeTheyMove) {
-  PointMover mover(field_, [](const Points& places) -> std::optional<std::vector<double>> {
-    return std::vector<double>(places.col(2).begin(), places.col(2).end());
-  });
+  PointMover mover(field_, heights);
   warp_model(folder_.write("tract.vtp", tract_vtp("RAS")), mover, folder_ / "moved.vtp");
   const auto moved = read_model(folder_ / "moved.vtp");
   vtkDataArray* const error = moved->GetPointData()->GetArray("estimated_error");
   ASSERT_NE(error, nullptr);
   EXPECT_EQ(error->GetTuple1(0), 8);
   EXPECT_EQ(error->GetTuple1(3), 1000);
+  EXPECT_EQ(moved->GetPointData()->GetArray("uncertainty")->GetTuple1(3), 2000);
 }
 
 TEST_F(WarpModel, LinesAndPointsMoveAndKeepAllArrays) {

@@ -73,6 +73,22 @@ TEST_F(WarpTck, MovesPointsOfEveryKindOfNumberAndKeepsAllElseByteForByte) {
   EXPECT_EQ(mover_.moved().outside, 4U);
 }
 
+TEST_F(WarpTck, WhatGoesAlongWithItsPointsIsATrackScalarFile) {
+  PointMover mover(field_, heights);
+  warp_tck(
+      folder_.write("in.tck", header("Float64BE") + bytes_of_numbers<double>(tracts(Eigen::Vector3d::Zero()), true)),
+      mover, folder_ / "out.tck");
+  const std::string text = test::bytes_of(folder_ / "uncertainty_out.tsf");
+  const std::size_t numbers_at = std::stoul(text.substr(text.find("file: . ") + 8));
+  EXPECT_TRUE(
+      text.starts_with("mrtrix track scalars\ncommand_history: tckgen with: a colon\nstep_size: 0.5\ncount: 2\n"
+                       "datatype: Float32LE\nfile: . "));
+  EXPECT_NE(text.find("\nEND\n"), std::string::npos);
+  // The height of each point before it moves, doubled; NaN behind a tract, infinity at the end.
+  EXPECT_EQ(text.substr(numbers_at), bytes_of_numbers<float>({16, 18, nan, 18, 0, nan, infinity}, false));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "estimated_error_out.tsf"));
+}
+
 TEST_F(WarpTck, RefusesWhatItCannotReadAndLeavesNothing) {
   const std::string data = bytes_of_numbers<float>(tracts(Eigen::Vector3d::Zero()), false);
   EXPECT_NE(refused("something else\n").find("in.tck: is no MRtrix tract file"), std::string::npos);

@@ -94,6 +94,32 @@ TEST_F(WarpTrk, MovesPointsAndKeepsHeaderScalarsAndPropertiesByteForByte) {
   EXPECT_EQ(mover_.moved().outside, 0U);
 }
 
+TEST_F(WarpTrk, WhatGoesAlongWithItsPointsAreScalarsBehindTheirs) {
+  PointMover mover(field_, heights);
+  for (const bool swapped : {false, true}) {
+    warp_trk(folder_.write("in.trk", tract(swapped, Eigen::Vector3f::Zero())), mover, folder_ / "out.trk");
+    Trk expected{.swapped = swapped, .bytes = tract(swapped, shift.cast<float>()).substr(0, trk_header_size)};
+    expected.put(36, std::int16_t{3});
+    expected.bytes.replace(58, 15, "estimated_error").replace(78, 11, "uncertainty");
+    expected.append(std::int32_t{2});
+    for (const float z : {29.0F, 30.0F}) {
+      for (const float value : {45.5F, 38.0F, z + 3, 0.25F, z - 21, 2 * (z - 21)}) {
+        expected.append(value);
+      }
+    }
+    expected.append(7.0F);
+    expected.append(8.0F);
+    EXPECT_EQ(test::bytes_of(folder_ / "out.trk"), expected.bytes) << swapped;
+  }
+}
+
+TEST_F(WarpTrk, AHeaderWithItsTenScalarsStaysAsItIs) {
+  TrkBytes bytes{};
+  const TrkHeader full{.scalars = 10, .to_lps = Eigen::Affine3d::Identity()};
+  EXPECT_EQ(add_scalars(bytes, full, heights(Points(0, 3))), 0);
+  EXPECT_EQ(bytes, TrkBytes{});
+}
+
 TEST_F(WarpTrk, TheVoxelOrderOfTheHeaderCountsAsInTrackVis) {
   const auto place = [&](const std::string& order) {
     TrkBytes bytes{};

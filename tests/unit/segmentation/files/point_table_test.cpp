@@ -87,21 +87,24 @@ TEST(PointTable, WrittenAgainHasOtherPlacesAndAllElseAsItWas) {
   EXPECT_EQ(vectors_in(read_point_table(folder / "moved.csv"), "x", "y", "z"), places);
 }
 
-TEST(PointTable, ACsvGetsTheErrorAsItsLastColumn) {
+TEST(PointTable, ACsvGetsTheValuesAsItsLastColumnsAndAnFcsvAsWords) {
   const ScratchFolder folder;
-  const std::vector<double> error = {0.125, 0.5};
+  const std::vector<PointValues> values = {{"estimated_error", {0.125, 0.5}}, {"uncertainty", {1, 2}}};
   const Points places = Points::Zero(2, 3);
   const auto written = [&](const std::string& name, const std::string& text) {
-    write_point_table(folder / ("moved_" + name), read_point_table(folder.write(name, text)), places, error);
+    write_point_table(folder / ("moved_" + name), read_point_table(folder.write(name, text)), places, values);
     return bytes_of(folder / ("moved_" + name));
   };
   EXPECT_EQ(written("t.csv", "# frame: LPS\nx,y,z,name\n1,2,3,a\n4,5,6,b\n"),
-            "# frame: LPS\nx,y,z,name,estimated_error\n0.000000,0.000000,0.000000,a,0.125000\n"
-            "0.000000,0.000000,0.000000,b,0.500000\n");
-  EXPECT_NE(written("u.csv", "# frame: LPS\nx,y,z,estimated_error\n1,2,3,9\n4,5,6,9\n").find(",warp_estimated_error\n"),
+            "# frame: LPS\nx,y,z,name,estimated_error,uncertainty\n0.000000,0.000000,0.000000,a,0.125000,1.000000\n"
+            "0.000000,0.000000,0.000000,b,0.500000,2.000000\n");
+  EXPECT_NE(written("u.csv", "# frame: LPS\nx,y,z,estimated_error\n1,2,3,9\n4,5,6,9\n").find(",warp_estimated_error,"),
             std::string::npos);
-  // 3D Slicer's columns are its own.
-  EXPECT_EQ(written("t.fcsv", "# CoordinateSystem = LPS\na,1,2,3\nb,4,5,6\n").find("0.125"), std::string::npos);
+  // 3D Slicer's columns are its own, and a row may end before its description.
+  const std::string fcsv =
+      written("t.fcsv", "# CoordinateSystem = LPS\n1,1,2,3,0,0,0,1,1,1,0,F-1,\"old, words\",\n2,4,5,6\n");
+  EXPECT_NE(fcsv.find(",F-1,\"old, words; estimated_error 0.125 mm; uncertainty 1 mm\",\n"), std::string::npos) << fcsv;
+  EXPECT_EQ(fcsv.find("0.5 mm"), std::string::npos);
 }
 
 TEST(PointTable, ThatCannotBeWrittenIsAFaultOfOutput) {

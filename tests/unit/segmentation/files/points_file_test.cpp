@@ -41,6 +41,22 @@ TEST(PointsFile, OfMarkupsMovesThePlacedPointsAndNothingElse) {
   EXPECT_EQ(nlohmann::ordered_json::parse(bytes_of(folder / "m.mrk.json")).dump(), expected.dump());
 }
 
+TEST(PointsFile, OfMarkupsGetsTheValuesAsWordsOfItsDescriptions) {
+  const ScratchFolder folder;
+  const std::string text = R"({"markups": [{"controlPoints": [{"label": "a", "position": [1, 2, 3]},
+    {"label": "b", "position": [4, 5, 6], "description": "old"}]}]})";
+  const PointsFile file(folder.write("p.mrk.json", text));
+  file.write_moved(folder / "m.mrk.json", file.positions(),
+                   {{"estimated_error", {0.1234, 2}}, {"uncertainty", {1, 3}}});
+  auto expected = nlohmann::ordered_json::parse(text);
+  auto& points = expected["markups"][0]["controlPoints"];
+  points[0]["position"] = {1.0, 2.0, 3.0};
+  points[1]["position"] = {4.0, 5.0, 6.0};
+  points[0]["description"] = "estimated_error 0.123 mm; uncertainty 1 mm";
+  points[1]["description"] = "old; estimated_error 2 mm; uncertainty 3 mm";
+  EXPECT_EQ(nlohmann::ordered_json::parse(bytes_of(folder / "m.mrk.json")).dump(), expected.dump());
+}
+
 TEST(PointsFile, OfATableIsOneListWithALabelAPoint) {
   const ScratchFolder folder;
   const PointsFile table(folder.write("p.csv", "# frame: RAS\nx,y,z,label\n1,2,3,a\n4,5,6,\n"));

@@ -6,55 +6,9 @@
 #include "segmentation/image/image.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/segmentation/builders.hpp"
+#include "tests/unit/segmentation/image/drawn_dicom.hpp"
 
 namespace brainshift::test::dicom_series_test {
-
-std::string little_endian(std::uint64_t value, int bytes) {
-  std::string text;
-  for (int i = 0; i < bytes; ++i) {
-    text += static_cast<char>(value >> (8 * i) & 0xff);
-  }
-  return text;
-}
-
-std::string element(std::uint64_t group, std::uint64_t number, const std::string& kind, std::string value) {
-  value += value.size() % 2 == 0 ? "" : std::string(1, kind == "UI" ? '\0' : ' ');
-  const bool is_long = kind == "OB" || kind == "OW" || kind == "SQ";
-  return little_endian(group, 2) + little_endian(number, 2) + kind +
-         (is_long ? std::string(2, '\0') + little_endian(value.size(), 4) : little_endian(value.size(), 2)) + value;
-}
-
-/// A slice of an MR series in explicit little endian; pixel (i, j) holds value + i + 10 j.
-struct Drawn {
-  std::uint64_t rows = 3, columns = 4, bits = 16, value = 100;
-  std::string series = "1.2.3.4", spacing = "0.8\\0.7", orientation = "1\\0\\0\\0\\1\\0", position = "-1\\-2\\0";
-  std::string sequence;
-
-  std::string header() const {
-    const std::string meta = element(2, 2, "UI", "1.2.840.10008.5.1.4.1.1.4") +
-                             element(2, 3, "UI", "1.2.3.5." + position.substr(position.rfind('\\') + 1)) +
-                             element(2, 0x10, "UI", "1.2.840.10008.1.2.1");
-    return std::string(128, '\0') + "DICM" + element(2, 0, "UL", little_endian(meta.size(), 4)) + meta +
-           element(8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.4") +
-           element(8, 0x18, "UI", "1.2.3.5." + position.substr(position.rfind('\\') + 1)) +
-           element(8, 0x60, "CS", "MR") + sequence + element(0x20, 0xe, "UI", series) +
-           element(0x20, 0x32, "DS", position) + element(0x20, 0x37, "DS", orientation) +
-           element(0x28, 2, "US", little_endian(1, 2)) + element(0x28, 4, "CS", "MONOCHROME2") +
-           element(0x28, 0x10, "US", little_endian(rows, 2)) + element(0x28, 0x11, "US", little_endian(columns, 2)) +
-           element(0x28, 0x30, "DS", spacing) + element(0x28, 0x100, "US", little_endian(bits, 2)) +
-           element(0x28, 0x101, "US", little_endian(bits, 2)) + element(0x28, 0x102, "US", little_endian(bits - 1, 2)) +
-           element(0x28, 0x103, "US", little_endian(0, 2));
-  }
-  std::string bytes() const {
-    std::string pixels;
-    for (std::uint64_t j = 0; j < rows; ++j) {
-      for (std::uint64_t i = 0; i < columns; ++i) {
-        pixels += little_endian(value + i + 10 * j, static_cast<int>(bits / 8));
-      }
-    }
-    return header() + element(0x7fe0, 0x10, "OW", pixels);
-  }
-};
 
 std::string slice_name(int k) {
   return "slice" + std::to_string(k) + ".dcm";
@@ -64,8 +18,8 @@ std::string slice_name(int k) {
 struct Series {
   ScratchFolder folder;
 
-  static Drawn slice(int k) {
-    Drawn drawn;
+  static DrawnSlice slice(int k) {
+    DrawnSlice drawn;
     drawn.value += 100 * static_cast<std::uint64_t>(k);
     drawn.position = "-1\\-2\\" + std::to_string(2 * k);
     return drawn;
@@ -109,14 +63,14 @@ TEST(DicomSeries, ASliceCutAnywhereIsNamed) {
 }
 
 TEST(DicomSeries, ASliceThatDiffersFromTheOthersIsNamed) {
-  for (const auto& [name, change] : std::vector<std::pair<std::string, std::function<void(Drawn&)>>>{
-           {"Rows", [](Drawn& drawn) { drawn.rows = 4; }},
-           {"Columns", [](Drawn& drawn) { drawn.columns = 3; }},
-           {"BitsAllocated", [](Drawn& drawn) { drawn.bits = 8; }},
-           {"PixelSpacing", [](Drawn& drawn) { drawn.spacing = "0.9\\0.7"; }},
-           {"ImageOrientationPatient", [](Drawn& drawn) { drawn.orientation = "0\\1\\0\\1\\0\\0"; }}}) {
+  for (const auto& [name, change] : std::vector<std::pair<std::string, std::function<void(DrawnSlice&)>>>{
+           {"Rows", [](DrawnSlice& drawn) { drawn.rows = 4; }},
+           {"Columns", [](DrawnSlice& drawn) { drawn.columns = 3; }},
+           {"BitsAllocated", [](DrawnSlice& drawn) { drawn.bits = 8; }},
+           {"PixelSpacing", [](DrawnSlice& drawn) { drawn.spacing = "0.9\\0.7"; }},
+           {"ImageOrientationPatient", [](DrawnSlice& drawn) { drawn.orientation = "0\\1\\0\\1\\0\\0"; }}}) {
     Series series;
-    Drawn other = Series::slice(2);
+    DrawnSlice other = Series::slice(2);
     change(other);
     series.put(2, other.bytes());
     EXPECT_TRUE(says(series.fault(), {"slice7.dcm", name + " is not that of slice5.dcm"})) << series.fault();
@@ -128,7 +82,7 @@ TEST(DicomSeries, AnOrientationThatIsNoneIsRefused) {
   for (const std::string& orientation : {"1\\0\\0\\0\n\\0"s, "1\\0\\0\\0\\nan\\0"s, "1\\0\\0\\1\\0\\0"s, "1\\0\\0"s}) {
     Series series;
     for (int k = 0; k < 5; ++k) {
-      Drawn drawn = Series::slice(k);
+      DrawnSlice drawn = Series::slice(k);
       drawn.orientation = orientation;
       series.put(k, drawn.bytes());
     }
@@ -141,7 +95,7 @@ TEST(DicomSeries, SlicesThatAreMissingTwiceThereOrShiftedAreRefused) {
   std::filesystem::remove(gap.folder / slice_name(7));
   twice.put(7, Series::slice(2).bytes());
   for (int k = 0; k < 5; ++k) {
-    Drawn drawn = Series::slice(k);
+    DrawnSlice drawn = Series::slice(k);
     drawn.position = "-1\\" + std::to_string(k) + "\\" + std::to_string(2 * k);
     tilted.put(k, drawn.bytes());
   }
@@ -155,7 +109,7 @@ TEST(DicomSeries, NoneOrTwoInAFolderAreRefused) {
   folder.write("timezone", "Etc/UTC\n");
   EXPECT_TRUE(says(refusal([&] { read_image(folder.path()); }), {folder.path().string(), "no DICOM"}));
   Series two;
-  Drawn other;
+  DrawnSlice other;
   other.series = "1.2.3.9";
   two.put(8, other.bytes());
   EXPECT_TRUE(says(two.fault(), {"exactly one DICOM series", "2"}));
@@ -169,7 +123,7 @@ TEST(DicomSeries, NestedSequencesArePassedOverAndCutOnesRefused) {
   const std::string end = little_endian(0xfffe, 2) + little_endian(0xe00d, 2) + std::string(4, '\0') +
                           little_endian(0xfffe, 2) + little_endian(0xe0dd, 2) + std::string(4, '\0');
   Series series;
-  Drawn drawn = Series::slice(2);
+  DrawnSlice drawn = Series::slice(2);
   drawn.sequence = begin + end;
   series.put(2, drawn.bytes());
   EXPECT_EQ(series.fault(), "");

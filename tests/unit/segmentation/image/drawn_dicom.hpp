@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace brainshift::test {
+
+inline std::string little_endian(std::uint64_t value, int bytes) {
+  std::string text;
+  for (int i = 0; i < bytes; ++i) {
+    text += static_cast<char>(value >> (8 * i) & 0xff);
+  }
+  return text;
+}
+
+inline std::string element(std::uint64_t group, std::uint64_t number, const std::string& kind, std::string value) {
+  value += value.size() % 2 == 0 ? "" : std::string(1, kind == "UI" ? '\0' : ' ');
+  const bool is_long = kind == "OB" || kind == "OW" || kind == "SQ";
+  return little_endian(group, 2) + little_endian(number, 2) + kind +
+         (is_long ? std::string(2, '\0') + little_endian(value.size(), 4) : little_endian(value.size(), 2)) + value;
+}
+
+/// A slice of an MR series in explicit little endian; pixel (i, j) holds value + i + 10 j.
+struct DrawnSlice {
+  std::uint64_t rows = 3, columns = 4, bits = 16, value = 100;
+  std::string series = "1.2.3.4", spacing = "0.8\\0.7", orientation = "1\\0\\0\\0\\1\\0", position = "-1\\-2\\0";
+  std::string sequence;
+  std::string modality = "MR", study, frame_of_reference;
+  std::string rescale;  ///< slope and intercept, a backslash between
+
+  std::string header() const {
+    const std::string meta = element(2, 2, "UI", "1.2.840.10008.5.1.4.1.1.4") +
+                             element(2, 3, "UI", "1.2.3.5." + position.substr(position.rfind('\\') + 1)) +
+                             element(2, 0x10, "UI", "1.2.840.10008.1.2.1");
+    return std::string(128, '\0') + "DICM" + element(2, 0, "UL", little_endian(meta.size(), 4)) + meta +
+           element(8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.4") +
+           element(8, 0x18, "UI", "1.2.3.5." + position.substr(position.rfind('\\') + 1)) +
+           element(8, 0x60, "CS", modality) + sequence + element(0x10, 0x10, "PN", "Somebody") +
+           (study.empty() ? "" : element(0x20, 0xd, "UI", study)) + element(0x20, 0xe, "UI", series) +
+           element(0x20, 0x32, "DS", position) + element(0x20, 0x37, "DS", orientation) +
+           (frame_of_reference.empty() ? "" : element(0x20, 0x52, "UI", frame_of_reference)) +
+           element(0x28, 2, "US", little_endian(1, 2)) + element(0x28, 4, "CS", "MONOCHROME2") +
+           element(0x28, 0x10, "US", little_endian(rows, 2)) + element(0x28, 0x11, "US", little_endian(columns, 2)) +
+           element(0x28, 0x30, "DS", spacing) + element(0x28, 0x100, "US", little_endian(bits, 2)) +
+           element(0x28, 0x101, "US", little_endian(bits, 2)) + element(0x28, 0x102, "US", little_endian(bits - 1, 2)) +
+           element(0x28, 0x103, "US", little_endian(0, 2)) + rescaling();
+  }
+  std::string rescaling() const {
+    const std::size_t slash = rescale.find('\\');
+    return rescale.empty() ? ""
+                           : element(0x28, 0x1052, "DS", rescale.substr(slash + 1)) +
+                                 element(0x28, 0x1053, "DS", rescale.substr(0, slash));
+  }
+  std::string bytes() const {
+    std::string pixels;
+    for (std::uint64_t j = 0; j < rows; ++j) {
+      for (std::uint64_t i = 0; i < columns; ++i) {
+        pixels += little_endian(value + i + 10 * j, static_cast<int>(bits / 8));
+      }
+    }
+    return header() + element(0x7fe0, 0x10, "OW", pixels);
+  }
+};
+
+}  // namespace brainshift::test
