@@ -49,7 +49,7 @@ double register_memory(const Scene& scene, const RunSize& size) {
 }
 
 double report_memory(const RunSize& size) {
-  constexpr double pictures = 34, voxel = 44;
+  constexpr double pictures = 42, voxel = 44;
   return program + pictures + size.voxels * voxel / mb;
 }
 
