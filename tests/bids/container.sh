@@ -56,7 +56,7 @@ make_debian() {
 }
 
 run_app() { # WORD... ; in a container of the image, as docker run does with --user and --volume
-  own_buildah run --isolation chroot --user 1234:1234 --volume "$out/study:/study" \
+  own_buildah run --isolation chroot --user 1234:1234 --volume "$out/study:/study" --volume "$out/study/bids:/bids:ro" \
     --volume "$root/tests/bids:/tests:ro" "$container" -- "$@"
 }
 
@@ -80,12 +80,12 @@ own_buildah build --isolation chroot --pull-never --volume "$out/debs:/debs:ro" 
   --file "$root/pipelines/bids/Dockerfile" --tag brainshift "$root"
 
 rm -rf "$out/study"
-mkdir -m 777 "$out/study"
+mkdir -m 777 "$out/study" "$out/study/bids"
 container=$(own_buildah from --pull-never brainshift)
 run_app python3 /tests/make_cohort.py brainshift /study/bids 2 0
 # What buildah runs is not the image's ENTRYPOINT, which docker begins with.
 entry=$(own_buildah inspect --format '{{index .OCIv1.Config.Entrypoint 0}}' brainshift)
-run_app "$entry" /study/bids /study/out participant --set discretise.nodes=300 --set segment.edge_length=11
+run_app "$entry" /bids /study/out participant --set discretise.nodes=300 --set segment.edge_length=11
 own_buildah rm "$container"
 test -s "$out/study/out/group.html"
 echo "The image is built and the App ran in it: $out/study/out/group.html"
