@@ -20,19 +20,20 @@ inline Eigen::Map<Eigen::Vector4d> at(NodalVectors& v, std::size_t node) {
 }
 
 /// Sums term(node) over the nodes with all threads, in an order that does not depend on their number.
-template <class Term>
-double sum_over_nodes(std::size_t nodes, const Term& term) {
+/// zero: the sum over none, where terms are no numbers.
+template <class Term, class Sum = double>
+Sum sum_over_nodes(std::size_t nodes, const Term& term, const Sum& zero = 0.0) {
   constexpr std::size_t chunks = 64;
-  std::array<double, chunks> partial;
+  std::array<Sum, chunks> partial;
 #pragma omp parallel for schedule(static)
   for (std::size_t c = 0; c < chunks; ++c) {
-    double sum = 0;
+    Sum sum = zero;
     for (std::size_t a = c * nodes / chunks; a < (c + 1) * nodes / chunks; ++a) {
       sum += term(a);
     }
     partial[c] = sum;
   }
-  return std::accumulate(partial.begin(), partial.end(), 0.0);
+  return std::accumulate(partial.begin(), partial.end(), zero);
 }
 
 /// Largest |component| of a − b; NaN where one is.

@@ -45,6 +45,21 @@ struct Body {
   ExternalForce external;
 
   std::size_t nodes() const { return original.size(); }
+
+  bool may_touch() const { return contact || face_contact || septum_contact; }
+
+  /// Puts what is beyond the skull, another face of a cut or a septum back.
+  void touch(NodalVectors& parameters) {
+    if (contact) {
+      contact->apply(parameters);
+    }
+    if (face_contact) {
+      face_contact->apply(parameters);
+    }
+    if (septum_contact) {
+      septum_contact->apply(parameters);
+    }
+  }
 };
 
 }  // namespace brainshift::solve

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -116,6 +117,18 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
 
 bool EssentialConditions::nothing_prescribed() const {
   return std::all_of(component_.begin(), component_.end(), [](const Component& c) { return c.prescribed.size() == 0; });
+}
+
+std::vector<std::int32_t> EssentialConditions::nodes() const {
+  std::set<std::int32_t> nodes;
+  for (const Component& c : component_) {
+    for (Eigen::Index i = 0; i < c.shape.rows(); ++i) {
+      for (RowMatrix::InnerIterator entry(c.shape, i); entry; ++entry) {
+        nodes.insert(static_cast<std::int32_t>(entry.col()));
+      }
+    }
+  }
+  return {nodes.begin(), nodes.end()};
 }
 
 void EssentialConditions::factorise(std::span<const double> mass, double alpha) {

@@ -37,6 +37,9 @@ class EssentialConditions {
   EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names,
                       const Measurement& measured, const ShapeRows& inner_rows);
 
+  /// Nodes whose parameters are in any of the conditions, ascending.
+  std::vector<std::int32_t> nodes() const;
+
   /// Factorises (or lumps) V M⁻¹ Vᵀ for nodal masses (one a node); alpha of the steps, where conditions give way.
   /// Throws TooFewNodes, naming a node, when it is singular: two constrained nodes say the same.
   void factorise(std::span<const double> mass, double alpha = 1);

@@ -112,16 +112,11 @@ void Motion::step(const PointLaws& laws, std::span<const double> mass, double al
     const auto a = static_cast<std::size_t>(i);
     at(next, a) = at(now, a) + beta * (at(now, a) - at(before, a)) - alpha / mass[a] * at(force, a);
   }
-  if (body.contact) {
-    body.contact->apply(next);
-  }
-  if (body.face_contact) {
-    body.face_contact->apply(next);
-  }
-  if (body.septum_contact) {
-    body.septum_contact->apply(next);
-  }
+  body.touch(next);
   body.essential.apply(fraction, next);
+  if (rigid_modes) {
+    rigid_modes->add(mass, beta, now, before, next);
+  }
   add_energies(mass, alpha, beta, fraction);
   std::swap(before, now);
   std::swap(now, next);
@@ -143,9 +138,7 @@ void Motion::add_energies(std::span<const double> mass, double alpha, double bet
   dissipated_ += lost_work_ / 2;
   lost_work_ = 0;
   if (beta < 1) {
-    lost_work_ = (1 - beta) / (4 * alpha) * sum_over_nodes(body.nodes(), [this, mass](std::size_t a) {
-                   return mass[a] * (at(next, a) - at(before, a)).squaredNorm();
-                 });
+    lost_work_ = (1 - beta) / (4 * alpha) * inertia(mass, next, before);
   }
   if (body.contact) {
     lost_work_ -= body.contact->push_work(before, next) / alpha;
@@ -155,12 +148,33 @@ void Motion::add_energies(std::span<const double> mass, double alpha, double bet
   }
   dissipated_ += lost_work_ / 2;
   if (beta != beta_ && alpha == alpha_) {  // relaxation damps anew: with h² = 2α/(1 + β) the energy of motion jumps
-    dissipated_ += (beta_ - beta) / (4 * alpha) * sum_over_nodes(body.nodes(), [this, mass](std::size_t a) {
-                     return mass[a] * (at(now, a) - at(before, a)).squaredNorm();
-                   });
+    dissipated_ += (beta_ - beta) / (4 * alpha) * inertia(mass, now, before);
   }
   fraction_before_ = fraction_;
   fraction_ = fraction;
+}
+
+double Motion::inertia(std::span<const double> mass, const NodalVectors& x, const NodalVectors& y) const {
+  const double whole =
+      sum_over_nodes(body.nodes(), [&, mass](std::size_t a) { return mass[a] * (at(x, a) - at(y, a)).squaredNorm(); });
+  return rigid_modes ? whole - rigid_modes->less_inertia(mass, x, y) : whole;
+}
+
+void Motion::multiply_by_masses(std::span<const double> mass, NodalVectors& v) const {
+  if (rigid_modes) {
+    rigid_modes->lighten(mass, v);
+  }
+  for (std::size_t a = 0; a < body.nodes(); ++a) {
+    at(v, a) *= mass[a];
+  }
+}
+
+/// The energy of motion jumps, as where the damping changes.
+void Motion::quicken(std::span<const double> mass, const RigidModes::Matrix& tissue,
+                     const RigidModes::Matrix& contact) {
+  const double inertia_before = inertia(mass, now, before);
+  rigid_modes->weigh(mass, tissue, contact);
+  dissipated_ += (1 + beta_) / (4 * alpha_) * (inertia_before - inertia(mass, now, before));
 }
 
 void Motion::start_from(const NodalVectors& parameters, const PointLaws& laws) {
@@ -241,14 +255,12 @@ void Motion::fail(const std::string& why, const HistoryRow& latest, const Fault&
 
 /// The velocity at the last force is that over the steps on its two sides.
 HistoryRow Motion::row(std::span<const double> mass, const PointState& state) const {
-  const double inertia = sum_over_nodes(
-      body.nodes(), [this, mass](std::size_t a) { return mass[a] * (at(now, a) - at(next, a)).squaredNorm(); });
   HistoryRow row;
   row.step = result.steps;
   row.time = time;
   row.external_work = external_work_ * energy_unit;
   row.strain_energy = state.strain_energy * energy_unit;
-  row.kinetic_energy = inertia * (1 + beta_) / (16 * alpha_) * energy_unit;
+  row.kinetic_energy = inertia(mass, now, next) * (1 + beta_) / (16 * alpha_) * energy_unit;
   row.dissipated_energy = dissipated_ * energy_unit;
   row.reaction = newton * body.essential.reaction_of_loaded(alpha_);
   return row;
@@ -284,6 +296,7 @@ bool Motion::change(const BodyChange& change, const PointLaws& laws, double curv
 
 void Motion::go_on_with(ChangedBody changed, const PointLaws& laws) {
   body = std::move(changed.body);
+  rigid_modes.reset();
   for (NodalVectors* v : {&now, &before, &next, &good_}) {
     *v = changed.parameters(*v);
   }
@@ -301,9 +314,8 @@ void Motion::go_on_with(ChangedBody changed, const PointLaws& laws) {
 
 double Motion::energy(const PointLaws& laws, std::span<const double> mass) {
   find_force(laws);
-  const double motion = sum_over_nodes(
-      body.nodes(), [this, mass](std::size_t a) { return mass[a] * (at(now, a) - at(before, a)).squaredNorm(); });
-  return point_state(body.points, laws, scratch).strain_energy + motion * (1 + beta_) / (4 * alpha_);
+  return point_state(body.points, laws, scratch).strain_energy +
+         inertia(mass, now, before) * (1 + beta_) / (4 * alpha_);
 }
 
 SteppingResult Motion::finish() {

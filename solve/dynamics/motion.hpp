@@ -4,13 +4,14 @@
 #include <optional>
 #include <span>
 
+#include "solve/dynamics/rigid_modes.hpp"
 #include "solve/dynamics/stepping.hpp"
 
 namespace brainshift::solve {
 
 /// What relaxation and the transient share: the parameters over the last steps, the balance of their energies, and what
 /// is kept of them. A step is
-///   û⁺ = û + β(û − û⁻) + α M⁻¹ (f_ext − f_int),  then contact, then the essential conditions.
+///   û⁺ = û + β(û − û⁻) + α M⁻¹ (f_ext − f_int),  then contact, then the essential conditions, then RigidModes.
 /// Central differences with the step h and the damping c have α = 2h²/(2 + ch) and β = (2 − ch)/(2 + ch), so that
 /// h² = 2α/(1 + β) and c/h = (1 − β)/α. All energies are those at the last force, one step ago.
 class Motion {
@@ -31,6 +32,15 @@ class Motion {
 
   /// Goes on from û under the full load, at rest, with as much work done as the body holds. After weigh().
   void start_from(const NodalVectors& parameters, const PointLaws& laws);
+
+  /// v ← P⁻¹ v: the masses as a step sees them are `mass`, and P⁻¹ where there are rigid modes.
+  void multiply_by_masses(std::span<const double> mass, NodalVectors& v) const;
+
+  /// (x − y)ᵀ P⁻¹ (x − y).
+  double inertia(std::span<const double> mass, const NodalVectors& x, const NodalVectors& y) const;
+
+  /// Weighs rigid_modes: see RigidModes::weigh().
+  void quicken(std::span<const double> mass, const RigidModes::Matrix& tissue, const RigidModes::Matrix& contact);
 
   /// Keeps the state and adds a row to the history when the state is sound, else says in result.failure why it is not.
   /// most_imbalance: of the work and what became of it, over the largest of them so far; infinite: not looked at.
@@ -55,6 +65,8 @@ class Motion {
   NodalVectors now, before, next;
   NodalVectors force;    ///< f_int − f_ext at `before`, µN
   ForceScratch scratch;  ///< of the last internal force
+  /// Of relaxation; none: the masses of a step are those given. They go when the body changes.
+  std::optional<RigidModes> rigid_modes;
   SteppingResult result;
   double time = 0;
 

@@ -9,6 +9,7 @@
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
 #include "solve/dynamics/motion.hpp"
+#include "solve/dynamics/quickening.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/force/stiffness_bound.hpp"
 
@@ -40,13 +41,15 @@ double stiffening(const PointLaws& laws) {
 
 class Relaxation {
  public:
-  /// cautious: masses from the bound, which holds whatever the state; else from the largest eigenvalue as measured.
+  /// cautious: masses from the bound, which holds whatever the state; else from the largest eigenvalue as measured, and
+  /// slow motions are made quicker.
   Relaxation(Body body, const Course& course, const SolveOptions& options, bool cautious)
       : course_(course),
         options_(options),
         motion_(std::move(body), options.snapshot_every),
         force_before_(motion_.force),
-        pace_(options.load_steps, course.change.by_state) {
+        pace_(options.load_steps, course.change.by_state),
+        cautious_(cautious) {
     internal_force(points(), laws(), motion_.now, motion_.scratch, motion_.force);
     mass_ = stiffness_bound(points(), laws(), motion_.scratch);
     if (!cautious) {
@@ -115,7 +118,7 @@ class Relaxation {
         mass_[a] = mass_margin * bound[a];  // in full: how tight it is was measured for other supports
       }
     }
-    motion_.weigh(mass_, alpha);
+    weigh();
     bound_.reset();
     calm_ = 0;
     pace_.wait();
@@ -149,6 +152,9 @@ class Relaxation {
     if (windows % (motion_.time < 1 ? 3 : 10) == 0) {
       follow_stiffness();
     }
+    if (motion_.time >= 1 && !cautious_) {
+      quickening_.look(motion_, mass_, critical_beta(lowest_), lowest_);
+    }
   }
 
   /// A_0 from the last increments: `before` and the force are one step after `next` and the force before.
@@ -157,8 +163,7 @@ class Relaxation {
     const double stiffness = sum_over_nodes(nodes(), [&](std::size_t a) {
       return (at(m.before, a) - at(m.next, a)).dot(at(m.force, a) - at(force_before_, a));
     });
-    const double inertia = sum_over_nodes(
-        nodes(), [&](std::size_t a) { return mass_[a] * (at(m.before, a) - at(m.next, a)).squaredNorm(); });
+    const double inertia = m.inertia(mass_, m.before, m.next);
     if (inertia > 0 && stiffness > 0) {
       lowest_ = std::clamp(stiffness / inertia + spring_stiffness(), smallest_eigenvalue, largest_eigenvalue_of_beta);
     }
@@ -171,9 +176,7 @@ class Relaxation {
     if (!(work > 0)) {
       return 0;
     }
-    return work / sum_over_nodes(nodes(), [&](std::size_t a) {
-             return mass_[a] * (at(m.now, a) - at(m.before, a)).squaredNorm();
-           });
+    return work / m.inertia(mass_, m.now, m.before);
   }
 
   /// The bound that is wanted, mm: of a small load's answer not more than a small part is left open.
@@ -203,9 +206,12 @@ class Relaxation {
   double residual() {
     const Motion& m = motion_;
     const double beta = critical_beta(lowest_);
-    const double push = sum_over_nodes(nodes(), [&](std::size_t a) {
-      return mass_[a] / alpha * (at(m.now, a) - at(m.before, a) - beta * (at(m.before, a) - at(m.next, a))).norm();
-    });
+    NodalVectors step = m.now;
+    for (std::size_t a = 0; a < nodes(); ++a) {
+      at(step, a) -= at(m.before, a) + beta * (at(m.before, a) - at(m.next, a));
+    }
+    m.multiply_by_masses(mass_, step);
+    const double push = sum_over_nodes(nodes(), [&](std::size_t a) { return at(step, a).norm(); }) / alpha;
     const double force = sum_over_nodes(nodes(), [&](std::size_t a) { return at(m.force, a).norm(); });
     const double most = std::max(force, force_at_rest_);
     force_at_rest_ = push <= residual_at_rest * most ? most : force_at_rest_;
@@ -223,8 +229,13 @@ class Relaxation {
       for (std::size_t a = 0; a < nodes(); ++a) {
         mass_[a] = std::max(mass_[a], mass_margin * mass_scale_ * bound[a]);
       }
-      motion_.weigh(mass_, alpha);
+      weigh();
     }
+  }
+
+  void weigh() {
+    motion_.weigh(mass_, alpha);
+    quickening_.weigh(motion_, mass_, critical_beta(lowest_));
   }
 
   void report_progress(const Progress& progress) const {
@@ -256,6 +267,8 @@ class Relaxation {
   double lowest_ = 1e-4;  // A_0: a guess until there are increments
   ErrorBound bound_{window};
   LoadPace pace_;
+  Quickening quickening_{alpha};
+  bool cautious_;
   double farthest_ = 0;       // largest |û| on the way, mm
   double force_at_rest_ = 0;  // largest sum of |f_int| of a state at rest, µN
   int calm_ = 0;              // last rows of the history with a residual as at rest
