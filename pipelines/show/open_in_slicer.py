@@ -122,6 +122,11 @@ def _add_points(slicer, name, colour, places):
     return node
 
 
+def overlay_of(nodes):
+    """What of the nodes is laid over the image: the uncertainty, else the estimated error, else None."""
+    return next((what for what in OVERLAYS if what in nodes), None)
+
+
 def show(run, slicer, t1=None):
     """Loads what the run has and shows it; t1: the node of the T1 where it is loaded already. {what: node}."""
     record, files = record_of(run), files_of(run)
@@ -147,13 +152,12 @@ def show(run, slicer, t1=None):
         before, after = zip(*measured_points(files["load"]))
         nodes["before"] = _add_points(slicer, "Measured before", (0.2, 0.4, 1.0), before)
         nodes["after"] = _add_points(slicer, "Measured after", (1.0, 0.3, 0.2), after)
-    overlays = [what for what in OVERLAYS if what in nodes]
-    for what in overlays:
-        _show_overlay(slicer, nodes[what], OVERLAYS[what])
+    for what in OVERLAYS:
+        if what in nodes:
+            _show_overlay(slicer, nodes[what], OVERLAYS[what])
     if "warped" in nodes:
-        foreground = nodes[overlays[0]] if overlays else None
         slicer.util.setSliceViewerLayers(
-            background=nodes["warped"], foreground=foreground, foregroundOpacity=0.0, fit=True
+            background=nodes["warped"], foreground=nodes.get(overlay_of(nodes)), foregroundOpacity=0.0, fit=True
         )
     slicer.util.resetThreeDViews()
     return nodes

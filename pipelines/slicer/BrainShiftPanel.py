@@ -122,7 +122,7 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
         self.report = qt.QPushButton("Open the report")
         form.addRow(self.table)
         form.addRow(self.contours)
-        form.addRow("Estimated error:", self.overlay)
+        form.addRow("Uncertainty, or estimated error:", self.overlay)
         form.addRow("Other data:", self.moved)
         form.addRow(self.move)
         form.addRow(self.report)
@@ -134,7 +134,7 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
 
     def _enable_results(self):
         self.contours.enabled = self.move.enabled = "transform" in self.nodes
-        self.overlay.enabled = "error" in self.nodes
+        self.overlay.enabled = open_in_slicer.overlay_of(self.nodes) is not None
         self.report.enabled = self.run is not None and "report" in open_in_slicer.files_of(self.run)
 
     def chosen(self):
@@ -215,7 +215,8 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
         self.nodes["transform"].GetDisplayNode().SetVisibility(checked)
 
     def on_overlay(self, value):
-        slicer.util.setSliceViewerLayers(foreground=self.nodes["error"], foregroundOpacity=value)
+        shown = self.nodes[open_in_slicer.overlay_of(self.nodes)]
+        slicer.util.setSliceViewerLayers(foreground=shown, foregroundOpacity=value)
 
     def on_move(self):
         for node in self.moved.checkedNodes():

@@ -90,6 +90,31 @@ def by_mrtrix(head):
         "mrtransform", image, "-warp", places, "-interp", "linear", out, "-force", "-quiet"))
 
 
+def by_fnirt(head):
+    """FSL's own convention, as Workbench writes it: relative, at voxels scaled to mm, of which a head with a positive
+    determinant counts x from the other side. numpy looks it up."""
+    fnirt = head.folder / "fnirt.nii.gz"
+    quietly("wb_command", "-convert-warpfield", "-from-itk", head.resampling_file, "-to-fnirt", fnirt,
+            head.folder / "head/t1.nii.gz")
+    scale = np.diag([*head.t1.header.get_zooms()[:3], 1])
+    if np.linalg.det(head.t1.affine) > 0:
+        scale = np.diag([-1, 1, 1, 1]) @ scale
+        scale[0, 3] = -scale[0, 0] * (1 - head.t1.shape[0])
+    shift = np.asarray(nibabel.load(fnirt).dataobj).squeeze()
+    index = np.moveaxis(np.indices(head.t1.shape), 0, -1)
+    places = nibabel.affines.apply_affine(np.linalg.inv(scale), nibabel.affines.apply_affine(scale, index) + shift)
+    yield "FSL's field", head.ramps_apart(lambda image, out: look_up(image, places, out))
+
+
+def look_up(image, index, out):
+    """An image's values at indices, one for each voxel; 0 outside."""
+    image = nibabel.load(image)
+    inside = ((index >= 0) & (index <= np.array(image.shape) - 1)).all(axis=-1)
+    values = np.zeros(image.shape)
+    values[inside] = trilinear(image.get_fdata()[..., None], index[inside])[:, 0]
+    nibabel.save(nibabel.Nifti1Image(values, image.affine), out)
+
+
 def by_workbench(head):
     for field, name in ((head.forward_file, "forward"), (head.resampling_file, "resampling")):
         quietly("wb_command", "-convert-warpfield", "-from-itk", field, "-to-world", head.folder / f"{name}_world.nii.gz")
@@ -174,20 +199,35 @@ def by_simpleitk(head):
 
 
 def by_itk_wasm(head):
-    """ITK 5.4 in JavaScript reads the transform and the field; numpy looks up what it read."""
+    """ITK 5.4 in JavaScript reads transforms and fields; numpy looks up what it read."""
     for what, path in (("transform .h5", head.points_transform), ("field .nii.gz", head.forward_file)):
-        out = head.folder / "read.json"
-        quietly("node", HERE / "read_itk_wasm.mjs", head.folder, path, out)
-        read = json.loads(out.read_text())
-        affine = np.eye(4)
-        affine[:3, :3] = np.reshape(read["direction"], (3, 3)) @ np.diag(read["spacing"])
-        affine[:3, 3] = read["origin"]
-        values = np.fromfile(str(out) + ".values", dtype=np.float64).reshape([*read["size"][::-1], 3]).transpose(2, 1, 0, 3)
-        index = nibabel.affines.apply_affine(np.linalg.inv(affine), head.points)
-        inside = ((index >= 0) & (index <= np.array(read["size"]) - 1)).all(axis=1)
-        moved = head.points.copy()
-        moved[inside] += trilinear(values, index[inside])
-        yield f"points, {what}", points_apart(head, moved)
+        yield f"points, {what}", points_apart(head, head.points + read_by_itk_wasm(head, path)(head.points))
+    index = np.moveaxis(np.indices(head.t1.shape), 0, -1)
+    voxels = nibabel.affines.apply_affine(head.t1.affine, index) * TO_RAS
+    slicers = head.image_transform.with_suffix(".nrrd")
+    for what, path in (("transform .h5", head.image_transform), ("field .nrrd", slicers), ("field .nii.gz", head.resampling_file)):
+        places = head.to_index(voxels + read_by_itk_wasm(head, path)(voxels))
+        yield f"image, {what}", head.ramps_apart(lambda image, out: look_up(image, places, out))  # noqa: B023
+
+
+def read_by_itk_wasm(head, path):
+    """What it read, as a function: the displacement at places; 0 beyond the grid, as ITK has it."""
+    out = head.folder / "read.json"
+    quietly("node", HERE / "read_itk_wasm.mjs", head.folder, path, out)
+    read = json.loads(out.read_text())
+    affine = np.eye(4)
+    affine[:3, :3] = np.reshape(read["direction"], (3, 3)) @ np.diag(read["spacing"])
+    affine[:3, 3] = read["origin"]
+    values = np.fromfile(str(out) + ".values", dtype=np.float64).reshape([*read["size"][::-1], 3]).transpose(2, 1, 0, 3)
+
+    def displacement(points):
+        index = nibabel.affines.apply_affine(np.linalg.inv(affine), points)
+        inside = ((index >= 0) & (index <= np.array(read["size"]) - 1)).all(axis=-1)
+        found = np.zeros_like(points)
+        found[inside] = trilinear(values, index[inside])
+        return found
+
+    return displacement
 
 
 def has_itk_wasm(folder):
@@ -199,6 +239,7 @@ def main(program, folder):
     has = shutil.which
     checks = [("nibabel", by_numpy, True), ("nibabel", tracts_by_nibabel, True), ("nibabel", surface_by_nibabel, True),
               ("MRtrix", by_mrtrix, has("tcktransform") and has("mrtransform")), ("Workbench", by_workbench, has("wb_command")),
+              ("Workbench", by_fnirt, has("wb_command")),
               ("plastimatch", by_plastimatch, has("plastimatch")), ("transformix", by_transformix, has("transformix")),
               ("SimpleITK", by_simpleitk, importlib.util.find_spec("SimpleITK")), ("itk-wasm", by_itk_wasm, has_itk_wasm(folder))]
     head = Head(program, folder)

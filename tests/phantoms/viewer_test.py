@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The page's view in Chromium without a GPU and without a network: it is drawn, and the slider changes what is seen.
+"""The page's view in Chromium without a GPU and without a network: it is drawn; slider and colours change it.
 
   python3 viewer_test.py PROGRAM|PAGE.html [PICTURE]     the program: of a phantom's run. Exit 77 where there is no
   Chromium or the page has no view; PICTURE: what was seen last
@@ -103,6 +103,28 @@ def check(condition, what):
         sys.exit(f"{what}: not so")
 
 
+def share_that_differs(one, other):
+    return sum(1 for a, b in zip(one, other) if abs(a - b) > 16) / len(one)
+
+
+def colours(browser):
+    """Each changes what is seen without it; the choice is left as it was."""
+    names, chosen = browser.value("[...colours.options].map(({ text }) => text)"), browser.value("colours.value")
+    check(names == ["none", "displacement", "estimated error", "uncertainty", "volume ratio"], f"all colours are there ({names})")
+
+    def choose(number):
+        browser.value(f"delete document.body.dataset.view; colours.value = {number}; colours.dispatchEvent(new Event('input'))")
+        browser.until("document.body.dataset.view")
+        return pixels(browser.picture("canvas"))
+
+    seen = [choose(number) for number in range(len(names))]
+    choose(chosen)
+    for name, picture in zip(names[1:], seen[1:]):
+        differs = share_that_differs(seen[0], picture)
+        print(f"{name}: {100 * differs:.2f} % is coloured")
+        check(differs > 0.002, f"{name} is seen")
+
+
 def look(browser, page, picture):
     browser.open(page)
     said = browser.until("window.says?.textContent.startsWith('Click')")
@@ -110,6 +132,7 @@ def look(browser, page, picture):
     check(browser.value("document.querySelectorAll('#curves canvas').length") > 0, "curves are drawn")
     check("the tissue here moves" in browser.value("readout.textContent"), "a place is told")
     before = browser.picture("canvas")
+    colours(browser)
     browser.value("slider.value = 100; slider.dispatchEvent(new Event('input'))")
     browser.until("document.body.dataset.view === 'drawn at 100'")
     check("came" in browser.value("readout.textContent"), "the place is told as it lies after")
@@ -118,7 +141,7 @@ def look(browser, page, picture):
         pathlib.Path(picture).write_bytes(after)
     first, second = pixels(before), pixels(after)
     seen = sum(1 for value in first if value > 40) / len(first)
-    changed = sum(1 for a, b in zip(first, second) if abs(a - b) > 16) / len(first)
+    changed = share_that_differs(first, second)
     print(f"{100 * seen:.1f} % of the view is not dark, {100 * changed:.2f} % changes from before to after")
     check(seen > 0.05, "the view is not dark")
     check(changed > 0.002, "the slider changes what is seen")
@@ -132,9 +155,10 @@ def without_webgl(browser, page, _):
 
 
 def run_of_phantom(program, folder):
-    for command in (["phantom", "--size", "64", "--spacing", "3", "--out", f"{folder}/head"],
-                    ["run", f"{folder}/head/scene.xml", "--set", "discretise.nodes=1500", "--out", f"{folder}/run"]):
-        subprocess.run([program, *command, "--quiet"], check=True)
+    subprocess.run([program, "phantom", "--size", "64", "--spacing", "3", "--out", f"{folder}/head", "--quiet"], check=True)
+    scene = pathlib.Path(folder, "head/scene.xml")
+    scene.write_text(scene.read_text().replace("</scene>", '<uncertainty samples="2"/></scene>'))
+    subprocess.run([program, "run", scene, "--set", "discretise.nodes=1500", "--out", f"{folder}/run", "--quiet"], check=True)
     return pathlib.Path(folder, "run/report/index.html")
 
 

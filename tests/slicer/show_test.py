@@ -210,6 +210,12 @@ class Panel(unittest.TestCase):
         transform = self.panel.nodes["transform"]
         other.SetAndObserveTransformNodeID.assert_called_once_with(transform.GetID())
         self.panel.nodes["warped"].SetAndObserveTransformNodeID.assert_not_called()
+        self.panel.on_overlay(0.4)
+        layers = self.stub.slicer.util.setSliceViewerLayers
+        layers.assert_called_with(foreground=self.panel.nodes["error"], foregroundOpacity=0.4)
+        self.panel.nodes["uncertainty"] = MagicMock()
+        self.panel.on_overlay(0.5)
+        layers.assert_called_with(foreground=self.panel.nodes["uncertainty"], foregroundOpacity=0.5)
         self.panel.on_contours(False)
         transform.GetDisplayNode().SetVisibility.assert_called_with(False)
 
