@@ -17,8 +17,9 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int window = 20;           // steps between looks at the state
-constexpr double mass_margin = 1.1;  // stiffness may grow by this before the masses are made anew
+constexpr int window = 20;            // steps between looks at the state
+constexpr double far_from_rest = 10;  // bounds over the tolerance: nearer to the end nothing is gained
+constexpr double mass_margin = 1.1;   // stiffness may grow by this before the masses are made anew
 
 /// α of all steps. It stays the same: nodes in contact rest where a step's push and their way back cancel, which moves
 /// with α. Stable up to 2(1 + β) for A_m = 1; the best, 4/(1 + √A_0)², would save an eighth of the steps.
@@ -152,7 +153,7 @@ class Relaxation {
     if (windows % (motion_.time < 1 ? 3 : 10) == 0) {
       follow_stiffness();
     }
-    if (motion_.time >= 1 && !cautious_) {
+    if (motion_.time >= 1 && !cautious_ && (motion_.rigid_modes || bound_.value() > far_from_rest * tolerance())) {
       quickening_.look(motion_, mass_, critical_beta(lowest_), lowest_);
     }
   }
