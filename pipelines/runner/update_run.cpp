@@ -22,9 +22,9 @@ namespace {
 nlohmann::ordered_json record_of(const fs::path& run) {
   std::ifstream stream(run / "run.json");
   auto record = nlohmann::ordered_json::parse(stream, nullptr, false);
-  if (!record.is_object() || !record.contains("scene") || !record["scene"].is_string() ||
-      !record.contains("version") || !record["version"].is_string() || !record.contains("options") ||
-      !record["options"].is_object() || !record.contains("inputs") || !record["inputs"].is_array()) {
+  if (!record.is_object() || !record.contains("scene") || !record["scene"].is_string() || !record.contains("version") ||
+      !record["version"].is_string() || !record.contains("options") || !record["options"].is_object() ||
+      !record.contains("inputs") || !record["inputs"].is_array()) {
     refuse(run, "this is no run: it has no run.json that can be read; make one with 'brainshift run SCENE --out DIR'");
   }
   if (record["version"] != BRAINSHIFT_VERSION) {
@@ -110,8 +110,8 @@ void UpdatedRun::make_kept(const SolveJob& job, const Progress& progress) {
   if (const std::string why = solve::cannot_keep(input.model, input.options); !why.empty()) {
     refuse(run_, "the run cannot be updated: " + why + "; run a scene with the new load");
   }
-  kept_ = naming(run_.string(),
-                 [&] { return solve::keep(input.model, input.options, solution.displacement, progress); });
+  kept_ =
+      naming(run_.string(), [&] { return solve::keep(input.model, input.options, solution.displacement, progress); });
   try {
     make_folder(file_.parent_path());
     solve::write_kept(file_, kept_, key_);
@@ -123,12 +123,12 @@ void UpdatedRun::make_kept(const SolveJob& job, const Progress& progress) {
 StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const Progress& progress) {
   const solve::CraniotomyLoad load = solve::read_craniotomy_csv(file);
   if (load.sigma.rows() > 0) {
-    refuse(file, "it has standard deviations, but the run's load was met exactly; leave the columns sigma out, or run "
-                 "a scene with this load");
+    refuse(file,
+           "it has standard deviations, but the run's load was met exactly; leave the columns sigma out, or run "
+           "a scene with this load");
   }
-  const NodeCloud cloud{.positions = kept_.fine.body.positions,
-                        .spacing = kept_.fine.body.spacing,
-                        .on_surface = kept_.on_surface};
+  const NodeCloud cloud{
+      .positions = kept_.fine.body.positions, .spacing = kept_.fine.body.spacing, .on_surface = kept_.on_surface};
   const solve::SolveResult result = naming(file.string(), [&] {
     return solve::update(kept_, solve::prescribed_on_surface_nodes(cloud, load, opening_), progress);
   });

@@ -185,9 +185,9 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
   }
   body.essential.count_as_held(extras.held);
   if (model.skull) {
-    body.contact.emplace(
-        extras.skull ? std::move(extras.skull)
-                     : std::make_shared<const SignedDistance>(distance_for_contact(*model.skull, cloud)),
+    body.contact.emplace(extras.skull
+                             ? std::move(extras.skull)
+                             : std::make_shared<const SignedDistance>(distance_for_contact(*model.skull, cloud)),
                          cloud.positions, free_surface_nodes(cloud, cloud.conditions), parts.nodal_rows);
   }
   if (model.face_contact && !model.cuts.empty()) {

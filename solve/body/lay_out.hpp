@@ -13,9 +13,9 @@ namespace brainshift::solve {
 
 /// What of a body is not in its parts.
 struct LayOutExtras {
-  CutFacets cut = {};                        ///< that parts it, the septum too
-  std::span<const FacePair> faces = {};      ///< nodes of the cuts' faces, by the cloud's own numbers
-  std::span<const std::int32_t> held = {};   ///< ordered nodes whose prescribed displacement is held, not loaded
+  CutFacets cut = {};                       ///< that parts it, the septum too
+  std::span<const FacePair> faces = {};     ///< nodes of the cuts' faces, by the cloud's own numbers
+  std::span<const std::int32_t> held = {};  ///< ordered nodes whose prescribed displacement is held, not loaded
   std::shared_ptr<const SignedDistance> skull = {};  ///< of the model, where its distances are known already
 };
 

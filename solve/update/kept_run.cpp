@@ -123,8 +123,7 @@ NodalVectors moved_by(const Points& change, const KeptBody& kept) {
   const NodalVectors wanted = in_body_order(change, original);
   NodalVectors delta = wanted;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const NodalVectors has =
-        in_body_order(nodal_displacement(kept.body.nodal_rows, delta, original), original);
+    const NodalVectors has = in_body_order(nodal_displacement(kept.body.nodal_rows, delta, original), original);
     for (std::size_t i = 0; i < delta.size(); ++i) {
       delta[i] += wanted[i] - has[i];
     }
@@ -170,8 +169,7 @@ std::optional<KeptCoarse> keep_coarse(const Model& model, const SolveOptions& op
   }
   try {
     CoarseBody coarse = coarse_body(nodes, model, options, {});
-    SteppingResult stepped =
-        relax(std::move(coarse.prepared.body), {.curve = model.curve}, coarse.options, {});
+    SteppingResult stepped = relax(std::move(coarse.prepared.body), {.curve = model.curve}, coarse.options, {});
     if (!stepped.failure.empty()) {
       return std::nullopt;
     }

@@ -46,7 +46,8 @@ std::string cannot_keep(const Model& model, const SolveOptions& options);
 /// Prepares a solved model for other loads and brings it to rest once more, from where it lay. displacement: of its
 /// solution, (n × 3) mm. Throws as solve() does; std::invalid_argument where cannot_keep() says why, or the state does
 /// not come to rest.
-KeptRun keep(const Model& model, const SolveOptions& options, const Points& displacement, const Progress& progress = {});
+KeptRun keep(const Model& model, const SolveOptions& options, const Points& displacement,
+             const Progress& progress = {});
 
 /// The answer to another load, from the state of the last one; the kept run is at rest under it afterwards. Stops as
 /// solve() does. prescribed (n × 3) mm, NaN: free. Throws std::invalid_argument where it loads other nodes than before,
