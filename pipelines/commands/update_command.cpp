@@ -31,6 +31,34 @@ fs::path out_of(const UpdateArguments& arguments) {
   return out;
 }
 
+/// Answers the load into a folder that appears when it is whole.
+StageReport answer(UpdatedRun& run, const fs::path& load, const fs::path& out,
+                   std::chrono::steady_clock::time_point begin, Interruption& interruption, const Progress& progress) {
+  StageFolder folder(out, interruption);
+  const StageReport report = run.answer(load, folder.path(), progress);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  write_stage_record(folder.path(),
+                     {.stamp = "", .failure = report.failure, .entry = stage_entry(report, seconds, peak_memory_mb())});
+  folder.replace();
+  return report;
+}
+
+/// The same; a fault leaves no empty folder above it.
+StageReport answer_or_nothing(UpdatedRun& run, const fs::path& load, const fs::path& out,
+                              std::chrono::steady_clock::time_point begin, Interruption& interruption,
+                              const Progress& progress) {
+  const bool was_there = fs::exists(out.parent_path());
+  try {
+    return answer(run, load, out, begin, interruption, progress);
+  } catch (...) {
+    std::error_code ignored;
+    if (!was_there) {
+      fs::remove(out.parent_path(), ignored);
+    }
+    throw;
+  }
+}
+
 void update(const UpdateArguments& arguments, const Settings& settings) {
   Console console(settings.quiet, settings.verbose);
   const Progress progress = [&](double fraction, std::string_view what) {
@@ -46,12 +74,8 @@ void update(const UpdateArguments& arguments, const Settings& settings) {
   UpdatedRun run(arguments.run, *settings.interruption, progress);
   refuse_foreign_folder(out);
   refuse_foreign_folder(old_of(out));
-  StageFolder folder(out, *settings.interruption);
-  const StageReport report = run.answer(arguments.load, folder.path(), progress);
+  const StageReport report = answer_or_nothing(run, arguments.load, out, begin, *settings.interruption, progress);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_stage_record(folder.path(),
-                     {.stamp = "", .failure = report.failure, .entry = stage_entry(report, seconds, peak_memory_mb())});
-  folder.replace();
   for (const std::string& note : report.notes) {
     console.note(StageId::solve, note);
   }

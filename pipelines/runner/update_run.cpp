@@ -97,7 +97,7 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
   const SolveJob job = solve_job(scene, run_);
   opening_ = job.load->opening;
   report(progress, 0, "reading");
-  if (auto kept = solve::read_kept(file_, key_, job.materials)) {
+  if (auto kept = solve::read_kept(file_, key_, job.materials, job.options)) {
     kept_ = std::move(*kept);
   } else {
     make_kept(job, progress);

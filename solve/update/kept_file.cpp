@@ -108,10 +108,36 @@ void rows(Archive& archive, Rows& rows) {
   archive.many(rows.derivative);
 }
 
+/// By their members: between them there may be bytes that nobody has set.
+void divisions(Writer& writer, const PointBlocks& points) {
+  std::vector<std::int64_t> flat;
+  for (const Block& b : points.blocks) {
+    flat.insert(flat.end(), {b.first_patch, b.last_patch, b.first_slot, b.slots});
+  }
+  writer.many(flat);
+  flat.clear();
+  for (const Patch& p : points.patches) {
+    flat.insert(flat.end(), {p.first_point, p.last_point, p.material, p.first_slot});
+  }
+  writer.many(flat);
+}
+
+void divisions(Reader& reader, PointBlocks& points) {
+  const auto whole = [](std::int64_t number) { return static_cast<std::int32_t>(number); };
+  std::vector<std::int64_t> flat;
+  reader.many(flat);
+  for (std::size_t i = 0; i + 3 < flat.size(); i += 4) {
+    points.blocks.push_back({whole(flat[i]), whole(flat[i + 1]), flat[i + 2], whole(flat[i + 3])});
+  }
+  reader.many(flat);
+  for (std::size_t i = 0; i + 3 < flat.size(); i += 4) {
+    points.patches.push_back({whole(flat[i]), whole(flat[i + 1]), whole(flat[i + 2]), flat[i + 3]});
+  }
+}
+
 template <class Archive, class Blocks>
 void blocks(Archive& archive, Blocks& points) {
-  archive.many(points.blocks);
-  archive.many(points.patches);
+  divisions(archive, points);
   archive.many(points.volume);
   archive.many(points.mode);
   archive.many(points.pair_begin);
@@ -241,7 +267,6 @@ std::optional<std::vector<char>> payload(const fs::path& file, const std::string
 void write_kept(const fs::path& file, const KeptRun& kept, const std::string& key) {
   std::vector<char> bytes;
   Writer writer(bytes);
-  writer.plain(kept.options);
   kept_run(writer, kept);
   write_forces(writer, kept.fine.body);
   write_skull(writer, kept.fine.body.contact);
@@ -270,7 +295,7 @@ void write_kept(const fs::path& file, const KeptRun& kept, const std::string& ke
 }
 
 std::optional<KeptRun> read_kept(const fs::path& file, const std::string& key,
-                                 const std::map<std::int32_t, Material>& materials) {
+                                 const std::map<std::int32_t, Material>& materials, const SolveOptions& options) {
   const std::optional<std::vector<char>> bytes = payload(file, key);
   if (!bytes) {
     return std::nullopt;
@@ -278,8 +303,9 @@ std::optional<KeptRun> read_kept(const fs::path& file, const std::string& key,
   try {
     Reader reader(*bytes);
     KeptRun run;
-    reader.plain(run.options);
     kept_run(reader, run);
+    run.options = options;
+    run.options.precision = run.fine.body.points.precision();
     read_forces(reader, run.fine.body);
     const std::shared_ptr<const SignedDistance> skull = read_skull(reader);
     add_what_is_not_kept(run.fine, materials, skull);

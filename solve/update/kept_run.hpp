@@ -58,8 +58,9 @@ SolveResult update(KeptRun& kept, const Points& prescribed, const Progress& prog
 /// Writes it whole or not at all. key: of what it was made from. Throws std::runtime_error, naming the file.
 void write_kept(const std::filesystem::path& file, const KeptRun& kept, const std::string& key);
 
-/// Nothing where there is no such file, it has another key, or it is damaged. materials: those of the model.
+/// Nothing where there is no such file, it has another key, or it is damaged. materials, options: those of
+/// the model, as they were asked for.
 std::optional<KeptRun> read_kept(const std::filesystem::path& file, const std::string& key,
-                                 const std::map<std::int32_t, Material>& materials);
+                                 const std::map<std::int32_t, Material>& materials, const SolveOptions& options);
 
 }  // namespace brainshift::solve
