@@ -123,6 +123,7 @@ int run_program(int argc, char** argv) {
   add_solve_command(program, settings);
   add_register_command(program, settings);
   add_warp_command(program, settings);
+  add_update_command(program, settings);
   add_report_command(program, settings);
   add_phantom_command(program, settings);
   add_scene_command(program, settings);

@@ -210,29 +210,30 @@ SignedDistance::SignedDistance(const Surface& surface, const SignedDistanceOptio
       sweep(frames, grid, band, {along, across, false}, nearest);
     }
   }
-  spacing_ = grid.spacing;
-  origin_ = grid.origin;
-  size_ = grid.size;
-  horizon_ = options.far ? std::numeric_limits<double>::infinity() : band;
-  samples_ = signed_samples(frames, normals, grid, band, horizon_, nearest);
+  const double horizon = options.far ? std::numeric_limits<double>::infinity() : band;
+  samples_ = {.spacing = grid.spacing,
+              .horizon = horizon,
+              .origin = grid.origin,
+              .size = grid.size,
+              .value = signed_samples(frames, normals, grid, band, horizon, nearest)};
 }
 
 double SignedDistance::value(const Eigen::Vector3d& position) const {
-  const Eigen::Array3d wanted = (position - origin_).array() / spacing_;
-  const Eigen::Array3d inside = wanted.max(0.0).min((size_ - 1).cast<double>());
-  const GridCell cell(size_, wanted);
-  const double sampled = cell.interpolate([this](std::size_t offset) { return samples_[offset]; });
-  return sampled + spacing_ * (wanted - inside).matrix().norm();
+  const Eigen::Array3d wanted = (position - samples_.origin).array() / samples_.spacing;
+  const Eigen::Array3d inside = wanted.max(0.0).min((samples_.size - 1).cast<double>());
+  const GridCell cell(samples_.size, wanted);
+  const double sampled = cell.interpolate([this](std::size_t offset) { return samples_.value[offset]; });
+  return sampled + samples_.spacing * (wanted - inside).matrix().norm();
 }
 
 Eigen::Vector3d SignedDistance::gradient(const Eigen::Vector3d& position) const {
   Eigen::Vector3d difference;
   for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Vector3d half = 0.5 * spacing_ * Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector3d half = 0.5 * samples_.spacing * Eigen::Vector3d::Unit(axis);
     difference[axis] = value(position + half) - value(position - half);
   }
   // Beyond the horizon the distance is the same everywhere, but for rounding: it has no direction there.
-  return difference.norm() > 1e-6 * spacing_ ? difference.normalized() : Eigen::Vector3d::Zero();
+  return difference.norm() > 1e-6 * samples_.spacing ? difference.normalized() : Eigen::Vector3d::Zero();
 }
 
 }  // namespace brainshift

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "segmentation/geometry/surface.hpp"
@@ -28,6 +29,17 @@ class SignedDistance {
   /// empty, not finite, open or not 2-manifold, inside out, or too large for the grid (not in millimetres?).
   explicit SignedDistance(const Surface& surface, const SignedDistanceOptions& options = {});
 
+  /// What it answers from.
+  struct Samples {
+    double spacing = 1, horizon = 0;
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    Eigen::Array3i size = Eigen::Array3i::Zero();
+    std::vector<float> value;  ///< mm, x fastest
+  };
+  /// From the samples of another.
+  explicit SignedDistance(Samples samples) : samples_(std::move(samples)) {}
+  const Samples& samples() const { return samples_; }
+
   /// Distance at a position, mm. Outside the grid: that at the nearest place of the grid plus the distance to there.
   /// NaN where the position is not finite.
   double value(const Eigen::Vector3d& position) const;
@@ -37,13 +49,10 @@ class SignedDistance {
   Eigen::Vector3d gradient(const Eigen::Vector3d& position) const;
 
   /// Where the surface is at least so far away only that is known, mm; infinite where all is sampled.
-  double horizon() const { return horizon_; }
+  double horizon() const { return samples_.horizon; }
 
  private:
-  double spacing_, horizon_;
-  Eigen::Vector3d origin_;
-  Eigen::Array3i size_;
-  std::vector<float> samples_;  ///< mm, x fastest
+  Samples samples_;
 };
 
 }  // namespace brainshift

@@ -78,7 +78,8 @@ ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamic
   return ExternalForce(std::move(at_levels));
 }
 
-/// The laws as stepping needs them: at rest relaxed materials have relaxed.
+}  // namespace
+
 PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics) {
   PointLaws laws;
   for (const Material& m : table.material) {
@@ -94,6 +95,8 @@ PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics)
   laws.in_time = dynamics == Dynamics::transient;
   return laws;
 }
+
+namespace {
 
 EssentialConditions essential_conditions(const SolveOptions& options, const BodyParts& parts) {
   const Conditions& conditions = parts.cloud.conditions;
@@ -182,7 +185,9 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
   }
   body.essential.count_as_held(extras.held);
   if (model.skull) {
-    body.contact.emplace(extras.skull ? std::move(*extras.skull) : distance_for_contact(*model.skull, cloud),
+    body.contact.emplace(extras.skull
+                             ? std::move(extras.skull)
+                             : std::make_shared<const SignedDistance>(distance_for_contact(*model.skull, cloud)),
                          cloud.positions, free_surface_nodes(cloud, cloud.conditions), parts.nodal_rows);
   }
   if (model.face_contact && !model.cuts.empty()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <span>
 
 #include "solve/body/body.hpp"
@@ -13,14 +13,17 @@ namespace brainshift::solve {
 
 /// What of a body is not in its parts.
 struct LayOutExtras {
-  CutFacets cut = {};                        ///< that parts it, the septum too
-  std::span<const FacePair> faces = {};      ///< nodes of the cuts' faces, by the cloud's own numbers
-  std::span<const std::int32_t> held = {};   ///< ordered nodes whose prescribed displacement is held, not loaded
-  std::optional<SignedDistance> skull = {};  ///< of the model, where its distances are known already
+  CutFacets cut = {};                       ///< that parts it, the septum too
+  std::span<const FacePair> faces = {};     ///< nodes of the cuts' faces, by the cloud's own numbers
+  std::span<const std::int32_t> held = {};  ///< ordered nodes whose prescribed displacement is held, not loaded
+  std::shared_ptr<const SignedDistance> skull = {};  ///< of the model, where its distances are known already
 };
 
 /// Lays parts out for stepping. Throws TooFewNodes where a node lies in no support, or the prescribed displacements
 /// contradict each other; std::invalid_argument on a skull that is no closed surface.
 Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& parts, LayOutExtras extras);
+
+/// The laws as stepping needs them: at rest relaxed materials have relaxed.
+PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics);
 
 }  // namespace brainshift::solve

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,9 @@ class Contact {
  public:
   /// nodes: those that may touch. rows: shape functions at all nodes' positions.
   Contact(SignedDistance skull, const Points& positions, std::span<const std::int32_t> nodes, const ShapeRows& rows);
+  /// The same with a distance that others use too.
+  Contact(std::shared_ptr<const SignedDistance> skull, const Points& positions, std::span<const std::int32_t> nodes,
+          const ShapeRows& rows);
 
   /// Sets the nodal masses (one a node) that weigh the correction.
   void weigh(std::span<const double> mass) { nodes_.weigh(mass); }
@@ -37,10 +41,10 @@ class Contact {
   };
   Measures measure(const NodalVectors& parameters) const;
 
-  const SignedDistance& skull() const { return skull_; }
+  const std::shared_ptr<const SignedDistance>& skull() const { return skull_; }
 
  private:
-  SignedDistance skull_;
+  std::shared_ptr<const SignedDistance> skull_;
   PushedNodes nodes_;
   std::vector<double> allowed_;  ///< mm outside the skull at the start, one a contact node
 };

@@ -194,7 +194,7 @@ ChangedBody Dissection::advance(const CutFacets& fresh, const Body& body) {
   for (const std::int32_t point : parts.patches.order) {
     point_from.push_back(place[static_cast<std::size_t>(point)]);
   }
-  std::optional<SignedDistance> skull;
+  std::shared_ptr<const SignedDistance> skull;
   if (body.contact) {
     skull = body.contact->skull();
   }

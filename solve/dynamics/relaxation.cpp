@@ -17,7 +17,8 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int window = 20;            // steps between looks at the state
+constexpr int usual_window = 20;      // steps between looks at the state
+constexpr int settled_window = 5;     // the same of a start that is near the end
 constexpr double far_from_rest = 10;  // bounds over the tolerance: nearer to the end nothing is gained
 constexpr double mass_margin = 1.1;   // stiffness may grow by this before the masses are made anew
 
@@ -45,12 +46,22 @@ class Relaxation {
   /// cautious: masses from the bound, which holds whatever the state; else from the largest eigenvalue as measured, and
   /// slow motions are made quicker.
   Relaxation(Body body, const Course& course, const SolveOptions& options, bool cautious)
-      : course_(course),
+      : window_(course.settled ? settled_window : usual_window),
+        course_(course),
         options_(options),
         motion_(std::move(body), options.snapshot_every),
         force_before_(motion_.force),
         pace_(options.load_steps, course.change.by_state),
         cautious_(cautious) {
+    if (course_.settled) {
+      mass_ = course_.settled->mass;
+      mass_scale_ = course_.settled->mass_scale;
+      lowest_ = course_.settled->lowest;
+      motion_.weigh(mass_, alpha);
+      motion_.start_from(course_.start, laws());
+      pace_.skip();
+      return;
+    }
     internal_force(points(), laws(), motion_.now, motion_.scratch, motion_.force);
     mass_ = stiffness_bound(points(), laws(), motion_.scratch);
     if (!cautious) {
@@ -71,11 +82,11 @@ class Relaxation {
   SteppingResult run(const Progress& progress) {
     SteppingResult& result = motion_.result;
     while (result.failure.empty() && result.steps < options_.max_steps) {
-      if (result.steps % window == 0) {
+      if (result.steps % window_ == 0) {
         change_if_due();
       }
       step();
-      if (result.steps % window == 0) {
+      if (result.steps % window_ == 0) {
         look();
         report_progress(progress);
         if (motion_.time >= 1 && bound_.value() <= tolerance() && no_change_is_left()) {
@@ -126,7 +137,7 @@ class Relaxation {
   }
 
   void step() {
-    if (motion_.result.steps % window == window - 1) {
+    if (motion_.result.steps % window_ == window_ - 1) {
       std::swap(motion_.force, force_before_);
     }
     const double time = pace_.go_on(calm_ >= rows_of_rest);
@@ -149,7 +160,7 @@ class Relaxation {
     row.residual = residual();
     calm_ = calm_rows(calm_, row.residual);
     row.error_bound = bound_.value();
-    const int windows = motion_.result.steps / window;
+    const int windows = motion_.result.steps / window_;
     if (windows % (motion_.time < 1 ? 3 : 10) == 0) {
       follow_stiffness();
     }
@@ -195,7 +206,7 @@ class Relaxation {
 
   void fail_at_standstill() {
     std::ostringstream text;
-    text << "not converged: since step " << motion_.result.steps - 20 * window
+    text << "not converged: since step " << motion_.result.steps - 20 * window_
          << " the body moves by no more than rounding, with an error bound of " << bound_.value() << " mm where "
          << tolerance() << " mm are wanted; take a larger tolerance"
          << (points().precision() == Precision::single_precision ? " or double precision" : "");
@@ -253,12 +264,14 @@ class Relaxation {
 
   SteppingResult finish() {
     motion_.result.error_bound = bound_.value();
+    motion_.result.settled = {.mass = std::move(mass_), .mass_scale = mass_scale_, .lowest = lowest_};
     return motion_.finish();
   }
 
   static constexpr double smallest_eigenvalue = 1e-8;
   static constexpr double largest_eigenvalue_of_beta = 0.028;  // above it β is too small for α
 
+  const int window_;
   const Course& course_;
   const SolveOptions& options_;
   Motion motion_;  // its time runs from 0 to 1 while the load's curve is run through, then stays
@@ -266,7 +279,7 @@ class Relaxation {
   std::vector<double> mass_;
   double mass_scale_ = 1;
   double lowest_ = 1e-4;  // A_0: a guess until there are increments
-  ErrorBound bound_{window};
+  ErrorBound bound_{window_};
   LoadPace pace_;
   Quickening quickening_{alpha};
   bool cautious_;

@@ -15,11 +15,20 @@
 
 namespace brainshift::solve {
 
+/// What relaxation has found out about a body on the way to rest.
+struct Settled {
+  std::vector<double> mass;  ///< fictitious, one a node
+  double mass_scale = 1;     ///< of the stiffness bound
+  double lowest = 1e-4;      ///< A_0
+};
+
 /// What happens to a body while it is stepped.
 struct Course {
   LoadCurve curve;          ///< of the prescribed displacements and of the forces
   NodalVectors start = {};  ///< û of a coarse solution under the full load; empty: from rest
   BodyChange change = {};   ///< empty: the body stays whole
+  /// Of the same body at rest under another load: the start is then near the end. Absent: not known yet.
+  std::optional<Settled> settled = {};
 };
 
 /// What time stepping leaves behind.
@@ -27,6 +36,7 @@ struct SteppingResult {
   Body body;                        ///< as it was at the end
   NodalVectors parameters;          ///< û of the last good state, mm
   Points reactions = Points(0, 3);  ///< µN
+  Settled settled;                  ///< relaxation only
   std::vector<HistoryRow> history;
   std::vector<Snapshot> snapshots;
   PointState state;

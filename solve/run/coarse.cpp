@@ -44,8 +44,7 @@ void touch_with_whole_surface(const Model& model, const NodeCloud& coarse, const
   const Points positions = model.cloud.positions(surface, Eigen::all);
   const NodeCloud ordered = subset(coarse, body.original);
   const ShapeFunctions shape(ordered.positions, ordered.spacing, options);
-  SignedDistance skull = body.contact->skull();
-  body.contact.emplace(std::move(skull), positions, ordinal, shape.evaluate(positions, false));
+  body.contact.emplace(std::shared_ptr(body.contact->skull()), positions, ordinal, shape.evaluate(positions, false));
 }
 
 }  // namespace
@@ -69,27 +68,31 @@ std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud, const Conditions&
   return chosen;
 }
 
+CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& model, const SolveOptions& given,
+                       const Progress& progress) {
+  CoarseBody coarse{.model = model, .options = given, .measures = {}, .prepared = {}};
+  coarse.model.cloud = subset(model.cloud, nodes);
+  coarse.model.conditions = subset(model.conditions, nodes);
+  for (double& spacing : coarse.model.cloud.spacing) {
+    spacing *= coarser;
+  }
+  coarse.options.region = 0;
+  coarse.options.points_per_cell = 1;
+  coarse.options.shape = {.basis = Basis::linear, .derivatives = given.shape.derivatives};
+  coarse.options.snapshot_every = 0;
+  coarse.options.tolerance = std::max(given.tolerance, looser * given.region);
+  coarse.prepared = prepare(coarse.model, coarse.options, {}, coarse.measures, progress);
+  if (coarse.prepared.body.contact) {
+    touch_with_whole_surface(model, coarse.model.cloud, coarse.options.shape, coarse.prepared.body);
+  }
+  return coarse;
+}
+
 namespace {
 
 std::optional<Points> solved_on(const std::vector<std::int32_t>& nodes, const Model& model, const SolveOptions& given,
                                 const Progress& progress) {
-  Model coarse = model;
-  coarse.cloud = subset(model.cloud, nodes);
-  coarse.conditions = subset(model.conditions, nodes);
-  for (double& spacing : coarse.cloud.spacing) {
-    spacing *= coarser;
-  }
-  SolveOptions options = given;
-  options.region = 0;
-  options.points_per_cell = 1;
-  options.shape = {.basis = Basis::linear, .derivatives = given.shape.derivatives};
-  options.snapshot_every = 0;
-  options.tolerance = std::max(given.tolerance, looser * given.region);
-  SolveMeasures measures;
-  Prepared prepared = prepare(coarse, options, {}, measures, progress);
-  if (prepared.body.contact) {
-    touch_with_whole_surface(model, coarse.cloud, options.shape, prepared.body);
-  }
+  auto [coarse, options, measures, prepared] = coarse_body(nodes, model, given, progress);
   const SolveResult result = step_to_end(coarse, options, std::move(prepared), measures, {}, progress);
   if (!result.failure.empty()) {
     return std::nullopt;

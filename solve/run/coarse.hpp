@@ -8,12 +8,25 @@
 #include "segmentation/progress/progress.hpp"
 #include "solve/interface/model.hpp"
 #include "solve/interface/options.hpp"
+#include "solve/run/prepare.hpp"
 
 namespace brainshift::solve {
 
 /// About an eighth of the cloud's nodes, evenly: none nearer to another than a multiple of its spacing, the loaded ones
 /// chosen first, then those on the surface, then the inner ones. Ascending.
 std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud, const Conditions& conditions);
+
+/// A model on its coarse nodes, their spacing doubled, with linear shape functions and one point a cell.
+struct CoarseBody {
+  Model model;
+  SolveOptions options;
+  SolveMeasures measures;  ///< as prepare() left them
+  Prepared prepared;
+};
+
+/// Throws as prepare() does.
+CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& model, const SolveOptions& options,
+                       const Progress& progress);
 
 /// The displacement at all nodes (n × 3) mm of the solution on the coarse nodes, their spacing doubled, with linear
 /// shape functions and one point a cell; prescribed components as prescribed. Empty when that cannot be solved: too few

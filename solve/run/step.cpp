@@ -78,6 +78,27 @@ Solution solution_of(const SteppingResult& stepped, const SolveOptions& options)
           .cut = body.cut};
 }
 
+}  // namespace
+
+SolveResult result_of(SteppingResult& stepped, const SolveOptions& options, SolveMeasures measures) {
+  SolveResult result;
+  result.measures = std::move(measures);
+  result.failure = stepped.failure;
+  result.unstable = stepped.unstable;
+  measure(stepped, result.measures, result.failure);
+  if (stepped.fault) {
+    result.failure += ' ';
+    result.failure += describe(*stepped.fault, stepped.body);
+  }
+  result.history = std::move(stepped.history);
+  result.snapshots = std::move(stepped.snapshots);
+  result.solution = solution_of(stepped, options);
+  result.measures.largest_displacement = result.solution.displacement.rowwise().norm().maxCoeff();
+  return result;
+}
+
+namespace {
+
 /// What the solution was at a snapshot. Nodes that were added since are the last ones.
 Solution state_at(const Snapshot& snapshot, const Solution& end) {
   Solution state = end;
@@ -114,18 +135,7 @@ SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepare
   SteppingResult stepped = options.dynamics == Dynamics::relaxation
                                ? relax(std::move(prepared.body), course, options, progress)
                                : march(std::move(prepared.body), course, options, progress);
-  SolveResult result;
-  result.measures = measures;
-  result.failure = stepped.failure;
-  result.unstable = stepped.unstable;
-  measure(stepped, result.measures, result.failure);
-  if (stepped.fault) {
-    result.failure += ' ';
-    result.failure += describe(*stepped.fault, stepped.body);
-  }
-  result.history = std::move(stepped.history);
-  result.snapshots = std::move(stepped.snapshots);
-  result.solution = solution_of(stepped, options);
+  SolveResult result = result_of(stepped, options, std::move(measures));
   if (prepared.cut) {
     const CutBody& cut = dissection ? dissection->body() : *prepared.cut;
     if (!model.cuts.empty() || model.rupture) {
@@ -140,7 +150,6 @@ SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepare
   if (model.rupture) {
     result.stress_strain = stress_strain(model, options.dynamics, result.history);
   }
-  result.measures.largest_displacement = result.solution.displacement.rowwise().norm().maxCoeff();
   result.measures.seconds_stepping = begin.seconds();
   return result;
 }

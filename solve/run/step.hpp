@@ -2,6 +2,7 @@
 #pragma once
 
 #include "segmentation/progress/progress.hpp"
+#include "solve/dynamics/stepping.hpp"
 #include "solve/run/prepare.hpp"
 
 namespace brainshift::solve {
@@ -10,5 +11,8 @@ namespace brainshift::solve {
 /// under the full load; empty: from rest.
 SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepared prepared, SolveMeasures measures,
                         NodalVectors start, const Progress& progress);
+
+/// What a body that was stepped says of itself, without cuts. measures: the rest is filled in.
+SolveResult result_of(SteppingResult& stepped, const SolveOptions& options, SolveMeasures measures);
 
 }  // namespace brainshift::solve

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/update_run.hpp"
+
+#include <fstream>
+
+#include "pipelines/runner/job_files.hpp"
+#include "pipelines/runner/measures.hpp"
+#include "pipelines/runner/plan.hpp"
+#include "pipelines/runner/run_record.hpp"
+#include "pipelines/runner/sha256.hpp"
+#include "pipelines/runner/warnings.hpp"
+#include "pipelines/scene/describe_scene.hpp"
+#include "pipelines/scene/parse_scene.hpp"
+#include "segmentation/files/make_folder.hpp"
+#include "segmentation/files/refuse.hpp"
+#include "solve/output/solution_file.hpp"
+
+namespace brainshift::pipelines {
+namespace fs = std::filesystem;
+namespace {
+
+nlohmann::ordered_json record_of(const fs::path& run) {
+  std::ifstream stream(run / "run.json");
+  auto record = nlohmann::ordered_json::parse(stream, nullptr, false);
+  if (!record.is_object() || !record.contains("scene") || !record["scene"].is_string() || !record.contains("version") ||
+      !record["version"].is_string() || !record.contains("options") || !record["options"].is_object() ||
+      !record.contains("inputs") || !record["inputs"].is_array()) {
+    refuse(run, "this is no run: it has no run.json that can be read; make one with 'brainshift run SCENE --out DIR'");
+  }
+  if (record["version"] != BRAINSHIFT_VERSION) {
+    refuse(run, "the run was made by version " + record["version"].get<std::string>() + ", this is " +
+                    BRAINSHIFT_VERSION + "; run its scene again");
+  }
+  return record;
+}
+
+/// Where the record's options are others than the scene's own: what --set and a preset changed.
+void add_changes(const std::string& path, const nlohmann::ordered_json& now, const nlohmann::ordered_json& then,
+                 std::vector<std::string>& overrides) {
+  for (const auto& [name, value] : then.items()) {
+    const bool there = now.is_object() && now.contains(name);
+    const std::string place = path.empty() ? name : path + "." + name;
+    if (value.is_object()) {
+      add_changes(place, there ? now[name] : nlohmann::ordered_json(), value, overrides);
+    } else if (value.is_string() && value != "" && there && now[name] != value) {
+      overrides.push_back(place + "=" + value.get<std::string>());
+    }
+  }
+}
+
+/// The scene as it was run: its file, and what the command line put on top.
+Scene scene_of(const nlohmann::ordered_json& record) {
+  const fs::path file = record["scene"].get<std::string>();
+  std::vector<std::string> overrides;
+  for (const auto& input : record["inputs"]) {
+    const std::string role = input.value("role", "");
+    if (!role.starts_with("cuts.")) {
+      overrides.push_back(role + "=" + input.value("path", ""));
+    }
+  }
+  add_changes("", effective_options(parse_scene(file, overrides)), record["options"], overrides);
+  return parse_scene(file, overrides);
+}
+
+StageRecord finished_solve(const fs::path& run) {
+  const std::optional<StageRecord> record = read_stage_record(run / "solve");
+  if (!record || !record->failure.empty() || !fs::exists(run / "solve" / "solution.vtu")) {
+    refuse(run, "the run is not finished: its solve stage " +
+                    std::string(record && !record->failure.empty() ? "did not converge" : "is not there") +
+                    "; run its scene again");
+  }
+  return *record;
+}
+
+void refuse_what_cannot(const fs::path& run, const Scene& scene) {
+  if (!is_ours(scene, StageId::solve)) {
+    refuse(run, "the run cannot be updated: another program solved it");
+  }
+  if (!scene.load || scene.load->empty()) {
+    refuse(run, "the run cannot be updated: its scene has no <load>");
+  }
+}
+
+}  // namespace
+
+UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Progress& progress)
+    : run_(fs::absolute(run).lexically_normal()), file_(run_ / "update" / "kept.bin") {
+  const nlohmann::ordered_json record = record_of(run_);
+  const StageRecord solved = finished_solve(run_);
+  const Scene scene = scene_of(record);
+  refuse_what_cannot(run_, scene);
+  InputStates states;
+  if (stamp(plan_stage(StageId::solve, scene, run_, interruption), states) != solved.stamp) {
+    refuse(run_, "the scene or a file of the run has changed since it was solved; run the scene again");
+  }
+  key_ = sha256_of_text(solved.stamp + sha256_of_file(run_ / "solve" / "solution.vtu"));
+  const SolveJob job = solve_job(scene, run_);
+  opening_ = job.load->opening;
+  report(progress, 0, "reading");
+  if (auto kept = solve::read_kept(file_, key_, job.materials, job.options)) {
+    kept_ = std::move(*kept);
+  } else {
+    make_kept(job, progress);
+  }
+}
+
+void UpdatedRun::make_kept(const SolveJob& job, const Progress& progress) {
+  const SolveInput input = read_input(job);
+  const Solution solution = read_solution(run_ / "solve" / "solution.vtu");
+  if (const std::string why = solve::cannot_keep(input.model, input.options); !why.empty()) {
+    refuse(run_, "the run cannot be updated: " + why + "; run a scene with the new load");
+  }
+  kept_ =
+      naming(run_.string(), [&] { return solve::keep(input.model, input.options, solution.displacement, progress); });
+  try {
+    make_folder(file_.parent_path());
+    solve::write_kept(file_, kept_, key_);
+  } catch (const std::runtime_error& error) {
+    notes_.push_back("warning: the next update prepares the run again: " + std::string(error.what()));
+  }
+}
+
+StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const Progress& progress) {
+  const solve::CraniotomyLoad load = solve::read_craniotomy_csv(file);
+  if (load.sigma.rows() > 0) {
+    refuse(file,
+           "it has standard deviations, but the run's load was met exactly; leave the columns sigma out, or run "
+           "a scene with this load");
+  }
+  const NodeCloud cloud{
+      .positions = kept_.fine.body.positions, .spacing = kept_.fine.body.spacing, .on_surface = kept_.on_surface};
+  const solve::SolveResult result = naming(file.string(), [&] {
+    return solve::update(kept_, solve::prescribed_on_surface_nodes(cloud, load, opening_), progress);
+  });
+  solve::write_solve(out, result);
+  solve::write_craniotomy_csv(out / "load.csv", load);
+  StageReport said = report_of(result, solve::Dynamics::relaxation);
+  said.notes = std::move(notes_);
+  warn(warnings_of(result.measures), said);
+  warn(warnings_of(load, cloud, kept_.prescribed), said);
+  return said;
+}
+
+}  // namespace brainshift::pipelines

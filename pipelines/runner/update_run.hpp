@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "pipelines/runner/interruption.hpp"
+#include "pipelines/runner/jobs.hpp"
+#include "segmentation/progress/progress.hpp"
+#include "solve/update/kept_run.hpp"
+
+namespace brainshift::pipelines {
+
+/// A finished run that answers other loads. What is expensive to make lies in RUN/update/kept.bin, under a key of all
+/// that it was made from: one of another content counts as absent and is made again.
+class UpdatedRun {
+ public:
+  /// Throws std::invalid_argument, naming the folder, where it holds no finished run, one of another version, one whose
+  /// scene or files have changed since, or one that cannot be updated.
+  UpdatedRun(const std::filesystem::path& run, Interruption& interruption, const Progress& progress = {});
+
+  /// Answers the displacements of a CSV and writes solution.vtu, history.csv and load.csv into an existing folder.
+  /// Throws std::invalid_argument, naming the file, where it is at fault.
+  StageReport answer(const std::filesystem::path& load, const std::filesystem::path& out, const Progress& progress);
+
+ private:
+  void make_kept(const SolveJob& job, const Progress& progress);
+
+  std::filesystem::path run_, file_;
+  std::string key_;
+  solve::OpeningOptions opening_;
+  solve::KeptRun kept_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+#include <type_traits>
+
+#include "solve/body/lay_out.hpp"
+#include "solve/update/kept_run.hpp"
+
+namespace brainshift::solve {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view format = "brainshift kept run 1\n";
+
+/// Puts values at the end of the bytes.
+class Writer {
+ public:
+  explicit Writer(std::vector<char>& bytes) : bytes_(bytes) {}
+
+  template <class Value>
+  void plain(const Value& value) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    put(&value, sizeof value);
+  }
+  template <class Value>
+  void many(const std::vector<Value>& values) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    plain(values.size());
+    put(values.data(), values.size() * sizeof(Value));
+  }
+  void points(const Points& points) {
+    plain(points.rows());
+    put(points.data(), static_cast<std::size_t>(points.size()) * sizeof(double));
+  }
+
+ private:
+  void put(const void* data, std::size_t size) {
+    const char* first = static_cast<const char*>(data);
+    bytes_.insert(bytes_.end(), first, first + size);
+  }
+  std::vector<char>& bytes_;
+};
+
+/// Takes them out again in the same order. Throws std::length_error where there are too few.
+class Reader {
+ public:
+  explicit Reader(std::span<const char> bytes) : bytes_(bytes) {}
+
+  template <class Value>
+  void plain(Value& value) {
+    get(&value, sizeof value);
+  }
+  template <class Value>
+  void many(std::vector<Value>& values) {
+    std::size_t size = 0;
+    plain(size);
+    check(size, sizeof(Value));
+    const auto* first = bytes_.data();
+    values.resize(size);
+    if (size > 0) {
+      std::memcpy(values.data(), first, size * sizeof(Value));
+    }
+    bytes_ = bytes_.subspan(size * sizeof(Value));
+  }
+  void points(Points& points) {
+    Eigen::Index rows = 0;
+    plain(rows);
+    check(static_cast<std::size_t>(rows), 3 * sizeof(double));
+    points.resize(rows, 3);
+    get(points.data(), static_cast<std::size_t>(points.size()) * sizeof(double));
+  }
+  bool at_end() const { return bytes_.empty(); }
+
+ private:
+  void check(std::size_t count, std::size_t size) const {
+    if (count > bytes_.size() / size) {
+      throw std::length_error("kept run");
+    }
+  }
+  void get(void* data, std::size_t size) {
+    check(size, 1);
+    std::memcpy(data, bytes_.data(), size);
+    bytes_ = bytes_.subspan(size);
+  }
+  std::span<const char> bytes_;
+};
+
+/// Tells damage; eight bytes at a time.
+std::uint64_t checksum(std::span<const char> bytes) {
+  std::uint64_t sum = bytes.size();
+  std::uint64_t word = 0;
+  for (std::size_t i = 0; i < bytes.size(); i += sizeof word) {
+    word = 0;
+    std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
+    sum = (sum ^ word) * 0x9e3779b97f4a7c15U;
+    sum ^= sum >> 32;
+  }
+  return sum;
+}
+
+template <class Archive, class Rows>
+void rows(Archive& archive, Rows& rows) {
+  archive.many(rows.begin);
+  archive.many(rows.node);
+  archive.many(rows.value);
+  archive.many(rows.derivative);
+}
+
+/// By their members: between them there may be bytes that nobody has set.
+void divisions(Writer& writer, const PointBlocks& points) {
+  std::vector<std::int64_t> flat;
+  for (const Block& b : points.blocks) {
+    flat.insert(flat.end(), {b.first_patch, b.last_patch, b.first_slot, b.slots});
+  }
+  writer.many(flat);
+  flat.clear();
+  for (const Patch& p : points.patches) {
+    flat.insert(flat.end(), {p.first_point, p.last_point, p.material, p.first_slot});
+  }
+  writer.many(flat);
+}
+
+void divisions(Reader& reader, PointBlocks& points) {
+  const auto whole = [](std::int64_t number) { return static_cast<std::int32_t>(number); };
+  std::vector<std::int64_t> flat;
+  reader.many(flat);
+  for (std::size_t i = 0; i + 3 < flat.size(); i += 4) {
+    points.blocks.push_back({whole(flat[i]), whole(flat[i + 1]), flat[i + 2], whole(flat[i + 3])});
+  }
+  reader.many(flat);
+  for (std::size_t i = 0; i + 3 < flat.size(); i += 4) {
+    points.patches.push_back({whole(flat[i]), whole(flat[i + 1]), whole(flat[i + 2]), flat[i + 3]});
+  }
+}
+
+template <class Archive, class Blocks>
+void blocks(Archive& archive, Blocks& points) {
+  divisions(archive, points);
+  archive.many(points.volume);
+  archive.many(points.mode);
+  archive.many(points.pair_begin);
+  archive.many(points.support);
+  archive.many(points.pair_slot);
+  archive.many(points.pair_derivative);
+  archive.many(points.pair_single);
+  archive.many(points.slot_node);
+  archive.many(points.node_begin);
+  archive.many(points.node_slot);
+}
+
+/// But laws, conditions, contact and forces.
+template <class Archive, class Kept>
+void kept_body(Archive& archive, Kept& kept) {
+  archive.many(kept.body.original);
+  archive.points(kept.body.positions);
+  archive.many(kept.body.spacing);
+  rows(archive, kept.body.nodal_rows);
+  blocks(archive, kept.body.points);
+  archive.points(kept.body.placed.position);
+  archive.many(kept.body.placed.tissue);
+  archive.many(kept.parameters);
+  archive.many(kept.settled.mass);
+  archive.plain(kept.settled.mass_scale);
+  archive.plain(kept.settled.lowest);
+}
+
+template <class Archive, class Run>
+void kept_run(Archive& archive, Run& run) {
+  archive.many(run.on_surface);
+  archive.points(run.prescribed);
+  archive.points(run.displacement);
+  kept_body(archive, run.fine);
+}
+
+template <class Archive, class Coarse>
+void kept_coarse(Archive& archive, Coarse& coarse) {
+  archive.many(coarse.nodes);
+  kept_body(archive, coarse.kept);
+  rows(archive, coarse.at_nodes);
+}
+
+void write_forces(Writer& writer, const Body& body) {
+  writer.many(body.external.empty() ? NodalVectors() : body.external.full());
+}
+
+void read_forces(Reader& reader, Body& body) {
+  NodalVectors full;
+  reader.many(full);
+  body.external = ExternalForce(std::move(full));
+}
+
+void write_skull(Writer& writer, const std::optional<Contact>& contact) {
+  writer.plain(static_cast<std::uint8_t>(contact.has_value()));
+  if (contact) {
+    const SignedDistance::Samples& samples = contact->skull()->samples();
+    writer.plain(samples.spacing);
+    writer.plain(samples.horizon);
+    for (int axis = 0; axis < 3; ++axis) {
+      writer.plain(samples.origin[axis]);
+      writer.plain(samples.size[axis]);
+    }
+    writer.many(samples.value);
+  }
+}
+
+std::shared_ptr<const SignedDistance> read_skull(Reader& reader) {
+  std::uint8_t there = 0;
+  reader.plain(there);
+  if (there == 0) {
+    return nullptr;
+  }
+  SignedDistance::Samples samples;
+  reader.plain(samples.spacing);
+  reader.plain(samples.horizon);
+  for (int axis = 0; axis < 3; ++axis) {
+    reader.plain(samples.origin[axis]);
+    reader.plain(samples.size[axis]);
+  }
+  reader.many(samples.value);
+  return std::make_shared<const SignedDistance>(std::move(samples));
+}
+
+/// A patch's row has the material of the label of its points.
+PointLaws laws_of(const Body& body, const std::map<std::int32_t, Material>& materials) {
+  MaterialTable table;
+  for (const Patch& patch : body.points.patches) {
+    const auto row = static_cast<std::size_t>(patch.material);
+    if (row >= table.material.size()) {
+      table.material.resize(row + 1);
+    }
+    table.material[row] = materials.at(body.placed.tissue[static_cast<std::size_t>(patch.first_point)]);
+  }
+  return point_laws(table, Plane::none, Dynamics::relaxation);
+}
+
+/// The next load says which nodes may touch the skull.
+void add_what_is_not_kept(KeptBody& kept, const std::map<std::int32_t, Material>& materials,
+                          const std::shared_ptr<const SignedDistance>& skull) {
+  kept.body.laws = laws_of(kept.body, materials);
+  if (skull) {
+    kept.body.contact.emplace(skull, Points(0, 3), std::span<const std::int32_t>(), ShapeRows());
+  }
+}
+
+/// All of the file but its head; nothing where it is another's or damaged.
+std::optional<std::vector<char>> payload(const fs::path& file, const std::string& key) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string expected = std::string(format) + key + "\n";
+  std::string head(expected.size(), '\0');
+  std::uint64_t sum = 0, size = 0;
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  stream.read(reinterpret_cast<char*>(&sum), sizeof sum);
+  stream.read(reinterpret_cast<char*>(&size), sizeof size);
+  std::error_code fault;
+  if (!stream || head != expected || fs::file_size(file, fault) != head.size() + sizeof sum + sizeof size + size) {
+    return std::nullopt;
+  }
+  std::vector<char> bytes(size);
+  stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  return stream && checksum(bytes) == sum ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
+}  // namespace
+
+void write_kept(const fs::path& file, const KeptRun& kept, const std::string& key) {
+  std::vector<char> bytes;
+  Writer writer(bytes);
+  kept_run(writer, kept);
+  write_forces(writer, kept.fine.body);
+  write_skull(writer, kept.fine.body.contact);
+  writer.plain(static_cast<std::uint8_t>(kept.coarse.has_value()));
+  if (kept.coarse) {
+    kept_coarse(writer, *kept.coarse);
+    write_forces(writer, kept.coarse->kept.body);
+  }
+  const std::uint64_t sum = checksum(bytes), size = bytes.size();
+  fs::path unfinished = file;
+  unfinished += ".partial";
+  std::ofstream stream(unfinished, std::ios::binary);
+  stream << format << key << '\n';
+  stream.write(reinterpret_cast<const char*>(&sum), sizeof sum);
+  stream.write(reinterpret_cast<const char*>(&size), sizeof size);
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  std::error_code fault;
+  if (stream) {
+    fs::rename(unfinished, file, fault);
+  }
+  if (!stream || fault) {
+    fs::remove(unfinished, fault);
+    throw std::runtime_error(file.string() + ": cannot be written; is the disk full or the folder missing?");
+  }
+}
+
+std::optional<KeptRun> read_kept(const fs::path& file, const std::string& key,
+                                 const std::map<std::int32_t, Material>& materials, const SolveOptions& options) {
+  const std::optional<std::vector<char>> bytes = payload(file, key);
+  if (!bytes) {
+    return std::nullopt;
+  }
+  try {
+    Reader reader(*bytes);
+    KeptRun run;
+    kept_run(reader, run);
+    run.options = options;
+    run.options.precision = run.fine.body.points.precision();
+    read_forces(reader, run.fine.body);
+    const std::shared_ptr<const SignedDistance> skull = read_skull(reader);
+    add_what_is_not_kept(run.fine, materials, skull);
+    std::uint8_t has_coarse = 0;
+    reader.plain(has_coarse);
+    if (has_coarse != 0) {
+      kept_coarse(reader, run.coarse.emplace());
+      read_forces(reader, run.coarse->kept.body);
+      add_what_is_not_kept(run.coarse->kept, materials, skull);
+    }
+    return reader.at_end() ? std::optional(std::move(run)) : std::nullopt;
+  } catch (const std::length_error&) {
+    return std::nullopt;
+  } catch (const std::out_of_range&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/update/kept_run.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "segmentation/progress/stopwatch.hpp"
+#include "solve/body/ordered_cloud.hpp"
+#include "solve/dynamics/relaxation.hpp"
+#include "solve/run/coarse.hpp"
+#include "solve/run/prepare.hpp"
+#include "solve/run/step.hpp"
+#include "solve/shape/nodal_displacement.hpp"
+#include "solve/shape/shape_functions.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr std::size_t fewest_coarse_nodes = 60;
+
+NodalVectors in_body_order(const Points& values, const std::vector<std::int32_t>& original) {
+  NodalVectors ordered(4 * original.size(), 0.0);
+  for (std::size_t a = 0; a < original.size(); ++a) {
+    at(ordered, a).head<3>() = values.row(original[a]);
+  }
+  return ordered;
+}
+
+bool is_loaded(const Points& prescribed, Eigen::Index node) {
+  return !prescribed.row(node).array().isNaN().all();
+}
+
+/// Surface nodes of the whole cloud that nothing prescribes.
+std::vector<std::int32_t> free_nodes(const std::vector<std::uint8_t>& on_surface, const Points& prescribed) {
+  std::vector<std::int32_t> nodes;
+  for (std::size_t a = 0; a < on_surface.size(); ++a) {
+    if (on_surface[a] != 0 && !is_loaded(prescribed, static_cast<Eigen::Index>(a))) {
+      nodes.push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  return nodes;
+}
+
+void hold(const Points& prescribed, Imposition imposition, Body& body) {
+  body.essential = {prescribed(body.original, Eigen::all), body.nodal_rows, body.original, imposition};
+}
+
+void set_fine_load(const Points& prescribed, KeptRun& run) {
+  Body& body = run.fine.body;
+  hold(prescribed, run.options.imposition, body);
+  if (!body.contact) {
+    return;
+  }
+  std::vector<std::int32_t> ordinal(body.original.size());
+  for (std::size_t a = 0; a < ordinal.size(); ++a) {
+    ordinal[static_cast<std::size_t>(body.original[a])] = static_cast<std::int32_t>(a);
+  }
+  std::vector<std::int32_t> nodes = free_nodes(run.on_surface, prescribed);
+  for (std::int32_t& node : nodes) {
+    node = ordinal[static_cast<std::size_t>(node)];
+  }
+  std::sort(nodes.begin(), nodes.end());
+  const Points ordered = body.positions(body.original, Eigen::all);
+  body.contact.emplace(std::shared_ptr(body.contact->skull()), ordered, nodes, body.nodal_rows);
+}
+
+void set_coarse_load(const Points& prescribed, const KeptRun& run, KeptCoarse& coarse) {
+  Body& body = coarse.kept.body;
+  hold(prescribed(coarse.nodes, Eigen::all), run.options.imposition, body);
+  if (body.contact) {
+    body.contact.emplace(std::shared_ptr(body.contact->skull()), run.fine.body.positions,
+                         free_nodes(run.on_surface, prescribed), coarse.at_nodes);
+  }
+}
+
+/// The displacement of the coarse cloud at all nodes of the whole one, mm.
+Points interpolated(const KeptCoarse& coarse) {
+  std::vector<std::int32_t> same(coarse.at_nodes.size());
+  std::iota(same.begin(), same.end(), 0);
+  return nodal_displacement(coarse.at_nodes, coarse.kept.parameters, same);
+}
+
+/// Takes over where a body has come to rest.
+void take(SteppingResult& stepped, KeptBody& kept) {
+  kept.body = std::move(stepped.body);
+  kept.parameters = std::move(stepped.parameters);
+  kept.settled = std::move(stepped.settled);
+}
+
+/// What the new load moves the nodes by, as the coarse cloud answers it; what is prescribed is met.
+Points coarse_change(const Points& prescribed, KeptRun& run) {
+  Points change = Points::Zero(prescribed.rows(), 3);
+  if (run.coarse) {
+    KeptCoarse& coarse = *run.coarse;
+    const Points before = interpolated(coarse);
+    set_coarse_load(prescribed, run, coarse);
+    const Course course{.curve = {}, .start = coarse.kept.parameters, .settled = coarse.kept.settled};
+    SolveOptions options = run.options;
+    options.snapshot_every = 0;
+    SteppingResult stepped = relax(std::move(coarse.kept.body), course, options, {});
+    const bool rests = stepped.failure.empty();
+    take(stepped, coarse.kept);
+    if (rests) {
+      change = interpolated(coarse) - before;
+    } else {
+      run.coarse.reset();  // slower from here on, and as exact
+    }
+  }
+  for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
+    if (!std::isnan(prescribed.data()[i])) {
+      change.data()[i] = prescribed.data()[i] - run.displacement.data()[i];
+    }
+  }
+  return change;
+}
+
+/// û + δ with Σφδ near the change: some sweeps of δ ← δ + change − Σφδ.
+NodalVectors moved_by(const Points& change, const KeptBody& kept) {
+  constexpr int sweeps = 4;
+  const std::vector<std::int32_t>& original = kept.body.original;
+  const NodalVectors wanted = in_body_order(change, original);
+  NodalVectors delta = wanted;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const NodalVectors has = in_body_order(nodal_displacement(kept.body.nodal_rows, delta, original), original);
+    for (std::size_t i = 0; i < delta.size(); ++i) {
+      delta[i] += wanted[i] - has[i];
+    }
+  }
+  for (std::size_t i = 0; i < delta.size(); ++i) {
+    delta[i] += kept.parameters[i];
+  }
+  return delta;
+}
+
+void check_same_opening(const Points& before, const Points& now) {
+  std::size_t both = 0, either = 0;
+  for (Eigen::Index a = 0; a < before.rows(); ++a) {
+    const bool was = is_loaded(before, a), is = is_loaded(now, a);
+    both += was && is ? 1 : 0;
+    either += was || is ? 1 : 0;
+  }
+  if (2 * both < either) {
+    throw std::invalid_argument("its points lie elsewhere than those of the run: of " + std::to_string(either) +
+                                " nodes under one of the two openings " + std::to_string(both) +
+                                " lie under both; a new opening needs a new run");
+  }
+}
+
+SolveMeasures sizes_of(const KeptRun& run, const Points& prescribed) {
+  const PointBlocks& points = run.fine.body.points;
+  SolveMeasures measures;
+  measures.nodes = run.fine.body.nodes();
+  measures.integration_points = points.points();
+  measures.pairs = std::accumulate(points.support.begin(), points.support.end(), std::size_t{0});
+  measures.mean_support = static_cast<double>(measures.pairs) / static_cast<double>(points.points());
+  measures.single_precision = points.precision() == Precision::single_precision;
+  for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
+    measures.loaded_nodes += is_loaded(prescribed, a) ? 1 : 0;
+  }
+  return measures;
+}
+
+std::optional<KeptCoarse> keep_coarse(const Model& model, const SolveOptions& options) {
+  std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
+  if (nodes.size() < fewest_coarse_nodes) {
+    return std::nullopt;
+  }
+  try {
+    CoarseBody coarse = coarse_body(nodes, model, options, {});
+    SteppingResult stepped = relax(std::move(coarse.prepared.body), {.curve = model.curve}, coarse.options, {});
+    if (!stepped.failure.empty()) {
+      return std::nullopt;
+    }
+    const NodeCloud ordered = subset(coarse.model.cloud, stepped.body.original);
+    const ShapeFunctions shape(ordered.positions, ordered.spacing, coarse.options.shape);
+    KeptCoarse kept{.nodes = std::move(nodes), .kept = {}, .at_nodes = shape.evaluate(model.cloud.positions, false)};
+    take(stepped, kept.kept);
+    return kept;
+  } catch (const std::logic_error&) {
+    return std::nullopt;  // what the whole cloud holds in place, the coarse one may not
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::string cannot_keep(const Model& model, const SolveOptions& options) {
+  if (!model.cuts.empty() || model.rupture) {
+    return "it has cuts or may tear";
+  }
+  if (model.septum || model.resection) {
+    return model.septum ? "it has falx or tentorium" : "it has a resection";
+  }
+  if (model.conditions.measured) {
+    return "its load has noise";
+  }
+  if (options.dynamics != Dynamics::relaxation || options.region > 0) {
+    return options.region > 0 ? "it solves a region alone" : "it is a motion in time";
+  }
+  if (model.plane != Plane::none || options.imposition != Imposition::exact) {
+    return model.plane != Plane::none ? "it is a plane problem" : "its conditions are imposed in the simplified form";
+  }
+  return model.curve.at(model.curve.duration()) == 1 ? "" : "its load's curve does not end at 1";
+}
+
+KeptRun keep(const Model& model, const SolveOptions& given, const Points& displacement, const Progress& progress) {
+  const std::string why = cannot_keep(model, given);
+  if (!why.empty()) {
+    throw std::invalid_argument("the run cannot be updated: " + why);
+  }
+  const SolveOptions options = completed(given, model);
+  SolveMeasures measures;
+  Prepared prepared = prepare(model, options, {}, measures, progress);
+  const ShapeFunctions shape(model.cloud.positions, model.cloud.spacing, options.shape);
+  const Points parameters = parameters_from_displacement(shape, model.cloud.positions, displacement);
+  const Course course{.curve = model.curve, .start = in_body_order(parameters, prepared.body.original)};
+  SteppingResult stepped = relax(std::move(prepared.body), course, options, progress);
+  if (!stepped.failure.empty()) {
+    throw std::invalid_argument("the run does not come to rest once more: " + stepped.failure);
+  }
+  KeptRun run{.options = options,
+              .on_surface = model.cloud.on_surface,
+              .prescribed = model.conditions.displacement,
+              .displacement = nodal_displacement(stepped.body.nodal_rows, stepped.parameters, stepped.body.original),
+              .fine = {},
+              .coarse = keep_coarse(model, options)};
+  take(stepped, run.fine);
+  return run;
+}
+
+SolveResult update(KeptRun& run, const Points& prescribed, const Progress& progress) {
+  check_same_opening(run.prescribed, prescribed);
+  SolveMeasures measures = sizes_of(run, prescribed);
+  const Stopwatch begin;
+  const Points change = coarse_change(prescribed, run);
+  measures.seconds_coarse = begin.seconds();
+  const Stopwatch stepping;
+  const Course course{.curve = {}, .start = moved_by(change, run.fine), .settled = run.fine.settled};
+  set_fine_load(prescribed, run);
+  SteppingResult stepped = relax(std::move(run.fine.body), course, run.options, progress);
+  SolveResult result = result_of(stepped, run.options, measures);
+  result.measures.seconds_stepping = stepping.seconds();
+  take(stepped, run.fine);
+  run.prescribed = prescribed;
+  run.displacement = result.solution.displacement;
+  return result;
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "segmentation/progress/progress.hpp"
+#include "solve/dynamics/stepping.hpp"
+#include "solve/interface/model.hpp"
+#include "solve/interface/options.hpp"
+#include "solve/interface/result.hpp"
+
+namespace brainshift::solve {
+
+/// A body at rest that waits for another load.
+struct KeptBody {
+  Body body;
+  NodalVectors parameters;  ///< û at rest, mm
+  Settled settled;
+};
+
+/// The coarse cloud of a kept run: what another load changes is solved on it first.
+struct KeptCoarse {
+  std::vector<std::int32_t> nodes;  ///< of the whole cloud
+  KeptBody kept;
+  ShapeRows at_nodes;  ///< shape functions of the coarse cloud at all nodes of the whole one
+};
+
+/// A solved run with all that is expensive to make: bodies, shape functions, fictitious masses, the state of rest.
+struct KeptRun {
+  SolveOptions options;                  ///< that the model was solved with
+  std::vector<std::uint8_t> on_surface;  ///< one a node
+  Points prescribed;                     ///< (n × 3) mm, NaN: free; of the load that the bodies are at rest under
+  Points displacement;                   ///< (n × 3) mm, at rest
+  KeptBody fine;
+  std::optional<KeptCoarse> coarse;  ///< absent: the cloud has too few nodes, or they could not be solved
+};
+
+/// Why a model cannot be kept, as half a sentence ("it has cuts"); empty: it can.
+std::string cannot_keep(const Model& model, const SolveOptions& options);
+
+/// Prepares a solved model for other loads and brings it to rest once more, from where it lay. displacement: of its
+/// solution, (n × 3) mm. Throws as solve() does; std::invalid_argument where cannot_keep() says why, or the state does
+/// not come to rest.
+KeptRun keep(const Model& model, const SolveOptions& options, const Points& displacement,
+             const Progress& progress = {});
+
+/// The answer to another load, from the state of the last one; the kept run is at rest under it afterwards. Stops as
+/// solve() does. prescribed (n × 3) mm, NaN: free. Throws std::invalid_argument where it loads other nodes than before,
+/// by more than half; TooFewNodes where its conditions contradict each other. After a throw or a failure the kept run
+/// must be read or made again.
+SolveResult update(KeptRun& kept, const Points& prescribed, const Progress& progress = {});
+
+/// Writes it whole or not at all. key: of what it was made from. Throws std::runtime_error, naming the file.
+void write_kept(const std::filesystem::path& file, const KeptRun& kept, const std::string& key);
+
+/// Nothing where there is no such file, it has another key, or it is damaged. materials, options: those of
+/// the model, as they were asked for.
+std::optional<KeptRun> read_kept(const std::filesystem::path& file, const std::string& key,
+                                 const std::map<std::int32_t, Material>& materials, const SolveOptions& options);
+
+}  // namespace brainshift::solve

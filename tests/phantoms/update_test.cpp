@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A finished run under a new load, through the program.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "solve/load/craniotomy_load.hpp"
+#include "solve/output/solution_file.hpp"
+#include "tests/phantoms/program.hpp"
+
+namespace brainshift::update_test {
+
+namespace fs = std::filesystem;
+
+std::string quoted(const fs::path& path) {
+  return "'" + path.string() + "'";
+}
+
+class Update : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch = std::make_unique<ScratchFolder>("update");
+    const fs::path head = *scratch / "head";
+    const ProgramResult made = run_shell("brainshift phantom --size 40 --spacing 4.8 --out " + quoted(head));
+    ASSERT_EQ(made.code, 0) << made.err;
+    const ProgramResult ran =
+        run_shell("brainshift run " + quoted(head / "scene.xml") + " --until solve --out " + quoted(run()) + small);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    load = solve::read_craniotomy_csv(head / "craniotomy.csv");
+    solve::CraniotomyLoad more = load;
+    for (Eigen::Index p = 0; p < more.displacement.rows(); ++p) {  // by up to 1 mm
+      const double share = load.displacement.row(p).norm() / load.displacement.rowwise().norm().maxCoeff();
+      more.displacement.row(p) += share * Eigen::RowVector3d(0.4, 0.2, -0.89);
+    }
+    solve::write_craniotomy_csv(new_load(), more);
+  }
+  static void TearDownTestSuite() { scratch.reset(); }
+
+  static fs::path run() { return *scratch / "run"; }
+  static fs::path new_load() { return *scratch / "new.csv"; }
+  static ProgramResult update(const fs::path& of, const std::string& arguments) {
+    return run_shell("brainshift update " + quoted(of) + " " + arguments);
+  }
+  /// One sentence, the input's fault.
+  static void expect_refused(const ProgramResult& result, const std::string& what) {
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
+  }
+  /// A copy of the run in which a text of a file was put in place of another.
+  static fs::path copy_with(const std::string& name, const std::string& file, const std::string& from,
+                            const std::string& to) {
+    fs::path copy = *scratch / name;
+    fs::copy(run(), copy, fs::copy_options::recursive);
+    const std::string text = contents_of(copy / file);
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << file;
+    write_text(copy / file, text.substr(0, at) + to + text.substr(at + from.size()));
+    return copy;
+  }
+
+  static constexpr const char* small = " --set discretise.nodes=900 --set solve.precision=double --quiet";
+  static std::unique_ptr<ScratchFolder> scratch;
+  static solve::CraniotomyLoad load;
+};
+std::unique_ptr<ScratchFolder> Update::scratch;
+solve::CraniotomyLoad Update::load;
+
+TEST_F(Update, IsAsARunFromTheBeginningAndLeavesTheRunAlone) {
+  const std::string before = contents_of(run() / "solve/solution.vtu");
+  const ProgramResult first = update(run(), "--load " + quoted(new_load()));
+  ASSERT_EQ(first.code, 0) << first.err;
+  const fs::path made = run() / "update/new/solve/solution.vtu";
+  const std::string answer = contents_of(made);
+  const ProgramResult second = update(run(), "--load " + quoted(new_load()) + " --out " + quoted(*scratch / "again"));
+  ASSERT_EQ(second.code, 0) << second.err;
+  EXPECT_EQ(answer, contents_of(*scratch / "again/solve/solution.vtu")) << "from the file that is kept";
+  EXPECT_EQ(before, contents_of(run() / "solve/solution.vtu"));
+  EXPECT_TRUE(half_written(run()).empty());
+
+  const ProgramResult whole =
+      run_shell("brainshift run " + quoted(*scratch / "head/scene.xml") + " --until solve --out " +
+                quoted(*scratch / "whole") + small + " --set load.craniotomy.file=" + quoted(new_load()));
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  const Points updated = read_solution(made).displacement;
+  const Points solved = read_solution(*scratch / "whole/solve/solution.vtu").displacement;
+  const Points old = read_solution(run() / "solve/solution.vtu").displacement;
+  EXPECT_LT((updated - solved).rowwise().norm().maxCoeff(), 0.02);
+  EXPECT_GT((updated - old).rowwise().norm().maxCoeff(), 0.5) << "the load has changed something";
+}
+
+TEST_F(Update, DamagedKeptFileIsMadeAgain) {
+  ASSERT_EQ(update(run(), "").code, 0);
+  const fs::path kept = run() / "update/kept.bin";
+  std::string bytes = contents_of(kept);
+  const std::string whole = bytes;
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  write_text(kept, bytes);
+  ASSERT_EQ(update(run(), "").code, 0);
+  EXPECT_TRUE(contents_of(kept) == whole) << "the same bytes";
+}
+
+TEST_F(Update, RefusesLoadsThatAreNone) {
+  solve::CraniotomyLoad elsewhere = load;
+  const Points nodes = read_solution(run() / "solve/solution.vtu").positions;
+  const Eigen::RowVector3d centre = (nodes.colwise().maxCoeff() + nodes.colwise().minCoeff()) / 2;
+  elsewhere.positions = (2 * centre).replicate(load.positions.rows(), 1) - load.positions;
+  elsewhere.displacement = -load.displacement;
+  solve::write_craniotomy_csv(*scratch / "elsewhere.csv", elsewhere);
+  expect_refused(update(run(), "--load " + quoted(*scratch / "elsewhere.csv")), "elsewhere");
+
+  const std::string text = contents_of(new_load());
+  write_text(*scratch / "half.csv", text.substr(0, text.size() - text.size() / 3) + ",");
+  expect_refused(update(run(), "--load " + quoted(*scratch / "half.csv")), "half.csv");
+  expect_refused(update(run(), "--load " + quoted(*scratch / "none.csv")), "none.csv");
+
+  solve::CraniotomyLoad noisy = load;
+  noisy.sigma = Points::Constant(load.positions.rows(), 3, 0.5);
+  solve::write_craniotomy_csv(*scratch / "noisy.csv", noisy);
+  expect_refused(update(run(), "--load " + quoted(*scratch / "noisy.csv")), "standard deviations");
+  EXPECT_FALSE(fs::exists(run() / "update/half"));
+}
+
+TEST_F(Update, RefusesRunsThatAreNone) {
+  const std::string with_load = "--load " + quoted(new_load());
+  expect_refused(update(*scratch / "nowhere", with_load), "no run.json");
+  expect_refused(update(copy_with("other", "run.json", "\"version\": \"", "\"version\": \"9."), with_load), "9.");
+  const fs::path unfinished = copy_with("unfinished", "run.json", "{", "{");
+  fs::remove_all(unfinished / "solve");
+  expect_refused(update(unfinished, with_load), "not finished");
+  expect_refused(update(copy_with("changed", "solve/stage.json", "\"stamp\": \"", "\"stamp\": \"0"), with_load),
+                 "has changed");
+  expect_refused(update(run(), with_load + " --out " + quoted(run())), "this is a run");
+}
+
+TEST_F(Update, RefusesARunWithNoise) {
+  const fs::path out = *scratch / "with_noise";
+  const ProgramResult ran =
+      run_shell("brainshift run " + quoted(*scratch / "head/scene.xml") + " --until solve --out " + quoted(out) +
+                small + " --set load.noise=1 --set load.weight=1");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  expect_refused(update(out, "--load " + quoted(new_load())), "its load has noise");
+}
+
+}  // namespace brainshift::update_test
