@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstring>
 #include <fstream>
+#include <span>
 #include <stdexcept>
-#include <type_traits>
 
 #include "solve/body/lay_out.hpp"
+#include "solve/update/archive.hpp"
 #include "solve/update/kept_run.hpp"
 
 namespace brainshift::solve {
@@ -13,79 +14,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view format = "brainshift kept run 1\n";
-
-/// Puts values at the end of the bytes.
-class Writer {
- public:
-  explicit Writer(std::vector<char>& bytes) : bytes_(bytes) {}
-
-  template <class Value>
-  void plain(const Value& value) {
-    static_assert(std::is_trivially_copyable_v<Value>);
-    put(&value, sizeof value);
-  }
-  template <class Value>
-  void many(const std::vector<Value>& values) {
-    static_assert(std::is_trivially_copyable_v<Value>);
-    plain(values.size());
-    put(values.data(), values.size() * sizeof(Value));
-  }
-  void points(const Points& points) {
-    plain(points.rows());
-    put(points.data(), static_cast<std::size_t>(points.size()) * sizeof(double));
-  }
-
- private:
-  void put(const void* data, std::size_t size) {
-    const char* first = static_cast<const char*>(data);
-    bytes_.insert(bytes_.end(), first, first + size);
-  }
-  std::vector<char>& bytes_;
-};
-
-/// Takes them out again in the same order. Throws std::length_error where there are too few.
-class Reader {
- public:
-  explicit Reader(std::span<const char> bytes) : bytes_(bytes) {}
-
-  template <class Value>
-  void plain(Value& value) {
-    get(&value, sizeof value);
-  }
-  template <class Value>
-  void many(std::vector<Value>& values) {
-    std::size_t size = 0;
-    plain(size);
-    check(size, sizeof(Value));
-    const auto* first = bytes_.data();
-    values.resize(size);
-    if (size > 0) {
-      std::memcpy(values.data(), first, size * sizeof(Value));
-    }
-    bytes_ = bytes_.subspan(size * sizeof(Value));
-  }
-  void points(Points& points) {
-    Eigen::Index rows = 0;
-    plain(rows);
-    check(static_cast<std::size_t>(rows), 3 * sizeof(double));
-    points.resize(rows, 3);
-    get(points.data(), static_cast<std::size_t>(points.size()) * sizeof(double));
-  }
-  bool at_end() const { return bytes_.empty(); }
-
- private:
-  void check(std::size_t count, std::size_t size) const {
-    if (count > bytes_.size() / size) {
-      throw std::length_error("kept run");
-    }
-  }
-  void get(void* data, std::size_t size) {
-    check(size, 1);
-    std::memcpy(data, bytes_.data(), size);
-    bytes_ = bytes_.subspan(size);
-  }
-  std::span<const char> bytes_;
-};
 
 /// Tells damage; eight bytes at a time.
 std::uint64_t checksum(std::span<const char> bytes) {
@@ -109,7 +37,7 @@ void rows(Archive& archive, Rows& rows) {
 }
 
 /// By their members: between them there may be bytes that nobody has set.
-void divisions(Writer& writer, const PointBlocks& points) {
+void divisions(ArchiveWriter& writer, const PointBlocks& points) {
   std::vector<std::int64_t> flat;
   for (const Block& b : points.blocks) {
     flat.insert(flat.end(), {b.first_patch, b.last_patch, b.first_slot, b.slots});
@@ -122,7 +50,7 @@ void divisions(Writer& writer, const PointBlocks& points) {
   writer.many(flat);
 }
 
-void divisions(Reader& reader, PointBlocks& points) {
+void divisions(ArchiveReader& reader, PointBlocks& points) {
   const auto whole = [](std::int64_t number) { return static_cast<std::int32_t>(number); };
   std::vector<std::int64_t> flat;
   reader.many(flat);
@@ -181,17 +109,17 @@ void kept_coarse(Archive& archive, Coarse& coarse) {
   rows(archive, coarse.at_nodes);
 }
 
-void write_forces(Writer& writer, const Body& body) {
+void write_forces(ArchiveWriter& writer, const Body& body) {
   writer.many(body.external.empty() ? NodalVectors() : body.external.full());
 }
 
-void read_forces(Reader& reader, Body& body) {
+void read_forces(ArchiveReader& reader, Body& body) {
   NodalVectors full;
   reader.many(full);
   body.external = ExternalForce(std::move(full));
 }
 
-void write_skull(Writer& writer, const std::optional<Contact>& contact) {
+void write_skull(ArchiveWriter& writer, const std::optional<Contact>& contact) {
   writer.plain(static_cast<std::uint8_t>(contact.has_value()));
   if (contact) {
     const SignedDistance::Samples& samples = contact->skull()->samples();
@@ -205,7 +133,7 @@ void write_skull(Writer& writer, const std::optional<Contact>& contact) {
   }
 }
 
-std::shared_ptr<const SignedDistance> read_skull(Reader& reader) {
+std::shared_ptr<const SignedDistance> read_skull(ArchiveReader& reader) {
   std::uint8_t there = 0;
   reader.plain(there);
   if (there == 0) {
@@ -266,7 +194,7 @@ std::optional<std::vector<char>> payload(const fs::path& file, const std::string
 
 void write_kept(const fs::path& file, const KeptRun& kept, const std::string& key) {
   std::vector<char> bytes;
-  Writer writer(bytes);
+  ArchiveWriter writer(bytes);
   kept_run(writer, kept);
   write_forces(writer, kept.fine.body);
   write_skull(writer, kept.fine.body.contact);
@@ -301,7 +229,7 @@ std::optional<KeptRun> read_kept(const fs::path& file, const std::string& key,
     return std::nullopt;
   }
   try {
-    Reader reader(*bytes);
+    ArchiveReader reader(*bytes);
     KeptRun run;
     kept_run(reader, run);
     run.options = options;
