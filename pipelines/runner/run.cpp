@@ -101,13 +101,20 @@ void write_record(const fs::path& out, const RunOutcome& outcome, Interruption& 
   write_whole(out / "run.json", json_text(outcome.record));
 }
 
+/// Whoever may read a script may start it.
+void make_executable(const fs::path& script) {
+  constexpr fs::perms all_read = fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read;
+  std::error_code refused;  // by a file system without rights, where nothing is started by a double-click
+  const auto readers = static_cast<unsigned>(fs::status(script, refused).permissions() & all_read);
+  fs::permissions(script, static_cast<fs::perms>(readers >> 2), fs::perm_options::add, refused);
+}
+
 /// For whoever opens the folder: whatever ran, they show what lies there.
 void write_scripts(const fs::path& out, Interruption& interruption) {
   const auto hold = interruption.hold();
   for (const ShowScript& script : show_scripts()) {
     write_whole(out / script.name, script.text);
-    std::error_code refused;  // by a file system without rights, where nothing is started by a double-click
-    fs::permissions(out / script.name, fs::perms::owner_exec, fs::perm_options::add, refused);
+    make_executable(out / script.name);
   }
 }
 

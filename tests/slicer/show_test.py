@@ -106,6 +106,8 @@ class InSlicer(unittest.TestCase):
         for name in ("open_in_slicer.py", "open_in_paraview.py"):
             py_compile.compile(str(run / name), cfile=str(folder / "compiled"), doraise=True)
             self.assertTrue(os.access(run / name, os.X_OK))
+            mode = (run / name).stat().st_mode
+            self.assertEqual(mode & 0o111, (mode & 0o444) >> 2, "who may read it may start it")
         self.assertEqual((run / "open_in_slicer.py").read_text(), Path(open_in_slicer.__file__).read_text())
 
     def test_a_double_click_starts_slicer_or_says_what_is_missing(self):
