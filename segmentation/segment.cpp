@@ -43,7 +43,8 @@ std::vector<std::uint16_t> present_labels(const LabelMap& labels, const std::vec
 void check_present(const LabelMap& labels, std::uint16_t label) {
   if (std::find(labels.voxels.begin(), labels.voxels.end(), label) == labels.voxels.end()) {
     throw std::invalid_argument("label " + std::to_string(label) +
-                                " is named but no voxel of the label map carries it; correct the label or the image");
+                                " counts as brain but no voxel of the label map carries it; name the brain's labels, " +
+                                "as in --brain-labels 1 or <tissue label=\"1\" .../>, or correct the image");
   }
 }
 

@@ -37,10 +37,14 @@ MeasuredSurface fitted(Surface surface, const Mask& mask, double edge_length) {
 }
 
 // Smoother until it is sound, then wrapped.
-MeasuredSurface rescued(const Mask& mask, double edge_length, double sigma) {
+MeasuredSurface rescued(const Mask& mask, double edge_length, double sigma, const std::string& what) {
   Surface contour = iso_surface(mask, sigma);
   for (; sigma > 0 && contour.triangles.rows() > most_triangles; contour = iso_surface(mask, sigma)) {
     sigma *= 2;
+  }
+  if (contour.triangles.rows() == 0) {
+    throw std::invalid_argument("the " + what + " is so full of gaps that a smooth surface holds nothing of it; " +
+                                "smooth the labels or close their gaps (closing)");
   }
   if (sigma > 0) {
     MeasuredSurface smooth = fitted(remeshed(contour, edge_length), mask, edge_length);
@@ -83,11 +87,11 @@ MeasuredSurface extract_surface(const Mask& mask, double edge_length, const std:
   }
   if (!best.measures.is_sound()) {
     report(progress, 0.8, "smoothing or wrapping the surface of " + what);
-    best = folded ? rescued(mask, edge_length, 2 * first_sigma) : rescued(mask, edge, 0);
+    best = folded ? rescued(mask, edge_length, 2 * first_sigma, what) : rescued(mask, edge, 0, what);
   }
   if (!best.measures.is_sound()) {
     throw std::invalid_argument("no closed surface free of self-intersection could be made of " + what +
-                                "; smooth the labels or use a finer edge length");
+                                "; smooth the labels, close their gaps (closing) or use a finer edge length");
   }
   return best;
 }

@@ -7,6 +7,9 @@
 #include <vtkMassProperties.h>
 #include <vtkNew.h>
 #include <numbers>
+#include <random>
+#include <stdexcept>
+#include <string>
 
 #include "segmentation/files/vtk_bridge.hpp"
 #include "tests/unit/segmentation/builders.hpp"
@@ -113,6 +116,23 @@ TEST(Surface, AShellHasAnInnerSurfaceThatFacesItsHollow) {
   expect_sound(extracted.measures);
   const double expected = ball_volume(22.0) - ball_volume(10.0);
   EXPECT_NEAR(extracted.measures.volume, expected, 0.02 * expected);
+}
+
+// Less than half of the voxels, strewn: their contour has more triangles than are remeshed, and a smoother one has
+// none.
+TEST(Surface, OfWhatSmoothingLeavesNothingOfIsRefusedWithAReason) {
+  const auto geometry = grid_around(centre, 150, Eigen::Vector3d::Ones(), Eigen::Matrix3d::Identity());
+  Mask strewn = mask_of(ball(geometry, centre, 70.0));
+  std::mt19937 random(3);
+  for (std::uint8_t& voxel : strewn.voxels) {
+    voxel = voxel != 0 && std::bernoulli_distribution(0.42)(random) ? 1 : 0;
+  }
+  try {
+    extract_surface(strewn, 5.0, "brain");
+    FAIL() << "it is taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("the brain is so full of gaps"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace brainshift::test::extract_test
