@@ -166,6 +166,12 @@ void draw_arrows(Svg& svg, const std::vector<Segment>& shifts) {
   svg.lines(lines, white);
 }
 
+// The tissue, where the run knows what the numbers are.
+std::string name_of_label(const nlohmann::json& record, std::int32_t label) {
+  const std::string number = std::to_string(label);
+  return record.value("label_names", nlohmann::json::object()).value(number, "label " + number);
+}
+
 }  // namespace
 
 std::vector<Figure> comparison_figures(const RunData& run, const View& view, const SlicePlane& plane) {
@@ -198,7 +204,7 @@ Figure labels_figure(const RunData& run, const View& view, const SlicePlane& pla
   sheet.svg.lines(cut_surface(plane, *run.brain), {.colour = preop_colour, .width = 1.2});
   double line = 40;
   for (const std::int32_t label : shown) {
-    const std::string name = label == taken_in ? "taken in" : "label " + std::to_string(label);
+    const std::string name = label == taken_in ? "taken in" : name_of_label(run.record, label);
     sheet.svg.rectangle({10, line - 6}, {12, 12}, colour_of_label(label));
     sheet.svg.text({28, line}, name, {.fill = colour::white, .halo = true});
     line += 18;

@@ -60,8 +60,9 @@ TEST(SliceFigures, TheLabelsHaveAColourEachAndWhatWasTakenInOneOfItsOwn) {
   run.closed = LabelMap{run.t1->geometry, std::vector<std::uint16_t>(run.t1->voxels.size())};
   std::fill_n(run.closed->voxels.begin(), run.closed->voxels.size() / 4, std::uint16_t{1});
   run.t1.reset();
+  run.record["label_names"] = {{"2", "ventricles"}};
   const Figure both = labels_figure(run, view, view.planes[1]);
-  for (const char* name : {"label 1", "label 2", "taken in"}) {
+  for (const char* name : {"label 1", "ventricles", "taken in"}) {
     EXPECT_NE(both.svg.find(name), std::string::npos) << name;
   }
 }
