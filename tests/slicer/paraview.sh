@@ -29,7 +29,7 @@ if [ -z "$program" ]; then
   program=$root/build/pipelines/brainshift
 fi
 out=$(realpath "$out")
-# Around pvbatch alone: the X server does not start among ParaView's libraries.
+# Around pvbatch alone: what else is called here finds its own libraries.
 mkdir -p "$out/bin"
 cat > "$out/bin/pvbatch" << end
 #!/bin/sh
