@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "pipelines/report/plot.hpp"
+#include "pipelines/tradeoff/plot.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/tradeoff/front.hpp"
 
