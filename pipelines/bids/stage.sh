@@ -3,7 +3,8 @@
 #
 # One rule's work: a case up to a stage, and a mark that says that it is whole or why not.
 #
-#   stage.sh PROGRAM FOLDER THREADS STAGE [STAGE BEFORE]     STAGE scene: the scene alone
+#   stage.sh PROGRAM FOLDER THREADS STAGE [STAGE BEFORE]     STAGE scene: the scene alone; samples_K_of_N: a share of
+#                                                            the samples, in a run of its own
 #
 # It ends with 0 when the case itself is at fault, so that the engine goes on with the others; the stages after it pass
 # the fault on. A shell, as a cohort of small heads would feel an interpreter's start at each stage.
@@ -45,8 +46,29 @@ if [ -z "$scene" ]; then
   fi
 fi
 [ "$stage" != scene ] || leave_mark 0 ''
-code=0
-"$program" --quiet --threads "$threads" run "$scene" --out "$PWD/run" --until "$stage" "${options[@]}" \
-  > "logs/$stage.log" 2>&1 || code=$?
+run_until() { # STAGE FOLDER OPTION...
+  code=0
+  "$program" --quiet --threads "$threads" run "$scene" --out "$2" --until "$1" "${options[@]}" "${@:3}" \
+    > "logs/$stage.log" 2>&1 || code=$?
+}
+
+if [[ $stage = samples_* ]]; then
+  IFS=_ read -r _ share _ shares <<< "$stage"
+  mkdir -p shares
+  exec 9> "shares/$share.lock"
+  flock 9
+  run_until solve "$PWD/shares/$share" --set "uncertainty.shares=$shares" --set "uncertainty.share=$share"
+  [ $code = 0 ] || leave_fault $code "logs/$stage.log"
+  leave_mark 0 ''
+fi
+if [ -d shares ] && [[ $stage = solve || $stage = report ]]; then
+  run_until discretise "$PWD/run" # the folder is the run's before anything is put into it
+  if [ $code = 0 ]; then
+    mkdir -p run/samples
+    find shares -name 'sample_*.vtu' -path '*/samples/*' -exec mv -t run/samples {} \;
+    rm -r shares
+  fi
+fi
+run_until "$stage" "$PWD/run"
 [ $code = 0 ] || leave_fault $code "logs/$stage.log"
 leave_mark 0 ''

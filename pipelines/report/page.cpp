@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "pipelines/report/page_template.hpp"
-#include "pipelines/report/plot.hpp"
 #include "pipelines/report/run_data.hpp"
 
 namespace brainshift::pipelines {
@@ -140,41 +139,15 @@ json uncertainty(PageContent& content, const json& stages) {
           {"figures", figures_of(content.uncertainties)}};
 }
 
-Figure weight_figure(const json& measures) {
-  Series tried{.name = "weights that were tried", .x = {}, .y = {}};
-  Series taken{.name = "the one that was taken", .x = {}, .y = {}, .joined = false};
-  const auto add = [](Series& series, const json& row) {
-    series.x.push_back(row.value("energy_mJ", 0.0));
-    series.y.push_back(row.value("misfit", 0.0));
-  };
-  for (const json& row : measures.at("weights")) {
-    add(tried, row);
-    if (row.value("weight_mJ", 0.0) == measures.value("weight_mJ", 0.0)) {
-      add(taken, row);
-    }
-  }
-  return {.name = "weight",
-          .width = 680,
-          .height = 440,
-          .svg = plot_svg({.file = "weight",
-                           .title = "What the measured points ask of the tissue",
-                           .x_label = "energy of the deformation, mJ",
-                           .y_label = "misfit, sum of squares over variances",
-                           .series = {std::move(tried), std::move(taken)},
-                           .scale = Scale::log_log})};
-}
-
 // How a measured load was weighed: the weights that were tried, or that it has no noise to be weighed by.
 json weight_of(const json& stages, const json& options) {
   const json::json_pointer place("/solve/measures");
   const json measures = stages.contains(place) ? stages.at(place) : json::object();
   if (measures.contains("weights")) {
-    Figure figure = weight_figure(measures);
     return {{"exact", false},
             {"chosen",
              {{"weight", readable(measures.value("weight_mJ", 0.0))},
-              {"factor", readable(measures.value("noise_factor", 1.0))},
-              {"figures", figures_of(std::span(&figure, 1))}}}};
+              {"factor", readable(measures.value("noise_factor", 1.0))}}}};
   }
   const bool measured = options.contains("load.craniotomy") || options.contains("load.markups");
   return measured && !measures.contains("weight_mJ") ? json{{"exact", true}, {"chosen", false}} : json(false);

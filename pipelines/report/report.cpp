@@ -47,21 +47,21 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
   std::vector<std::future<std::vector<Figure>>> comparisons;
   std::vector<std::future<Figure>> displacements;
   std::vector<std::future<Figure>> labels;
-  for (const SlicePlane& plane : view.planes) {
+  for (const Slice& slice : view.slices) {
     if (run.t1 && run.warped) {
-      comparisons.push_back(std::async(std::launch::async, [&] { return comparison_figures(run, view, plane); }));
+      comparisons.push_back(std::async(std::launch::async, [&] { return comparison_figures(run, view, slice); }));
     }
     if (run.labels) {
-      labels.push_back(std::async(std::launch::async, [&] { return labels_figure(run, view, plane); }));
+      labels.push_back(std::async(std::launch::async, [&] { return labels_figure(run, view, slice); }));
     }
-    displacements.push_back(std::async(std::launch::async, [&] { return displacement_figure(run, view, plane); }));
+    displacements.push_back(std::async(std::launch::async, [&] { return displacement_figure(run, view, slice); }));
   }
   report(progress, 0.3, "drawing the surface");
   content.surfaces.push_back(surface_figure(run, view));
   report(progress, 0.6, "drawing the slices");
-  for (const SlicePlane& plane : view.planes) {
+  for (const Slice& slice : view.slices) {
     if (!run.deviation.empty()) {
-      content.uncertainties.push_back(uncertainty_figure(run, view, plane));
+      content.uncertainties.push_back(uncertainty_figure(run, view, slice));
     }
   }
   for (auto& figures : comparisons) {
@@ -99,6 +99,8 @@ void write_report(const fs::path& run_folder, const fs::path& out, const Progres
   }
   content.viewer.facts["history"] = run.history;
   content.viewer.facts["options"] = run.record.value("options", nlohmann::json::object());
+  content.viewer.facts["measures"] =
+      run.record.value(nlohmann::json::json_pointer("/stages/solve/measures"), nlohmann::json::object());
   content.viewer.facts["label_names"] = run.record.value("label_names", nlohmann::json::object());
   for (const auto* figures : all_figures(content)) {
     for (const Figure& figure : *figures) {

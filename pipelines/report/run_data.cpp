@@ -2,7 +2,6 @@
 #include "pipelines/report/run_data.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <future>
 #include <iterator>
@@ -10,8 +9,6 @@
 
 #include "register/files/register_fields.hpp"
 #include "segmentation/files/surface_file.hpp"
-#include "segmentation/geometry/point_tree.hpp"
-#include "solve/output/field_difference.hpp"
 #include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
@@ -106,27 +103,6 @@ Points loaded_positions(const Solution& solution) {
     }
   }
   return loaded.topRows(count);
-}
-
-Points displacement_at(const Solution& solution, const Points& points) {
-  constexpr std::size_t neighbours = 8;
-  const PointTree tree(solution.positions);
-  Points result(points.rows(), 3);
-#pragma omp parallel for schedule(static)
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    std::array<std::size_t, neighbours> index{};
-    std::array<double, neighbours> squared{};
-    const auto found = tree.nearest(points.row(i).data(), neighbours, index.data(), squared.data());
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    double weights = 0;
-    for (std::size_t n = 0; n < found; ++n) {
-      const double weight = 1.0 / (squared[n] + 1e-12);
-      sum += weight * solution.displacement.row(static_cast<Eigen::Index>(index[n]));
-      weights += weight;
-    }
-    result.row(i) = sum / weights;
-  }
-  return result;
 }
 
 }  // namespace brainshift::pipelines

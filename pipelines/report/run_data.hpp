@@ -9,7 +9,6 @@
 #include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
 #include "solve/interface/solution.hpp"
-#include "solve/output/field_difference.hpp"
 #include "solve/solve.hpp"
 
 namespace brainshift::pipelines {
@@ -41,9 +40,5 @@ solve::Dynamics dynamics_of(const nlohmann::json& record);
 
 /// The nodes on which a displacement was imposed (those with a reaction), (n × 3) mm; no row where there are none.
 Points loaded_positions(const Solution& solution);
-
-/// The solution's displacement at points: weights 1 / distance² over the eight nearest nodes; a node's own value at a
-/// node. For pictures, as the shape functions of the solution need not exist at vertices that lie off its cloud.
-Points displacement_at(const Solution& solution, const Points& points);
 
 }  // namespace brainshift::pipelines

@@ -8,7 +8,6 @@
 
 #include "register/field/nodal_values.hpp"
 #include "register/warp/warp.hpp"
-#include "solve/output/field_difference.hpp"
 
 namespace brainshift::pipelines {
 
@@ -23,8 +22,8 @@ constexpr Colour opening_colour = {70, 235, 110};
 constexpr Colour septum_colour = {210, 130, 255};
 constexpr int bar_width = 96;  // pixels to the right of a picture with a colour bar
 
-// Grey as radiologists see it; where the image has no value, or there is none, nearly black.
-Canvas grey(const View& view, const SlicePlane& plane, const std::vector<float>& values, double brightness) {
+// Grey as radiologists see it; where the image has no value, or there is none, black.
+Canvas grey(const View& view, const SlicePlane& plane, const std::vector<float>& values, double brightness = 1) {
   Canvas canvas(plane.width, plane.height, colour::black);
   std::ranges::transform(values, canvas.pixels.begin(), [&](float value) {
     const double relative = (static_cast<double>(value) - view.darkest) / (view.brightest - view.darkest);
@@ -89,29 +88,18 @@ bool in_opening(const View& view, const Vector3d& place) {
          (view.opening.rowwise() - place.transpose()).rowwise().norm().minCoeff() < view.opening_reach;
 }
 
+void draw_outline(Sheet& sheet, const std::vector<Segment>& outline, const Colour& colour) {
+  sheet.svg.lines(outline, {.colour = colour, .width = 1.2});
+}
+
 // The brain's surface before, and the part of it that lies in the opening.
-void draw_before(Sheet& sheet, const View& view, const std::vector<Segment>& outline) {
+void draw_before(Sheet& sheet, const View& view, const Slice& slice) {
   std::vector<Segment> opening;
-  std::ranges::copy_if(outline, std::back_inserter(opening), [&](const Segment& segment) {
-    return in_opening(view, sheet.plane.world(0.5 * (segment.from + segment.to)));
+  std::ranges::copy_if(slice.outline, std::back_inserter(opening), [&](const Segment& segment) {
+    return in_opening(view, slice.plane.world(0.5 * (segment.from + segment.to)));
   });
-  sheet.svg.lines(outline, {.colour = preop_colour, .width = 1.2});
+  draw_outline(sheet, slice.outline, preop_colour);
   sheet.svg.lines(opening, {.colour = opening_colour, .width = 4});
-}
-
-Figure before_figure(const View& view, const SlicePlane& plane, const std::vector<float>& values,
-                     const std::vector<Segment>& outline) {
-  Sheet sheet(plane, "before", "Preoperative image", grey(view, plane, values, 1), 0);
-  draw_before(sheet, view, outline);
-  return lettered(std::move(sheet), "before");
-}
-
-Figure after_figure(const View& view, const SlicePlane& plane, const std::vector<float>& values,
-                    const std::vector<Segment>& outline) {
-  Sheet sheet(plane, "after", "Image warped to the intraoperative brain", grey(view, plane, values, 1), 0);
-  sheet.svg.lines(outline, {.colour = preop_colour, .width = 1.2});
-  sheet.svg.lines(cut_surface(plane, view.deformed), {.colour = intraop_colour, .width = 1.2});
-  return lettered(std::move(sheet), "after");
 }
 
 Figure difference_figure(const View& view, const SlicePlane& plane, const std::vector<float>& before,
@@ -119,38 +107,50 @@ Figure difference_figure(const View& view, const SlicePlane& plane, const std::v
   const double reach = 0.5 * (view.brightest - view.darkest);
   const ColourScale scale{.map = ColourMap::diverging, .low = -100, .high = 100, .title = "% of range"};
   Canvas canvas(plane.width, plane.height, colour::black);
-  for (std::size_t i = 0; i < canvas.pixels.size(); ++i) {
-    const double change = static_cast<double>(after[i]) - static_cast<double>(before[i]);
-    canvas.pixels[i] = scale.colour_of(std::isfinite(change) ? 50 * change / reach : 0);
-  }
+  std::ranges::transform(after, before, canvas.pixels.begin(), [&](double to, double from) {
+    return scale.colour_of(std::isfinite(to - from) ? 50 * (to - from) / reach : 0);
+  });
   Sheet sheet(plane, "difference", "Brightness after minus before", canvas, bar_width);
   draw_colours(sheet, scale);
   return lettered(std::move(sheet), "after - before");
 }
 
-// The places of the pixels that the mask selects, in its order.
-Points places_of_pixels(const SlicePlane& plane, const std::vector<std::uint8_t>& mask) {
-  Points places(std::ranges::count(mask, 1), 3);
-  Eigen::Index row = 0;
-  for (int y = 0; y < plane.height; ++y) {
-    for (int x = 0; x < plane.width; ++x) {
-      if (mask[static_cast<std::size_t>(y * plane.width + x)] == 1) {
-        places.row(row++) = plane.world({x + 0.5, y + 0.5}).transpose();
-      }
-    }
+Points places_inside(const Slice& slice) {
+  Points places(static_cast<Eigen::Index>(slice.inside.size()), 3);
+  for (Eigen::Index i = 0; const std::size_t pixel : slice.inside) {
+    places.row(i++) = centre_of(slice.plane, pixel).transpose();
   }
   return places;
 }
 
-Points displacement_of_pixels(const RunData& run, const SlicePlane& plane, const std::vector<std::uint8_t>& mask) {
-  const Points places = places_of_pixels(plane, mask);
-  return run.forward ? registration::move_points(*run.forward, places) - places
-                     : displacement_at(*run.solution, places);
+// Of a field in the brain, over the T1: colours and their opacities, each by the value's place among those of
+// slice.inside.
+template <class ColourAt, class Opacity>
+Canvas coloured(const View& view, const Slice& slice, const ColourAt& colour_at, const Opacity& opacity) {
+  Canvas canvas = grey(view, slice.plane, slice.t1, 0.85);
+  for (Eigen::Index i = 0; const std::size_t pixel : slice.inside) {
+    canvas.pixels[pixel] = blend(canvas.pixels[pixel], colour_at(i), slice.t1.empty() ? 0.9 : opacity(i));
+    ++i;
+  }
+  return canvas;
 }
 
-// Where nothing moves the image is seen as it is.
-double opacity(const View& view, double shift, bool over_image) {
-  return over_image ? 0.7 * std::min(1.0, 5 * shift / view.shift.high) : 0.9;
+// A point a square of 22 pixels.
+std::vector<Segment> arrows_of(const View& view, const Slice& slice, const Points& shift) {
+  constexpr std::size_t distance = 22;
+  const SlicePlane& plane = slice.plane;
+  std::vector<Segment> arrows;
+  for (Eigen::Index i = 0; const std::size_t pixel : slice.inside) {
+    const Vector3d u = shift.row(i++);
+    const std::size_t x = pixel % static_cast<std::size_t>(plane.width);
+    const std::size_t y = pixel / static_cast<std::size_t>(plane.width);
+    if (x % distance == distance / 2 && y % distance == distance / 2) {
+      const Vector2d from = plane.pixel(centre_of(plane, pixel));
+      arrows.push_back(
+          {from, from + plane.scale * arrow_factor(view) * Vector2d(u.dot(plane.right), u.dot(plane.down))});
+    }
+  }
+  return arrows;
 }
 
 // White on a dark seam.
@@ -174,34 +174,41 @@ std::string name_of_label(const nlohmann::json& record, std::int32_t label) {
 
 }  // namespace
 
-std::vector<Figure> comparison_figures(const RunData& run, const View& view, const SlicePlane& plane) {
-  const auto before = sample_slice(plane, *run.t1);
-  const auto after = sample_slice(plane, *run.warped);
-  const auto outline = cut_surface(plane, *run.brain);
+Points displacement_at(const RunData& run, const Points& places) {
+  return run.forward ? registration::move_points(*run.forward, places) - places
+                     : Points(registration::nodal_values_at(*run.solution, run.solution->displacement, false, places));
+}
+
+std::vector<Figure> comparison_figures(const RunData& run, const View& view, const Slice& slice) {
+  const SlicePlane& plane = slice.plane;
+  const auto warped = sample_slice(plane, *run.warped);
+  Sheet before(plane, "before", "Preoperative image", grey(view, plane, slice.t1), 0);
+  draw_before(before, view, slice);
+  Sheet after(plane, "after", "Image warped to the intraoperative brain", grey(view, plane, warped), 0);
+  draw_outline(after, slice.outline, preop_colour);
+  draw_outline(after, cut_surface(plane, view.deformed), intraop_colour);
   std::vector<Figure> figures;
-  figures.push_back(before_figure(view, plane, before, outline));
-  figures.push_back(after_figure(view, plane, after, outline));
-  figures.push_back(difference_figure(view, plane, before, after));
+  figures.push_back(lettered(std::move(before), "before"));
+  figures.push_back(lettered(std::move(after), "after"));
+  figures.push_back(difference_figure(view, plane, slice.t1, warped));
   return figures;
 }
 
-Figure labels_figure(const RunData& run, const View& view, const SlicePlane& plane) {
-  Canvas canvas =
-      run.t1 ? grey(view, plane, sample_slice(plane, *run.t1), 1) : Canvas(plane.width, plane.height, colour::black);
-  const double share = run.t1 ? 0.35 : 0.75;
+Figure labels_figure(const RunData& run, const View& view, const Slice& slice) {
+  const SlicePlane& plane = slice.plane;
+  Canvas canvas = grey(view, plane, slice.t1);
+  const double share = slice.t1.empty() ? 0.75 : 0.35;
   std::set<std::int32_t> shown;
-  for (int y = 0; y < plane.height; ++y) {
-    for (int x = 0; x < plane.width; ++x) {
-      const Vector3d place = plane.world({x + 0.5, y + 0.5});
-      const bool closed = run.closed && label_at(*run.closed, place) != 0;
-      if (const std::int32_t label = closed ? taken_in : label_at(*run.labels, place); label != 0) {
-        canvas.at(x, y) = blend(canvas.at(x, y), colour_of_label(label), share);
-        shown.insert(label);
-      }
+  for (std::size_t pixel = 0; pixel < canvas.pixels.size(); ++pixel) {
+    const Vector3d place = centre_of(plane, pixel);
+    const bool closed = run.closed && label_at(*run.closed, place) != 0;
+    if (const std::int32_t label = closed ? taken_in : label_at(*run.labels, place); label != 0) {
+      canvas.pixels[pixel] = blend(canvas.pixels[pixel], colour_of_label(label), share);
+      shown.insert(label);
     }
   }
   Sheet sheet(plane, "labels", "Labels as they were understood", canvas, 0);
-  sheet.svg.lines(cut_surface(plane, *run.brain), {.colour = preop_colour, .width = 1.2});
+  draw_outline(sheet, slice.outline, preop_colour);
   double line = 40;
   for (const std::int32_t label : shown) {
     const std::string name = label == taken_in ? "taken in" : name_of_label(run.record, label);
@@ -222,60 +229,33 @@ double arrow_factor(const View& view) {
   return 1;
 }
 
-Figure displacement_figure(const RunData& run, const View& view, const SlicePlane& plane) {
-  constexpr int arrow_distance = 22;  // pixels
-  Canvas canvas =
-      run.t1 ? grey(view, plane, sample_slice(plane, *run.t1), 0.85) : Canvas(plane.width, plane.height, colour::black);
-  const auto outline = cut_surface(plane, *run.brain);
-  const auto mask = inside_mask(plane, outline);
-  const Points shift = displacement_of_pixels(run, plane, mask);
-  std::vector<Segment> arrows;
-  Eigen::Index row = 0;
-  for (int y = 0; y < plane.height; ++y) {
-    for (int x = 0; x < plane.width; ++x) {
-      if (mask[static_cast<std::size_t>(y * plane.width + x)] == 0) {
-        continue;
-      }
-      const Vector3d u = shift.row(row++);
-      canvas.at(x, y) =
-          blend(canvas.at(x, y), view.shift.colour_of(u.norm()), opacity(view, u.norm(), run.t1.has_value()));
-      if (x % arrow_distance == arrow_distance / 2 && y % arrow_distance == arrow_distance / 2) {
-        const Vector2d from(x + 0.5, y + 0.5);
-        arrows.push_back(
-            {from, from + plane.scale * arrow_factor(view) * Vector2d(u.dot(plane.right), u.dot(plane.down))});
-      }
-    }
-  }
-  Sheet sheet(plane, "displacement", "Displacement as colours and arrows", canvas, bar_width);
-  draw_before(sheet, view, outline);
+Figure displacement_figure(const RunData& run, const View& view, const Slice& slice) {
+  const Points shift = displacement_at(run, places_inside(slice));
+  const Eigen::VectorXd length = shift.rowwise().norm();
+  const Canvas canvas = coloured(
+      view, slice, [&](auto i) { return view.shift.colour_of(length[i]); },
+      [&](auto i) { return 0.7 * std::min(1.0, 5 * length[i] / view.shift.high); });  // what rests is seen as it is
+  Sheet sheet(slice.plane, "displacement", "Displacement as colours and arrows", canvas, bar_width);
+  draw_before(sheet, view, slice);
   if (run.septum) {
-    sheet.svg.lines(cut_surface(plane, *run.septum), {.colour = septum_colour, .width = 1.6});
+    sheet.svg.lines(cut_surface(slice.plane, *run.septum), {.colour = septum_colour, .width = 1.6});
   }
-  draw_arrows(sheet.svg, arrows);
+  draw_arrows(sheet.svg, arrows_of(view, slice, shift));
   draw_colours(sheet, view.shift);
-  return lettered(std::move(sheet), plane.name);
+  return lettered(std::move(sheet), slice.plane.name);
 }
 
-Figure uncertainty_figure(const RunData& run, const View& view, const SlicePlane& plane) {
-  Canvas canvas =
-      run.t1 ? grey(view, plane, sample_slice(plane, *run.t1), 0.85) : Canvas(plane.width, plane.height, colour::black);
-  const auto outline = cut_surface(plane, *run.brain);
-  const auto mask = inside_mask(plane, outline);
+Figure uncertainty_figure(const RunData& run, const View& view, const Slice& slice) {
   const Eigen::Map<const Eigen::VectorXd> nodal(run.deviation.data(), static_cast<Eigen::Index>(run.deviation.size()));
-  const Eigen::VectorXd deviation =
-      registration::nodal_values_at(*run.solution, nodal, false, places_of_pixels(plane, mask));
+  const Eigen::VectorXd deviation = registration::nodal_values_at(*run.solution, nodal, false, places_inside(slice));
   const ColourScale scale{
       .map = ColourMap::sequential, .low = 0, .high = round_up(nodal.maxCoeff()), .title = "+/- mm"};
-  Eigen::Index next = 0;
-  for (std::size_t i = 0; i < mask.size(); ++i) {
-    if (mask[i] == 1) {
-      canvas.pixels[i] = blend(canvas.pixels[i], scale.colour_of(deviation[next++]), run.t1 ? 0.7 : 0.9);
-    }
-  }
-  Sheet sheet(plane, "uncertainty", "How far the displacement may be off, as colours", canvas, bar_width);
-  draw_before(sheet, view, outline);
+  const Canvas canvas = coloured(
+      view, slice, [&](auto i) { return scale.colour_of(deviation[i]); }, [](auto) { return 0.7; });
+  Sheet sheet(slice.plane, "uncertainty", "How far the displacement may be off, as colours", canvas, bar_width);
+  draw_before(sheet, view, slice);
   draw_colours(sheet, scale);
-  return lettered(std::move(sheet), plane.name + " +/-");
+  return lettered(std::move(sheet), slice.plane.name + " +/-");
 }
 
 }  // namespace brainshift::pipelines

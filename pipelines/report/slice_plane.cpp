@@ -66,42 +66,30 @@ std::vector<Segment> cut_surface(const SlicePlane& plane, const Surface& surface
   return segments;
 }
 
-std::vector<std::uint8_t> inside_mask(const SlicePlane& plane, const std::vector<Segment>& segments) {
-  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(plane.height));
-  for (const auto& segment : segments) {
-    const auto& [upper, lower] = std::minmax(segment.from, segment.to, [](auto& a, auto& b) { return a.y() < b.y(); });
-    const int first = std::max(0, static_cast<int>(std::ceil(upper.y() - 0.5)));
-    for (int row = first; row < plane.height && row + 0.5 < lower.y(); ++row) {
-      const double t = (row + 0.5 - upper.y()) / (lower.y() - upper.y());
-      crossings[static_cast<std::size_t>(row)].push_back(upper.x() + t * (lower.x() - upper.x()));
+Vector3d centre_of(const SlicePlane& plane, std::size_t pixel) {
+  const auto width = static_cast<std::size_t>(plane.width);
+  return plane.world({static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5});
+}
+
+std::vector<std::size_t> pixels_inside(const SlicePlane& plane, const discretise::Scanlines& body) {
+  std::vector<std::size_t> inside;
+  for (std::size_t pixel = 0; pixel < plane.pixel_count(); ++pixel) {
+    if (body.inside(centre_of(plane, pixel))) {
+      inside.push_back(pixel);
     }
   }
-  std::vector<std::uint8_t> mask;
-  mask.reserve(static_cast<std::size_t>(plane.width) * crossings.size());
-  for (auto& row : crossings) {
-    std::ranges::sort(row);
-    for (int x = 0; x < plane.width; ++x) {
-      const auto passed = std::ranges::lower_bound(row, x + 0.5) - row.begin();
-      mask.push_back(static_cast<std::uint8_t>(passed % 2));
-    }
-  }
-  return mask;
+  return inside;
 }
 
 std::vector<float> sample_slice(const SlicePlane& plane, const ScalarImage& image) {
   const Eigen::Array3d high = image.geometry.size.cast<double>() - 0.5;
-  std::vector<float> values;
-  values.reserve(static_cast<std::size_t>(plane.width) * static_cast<std::size_t>(plane.height));
-  for (int y = 0; y < plane.height; ++y) {
-    for (int x = 0; x < plane.width; ++x) {
-      const Vector3d index = image.geometry.to_index(plane.world({x + 0.5, y + 0.5}));
-      if ((index.array() < -0.5).any() || (index.array() > high).any()) {
-        values.push_back(std::numeric_limits<float>::quiet_NaN());
-        continue;
-      }
+  std::vector<float> values(plane.pixel_count(), std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t pixel = 0; pixel < values.size(); ++pixel) {
+    const Eigen::Array3d index = image.geometry.to_index(centre_of(plane, pixel));
+    if ((index >= -0.5).all() && (index <= high).all()) {
       const GridCell cell(image.geometry.size, index);
-      values.push_back(
-          static_cast<float>(cell.interpolate([&image](std::size_t offset) { return image.voxels[offset]; })));
+      values[pixel] =
+          static_cast<float>(cell.interpolate([&image](std::size_t offset) { return image.voxels[offset]; }));
     }
   }
   return values;

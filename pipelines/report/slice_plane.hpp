@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "discretise/body/scanlines.hpp"
 #include "pipelines/report/svg.hpp"
 #include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
@@ -26,6 +27,7 @@ struct SlicePlane {
   double scale;                 ///< pixels a mm
   std::array<char, 4> letters;  ///< at the left, right, upper and lower border
 
+  std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   Eigen::Vector3d world(const Eigen::Vector2d& pixel) const {
     return corner + (right * pixel.x() + down * pixel.y()) / scale;
   }
@@ -39,11 +41,14 @@ struct SlicePlane {
 std::array<SlicePlane, 3> anatomical_planes(const Eigen::Vector3d& through, const Eigen::Vector3d& low,
                                             const Eigen::Vector3d& high, double scale);
 
-/// Where a surface cuts the plane, in pixels; one segment a triangle, which is all that a picture and the mask need.
+/// Where a surface cuts the plane, in pixels; one segment a triangle, which is all that a picture needs.
 std::vector<Segment> cut_surface(const SlicePlane& plane, const Surface& surface);
 
-/// One value a pixel, row by row: 1 inside the closed surface that made the segments (even-odd rule).
-std::vector<std::uint8_t> inside_mask(const SlicePlane& plane, const std::vector<Segment>& segments);
+/// The numbers of the plane's pixels, row by row, whose centres lie in a body, ascending.
+std::vector<std::size_t> pixels_inside(const SlicePlane& plane, const discretise::Scanlines& body);
+
+/// The centre of a pixel, by its number.
+Eigen::Vector3d centre_of(const SlicePlane& plane, std::size_t pixel);
 
 /// An image in the plane, one value a pixel, linear between voxels; NaN outside the image.
 std::vector<float> sample_slice(const SlicePlane& plane, const ScalarImage& image);

@@ -50,11 +50,8 @@ void add_path(tinyxml2::XMLPrinter& out, const std::string& path, const Stroke& 
   set(out, "fill", "none");
   set(out, "stroke", hex(stroke.colour));
   set(out, "stroke-width", stroke.width);
-  set(out, "stroke-linecap", stroke.dashed ? "butt" : "round");
+  set(out, "stroke-linecap", "round");
   set(out, "stroke-linejoin", "round");
-  if (stroke.dashed) {
-    set(out, "stroke-dasharray", "6 4");
-  }
   out.CloseElement();
 }
 

@@ -25,7 +25,6 @@ struct Segment {
 struct Stroke {
   Colour colour = colour::ink;
   double width = 1;  ///< pixels
-  bool dashed = false;
 };
 
 /// Where the given position lies in the text.

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "pipelines/report/slice_figures.hpp"
-#include "solve/output/field_difference.hpp"
 
 namespace brainshift::pipelines {
 
@@ -37,14 +36,12 @@ Vector3d inward_at(const Surface& surface, const Vector3d& centre, double radius
 }
 
 // The brain's brightness sets the scale: fat, vessels and bone would otherwise darken it.
-std::pair<double, double> grey_window(const RunData& run, const std::array<SlicePlane, 3>& planes) {
+std::pair<double, double> grey_window(const std::array<Slice, 3>& slices) {
   std::vector<float> sample;
-  for (const SlicePlane& plane : planes) {
-    const auto mask = inside_mask(plane, cut_surface(plane, *run.brain));
-    const auto values = sample_slice(plane, *run.t1);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (mask[i] == 1 && std::isfinite(values[i])) {
-        sample.push_back(values[i]);
+  for (const Slice& slice : slices) {
+    for (const std::size_t pixel : slice.inside) {
+      if (!slice.t1.empty() && std::isfinite(slice.t1[pixel])) {
+        sample.push_back(slice.t1[pixel]);
       }
     }
   }
@@ -83,11 +80,16 @@ View make_view(const RunData& run) {
   const Vector3d high = vertices.colwise().maxCoeff().transpose().array() + margin;
   const double depth = view.opening.rows() == 0 ? 0 : depth_of_planes;
   view.focus = view.opening_centre + depth * view.inward;
-  view.planes = anatomical_planes(view.focus, low, high, pixels_per_mm);
-  if (run.t1) {
-    std::tie(view.darkest, view.brightest) = grey_window(run, view.planes);
-  }
-  const Points shift = displacement_at(*run.solution, vertices);
+  const discretise::Scanlines body(*run.brain);
+  std::ranges::transform(anatomical_planes(view.focus, low, high, pixels_per_mm), view.slices.begin(),
+                         [&](const SlicePlane& plane) {
+                           return Slice{.plane = plane,
+                                        .outline = cut_surface(plane, *run.brain),
+                                        .inside = pixels_inside(plane, body),
+                                        .t1 = run.t1 ? sample_slice(plane, *run.t1) : std::vector<float>{}};
+                         });
+  std::tie(view.darkest, view.brightest) = grey_window(view.slices);
+  const Points shift = displacement_at(run, vertices);
   view.deformed = {vertices + shift, run.brain->triangles};
   for (const auto& u : shift.rowwise()) {
     view.surface_shift.push_back(u.norm());

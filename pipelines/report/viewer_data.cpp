@@ -95,28 +95,6 @@ std::vector<PackedBytes> images_on(const ImageGeometry& grid, const RunData& run
   return arrays;
 }
 
-// 1 inside the surface: cut layer by layer, in voxels of the grid.
-std::vector<std::uint8_t> inside(Surface surface, const ImageGeometry& grid) {
-  for (Eigen::Index i = 0; i < surface.vertices.rows(); ++i) {
-    surface.vertices.row(i) = grid.to_index(surface.vertices.row(i).transpose()).transpose();
-  }
-  SlicePlane layer{.name = {},
-                   .normal_axis = 2,
-                   .corner = {-0.5, -0.5, 0},
-                   .right = Eigen::Vector3d::UnitX(),
-                   .down = Eigen::Vector3d::UnitY(),
-                   .width = grid.size.x(),
-                   .height = grid.size.y(),
-                   .scale = 1,
-                   .letters = {}};
-  std::vector<std::uint8_t> all;
-  for (int k = 0; k < grid.size.z(); ++k) {
-    layer.corner.z() = k;
-    std::ranges::copy(inside_mask(layer, cut_surface(layer, surface)), std::back_inserter(all));
-  }
-  return all;
-}
-
 // Adds a field on a grid, one component after the other, in whole steps; value: of a place and a component.
 template <class Value>
 void add_field(ViewerData& data, const std::string& name, double step, int components, const ImageGeometry& grid,
@@ -155,7 +133,9 @@ void add_fields(ViewerData& data, const RunData& run, const ImageGeometry& grid)
   }
   add_nodal(data, "error", run.solution->estimated_error, run, grid);
   add_nodal(data, "deviation", run.deviation, run, grid);
-  data.arrays.push_back({"brain", packed_numbers(inside(*run.brain, grid))});
+  const discretise::Scanlines body(*run.brain);
+  const auto inside = [&body](const Eigen::Vector3d& place) { return body.inside(place); };
+  data.arrays.push_back({"brain", packed_numbers(on_voxels<std::uint8_t>(grid, inside))});
 }
 
 // The rows of the matrix from voxel indices to places, and its inverse's.

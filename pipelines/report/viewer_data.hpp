@@ -18,8 +18,8 @@ struct PackedBytes {
 
 /// What viewer.js shows of a run. Places and displacements are in LPS, numbers in arrays little-endian.
 struct ViewerData {
-  nlohmann::json facts = nlohmann::json::object();  ///< grids, steps, colours, options, the measured load and the
-                                                    ///< history as they were written
+  nlohmann::json facts = nlohmann::json::object();  ///< grids, steps, colours, options and measures; the measured load
+                                                    ///< and the history as they were written
   std::vector<PackedBytes> arrays = {};
 };
 

@@ -176,7 +176,9 @@ Eigen::MatrixXd spread_of_constants(const UncertaintyJob& job, const Solved& sol
   }
   SampleTable table(out / "samples.csv", own);
   std::vector<Points> samples;
-  for (int sample = 1; sample <= options.samples; ++sample) {
+  std::size_t drawn = 0;
+  for (int sample = options.share; sample <= options.samples; sample += options.shares) {
+    ++drawn;
     report(progress, static_cast<double>(sample) / (options.samples + 1),
            "sample " + std::to_string(sample) + " of " + std::to_string(options.samples));
     const solve::Constants constants = solve::drawn_constants(solved.model, options, sample);
@@ -188,8 +190,8 @@ Eigen::MatrixXd spread_of_constants(const UncertaintyJob& job, const Solved& sol
   table.close();
   sampler.clear_others();
   said.measures["uncertainty"]["samples"] = samples.size();
-  if (const std::size_t failed = static_cast<std::size_t>(options.samples) - samples.size(); failed > 0) {
-    said.notes.push_back("warning: " + std::to_string(failed) + " of " + std::to_string(options.samples) +
+  if (const std::size_t failed = drawn - samples.size(); failed > 0) {
+    said.notes.push_back("warning: " + std::to_string(failed) + " of " + std::to_string(drawn) +
                          " samples could not be solved and are left out of the uncertainty; see samples.csv");
   }
   return solve::spread_about(*answer, samples);

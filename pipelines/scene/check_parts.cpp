@@ -65,6 +65,10 @@ bool has_noise(const Load& load) {
 }
 
 void check_uncertainty(const Scene& scene) {
+  if (scene.uncertainty->share > scene.uncertainty->shares) {
+    throw std::invalid_argument("share is " + std::to_string(scene.uncertainty->share) + " of " +
+                                std::to_string(scene.uncertainty->shares) + " shares; count from 1 to shares");
+  }
   const solve::Model parts = parts_of(scene);
   solve::check_sampled(parts, scene.solve);
   if (!solve::varies(parts, *scene.uncertainty) && !(scene.load && has_noise(*scene.load))) {

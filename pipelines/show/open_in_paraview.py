@@ -32,17 +32,17 @@ def show(run, pv):
     if skull_file.is_file():
         skull = pv.XMLPolyDataReader(registrationName="Skull", FileName=[str(skull_file)])
         pv.Show(skull, view, Opacity=0.2, Visibility=0)
-    if brain_file.is_file():
-        show_brain(brain_file, view, pv)
+    brain = show_brain(brain_file, view, pv) if brain_file.is_file() else None
     if load_file.is_file():
         rows = read_load(load_file)
         show_load(rows, view, pv)
-        look_from([fmean(column) for column in zip(*rows)][:3], view)
+        if brain:
+            look_from([fmean(column) for column in zip(*rows)][:3], brain, view)
     return view
 
 
 def show_brain(file, view, pv):
-    """Coloured by the length of its displacement, with contours in mm."""
+    """Coloured by the length of its displacement, with contours in mm; the brain."""
     brain = pv.XMLPolyDataReader(registrationName="Brain warped", FileName=[str(file)])
     display = pv.Show(brain, view)
     pv.ColorBy(display, ("POINTS", "displacement_mm"))
@@ -61,6 +61,7 @@ def show_brain(file, view, pv):
         lines = pv.Show(contours, view, LineWidth=2)
         lines.ColorArrayName = ["POINTS", ""]
         lines.DiffuseColor = lines.AmbientColor = [0, 0, 0]
+    return brain
 
 
 def read_load(file):
@@ -69,10 +70,11 @@ def read_load(file):
     return [[float(value) for value in line.split(",")[:6]] for line in plain[1:]]
 
 
-def look_from(outside, view):
+def look_from(outside, brain, view):
     """At the whole, over the opening; the head is up."""
-    view.ResetCamera()
-    centre = list(view.CameraFocalPoint)
+    box = brain.GetDataInformation().GetBounds()  # the view knows none before it is drawn
+    centre = [(low + high) / 2 for low, high in zip(box[::2], box[1::2])]
+    view.CameraFocalPoint = centre
     view.CameraPosition = [c + 10 * (o - c) for c, o in zip(centre, outside)]
     view.CameraViewUp = [0, 0, 1]
     view.ResetCamera()

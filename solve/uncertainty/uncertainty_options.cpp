@@ -9,6 +9,11 @@ const OptionTable<UncertaintyOptions>& uncertainty_options() {
       number_option<Options>("samples", &Options::samples, {.low = 2, .high = 1000}, "",
                              "solutions with other constants, each on a thinned cloud; the measured points' noise "
                              "needs none"),
+      number_option<Options>("shares", &Options::shares, {.low = 1, .high = 1000}, "",
+                             "machines that solve the samples, each every so many-th of them: brainshift-bids and "
+                             "brainshift-sweep give the runs of their --share-samples this and the next"),
+      number_option<Options>("share", &Options::share, {.low = 1, .high = 1000}, "",
+                             "which of the shares is solved; at most `shares`"),
       number_option<Options>("seed", &Options::seed, not_negative, "", "of the random numbers"),
       number_option<Options>("stiffness", &Options::stiffness, {.low = 0, .high = 2}, "",
                              "standard deviation of the logarithm of each tissue's stiffness; 0.25: a quarter more or "

@@ -9,6 +9,8 @@ namespace brainshift::solve {
 /// come from.
 struct UncertaintyOptions {
   int samples = 16;
+  int shares = 1;  ///< machines that solve the samples, of which every so many-th is one's
+  int share = 1;   ///< which of them this one is; at most `shares`
   int seed = 1;
   double stiffness = 0.25;   ///< standard deviation of the logarithm of each tissue's stiffness
   double poisson = 0.04;     ///< each tissue's ν is uniform within so much of its value, and below most_poisson

@@ -98,6 +98,24 @@ class AppTest(unittest.TestCase):
         self.assertLess(float(row["largest_shift_mm"]), 20)
         self.assertTrue((self.root / "sweep" / "work" / "1/run/discretise/command.log").exists())
 
+    def test_samples_that_jobs_of_their_own_solved_are_those_of_one_run(self):
+        scene, single = self.out / "work/sub-00001/scene.xml", self.root / "with_samples"
+        uncertain = ("--set", "uncertainty.samples=3")
+        subprocess.run([PROGRAM, "--quiet", "run", scene, "--out", single, "--until", "solve", *FAST[:4], *uncertain],
+                       check=True)
+        table, out = self.root / "samples.tsv", self.root / "shared"
+        table.write_text(f"scene\n{scene}\n")
+        done = call("brainshift-sweep", table, out, "--share-samples", "2", *FAST, *uncertain)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        case = out / "work/1"
+        begin = float((case / "marks/solve").read_text().split()[0])
+        samples = list((case / "run/samples").iterdir())
+        self.assertEqual(len(samples), 4, "three, and the model itself")
+        self.assertLess(max(file.stat().st_mtime for file in samples), begin)
+        for file in ("uncertainty.vtu", "samples.csv"):
+            self.assertEqual((case / "run/solve" / file).read_bytes(), (single / "solve" / file).read_bytes(), file)
+        self.assertFalse((case / "shares").exists())
+
     def test_a_dry_run_names_the_rules_and_runs_none(self):
         dry = call("brainshift-bids", self.bids, self.root / "dry", "participant", "--dry-run", *FAST)
         self.assertIn("rule solve:", dry.stdout)

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/report/plot.hpp"
+#include "pipelines/tradeoff/plot.hpp"
 
 namespace brainshift::verification {
 

@@ -43,6 +43,8 @@ def add_options(parser):
                         help="all stages of a case in one job, not a job a stage: faster where heads are small")
     parser.add_argument("--per-job", type=int, default=1, metavar="N",
                         help="cases that share a job of a cluster's queue (%(default)s)")
+    parser.add_argument("--share-samples", type=int, default=1, metavar="N",
+                        help="the samples of <uncertainty> in N jobs of a case, which follow no other (%(default)s)")
     parser.add_argument("--dry-run", action="store_true", help="say what would be run, and stop")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE",
@@ -74,7 +76,7 @@ def compute(options, cases, version, call="all"):
         local = options.profile == "local"
         cores = (options.jobs if local else None) or len(os.sched_getaffinity(0))
         threads = options.threads or (max(1, cores // max(len(cases), 1)) if local else 1)
-        plan.write(own, work, cases, stages_of(options), brainshift, version, threads, cores)
+        plan.write(own, work, cases, stages_of(options), brainshift, version, threads, cores, options.share_samples)
         place = on_this_machine(options, cores) if local else in_queue(options, threads)
         command = words(own, profile, options.dry_run) + place + options.snakemake
         code = run(command, own, lock, Progress(options.quiet or options.dry_run))

@@ -107,14 +107,22 @@ def memory(program, work, cases, workers):
 
 def needs(cost, stages):
     every = {stage: cost.get(stage, UNKNOWN_MB) for stage in STAGES}
-    return every if len(stages) == len(STAGES) else {stages[-1]: max(every.values())}
+    return every if len(stages) == len(STAGES) else {stages[-1]: max(every.values()), "solve": every["solve"]}
 
 
-def write(own, work, cases, stages, program, version, threads, cores):
+def has_samples(case):
+    """Whether its scene asks how far the answer may be off, or an option does."""
+    return (any(option.startswith("uncertainty.") for option in case.options)
+            or bool(case.scene) and tree.parse(case.scene).find("uncertainty") is not None)
+
+
+def write(own, work, cases, stages, program, version, threads, cores, shares=1):
     for case in cases:
         write_case(work, case, version)
         marks.drop(work / case.name, stages)
     costs = memory(program, work, cases, cores)
     replace_text(own / "plan.json", json.dumps({
         "work": str(work), "program": program, "threads": threads, "stages": stages,
+        "shares": {case.name: [f"{share}_of_{shares}" for share in range(1, shares + 1)]
+                   for case in cases if shares > 1 and has_samples(case)},
         "cases": {case.name: needs(costs[case.name], stages) for case in cases}}))

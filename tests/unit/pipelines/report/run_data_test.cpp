@@ -23,14 +23,8 @@ TEST_F(RunDataTest, PartsThatTheRunDidNotMakeAreEmpty) {
   EXPECT_EQ(dynamics_of(run.record), solve::Dynamics::relaxation);
 }
 
-TEST(RunData, ADisplacementBetweenNodesLiesBetweenTheirs) {
-  const Solution solution = *small_run().solution;
-  EXPECT_EQ(loaded_positions(solution).rows(), 13);
-  const Points at_nodes = displacement_at(solution, solution.positions);
-  EXPECT_LT((at_nodes - solution.displacement).cwiseAbs().maxCoeff(), 1e-9);
-  const double sunk = displacement_at(solution, Points({{11, 0, 20}}))(0, 2);
-  EXPECT_LT(sunk, 0);
-  EXPECT_GT(sunk, -4);
+TEST(RunData, LoadedIsWhatHasAReaction) {
+  EXPECT_EQ(loaded_positions(*small_run().solution).rows(), 13);
 }
 
 }  // namespace brainshift::pipelines::run_data_test

@@ -27,14 +27,14 @@ const char* const opening_colour = "#46eb6e";
 TEST(SliceFigures, ShowBeforeAfterAndDifferenceInTheOrderOfThePage) {
   const RunData run = small_run();
   const View view = make_view(run);
-  const SlicePlane& coronal = view.planes[1];
+  const Slice& coronal = view.slices[1];
   const auto figures = comparison_figures(run, view, coronal);
   ASSERT_EQ(figures.size(), 3U);
   EXPECT_EQ(figures[0].name, "coronal_before");
   EXPECT_EQ(figures[1].name, "coronal_after");
   EXPECT_EQ(figures[2].name, "coronal_difference");
-  EXPECT_EQ(figures[0].width, coronal.width);
-  EXPECT_GT(figures[2].width, coronal.width) << "room for the colour bar";
+  EXPECT_EQ(figures[0].width, coronal.plane.width);
+  EXPECT_GT(figures[2].width, coronal.plane.width) << "room for the colour bar";
   EXPECT_EQ(strokes(figures[0], before_colour), 1U);
   EXPECT_EQ(strokes(figures[0], opening_colour), 1U);
   EXPECT_EQ(strokes(figures[0], after_colour), 0U);
@@ -44,14 +44,14 @@ TEST(SliceFigures, ShowBeforeAfterAndDifferenceInTheOrderOfThePage) {
 TEST(SliceFigures, ThePlaneUnderTheOpeningDoesNotCutIt) {
   const RunData run = small_run();
   const View view = make_view(run);
-  EXPECT_EQ(strokes(comparison_figures(run, view, view.planes[0])[0], opening_colour), 0U);
+  EXPECT_EQ(strokes(comparison_figures(run, view, view.slices[0])[0], opening_colour), 0U);
 }
 
 TEST(SliceFigures, TheLabelsHaveAColourEachAndWhatWasTakenInOneOfItsOwn) {
   RunData run = small_run();
   const View view = make_view(run);
   run.labels = LabelMap{run.t1->geometry, std::vector<std::uint16_t>(run.t1->voxels.size(), 1)};
-  const Figure one = labels_figure(run, view, view.planes[1]);
+  const Figure one = labels_figure(run, view, view.slices[1]);
   EXPECT_EQ(one.name, "coronal_labels");
   EXPECT_EQ(strokes(one, before_colour), 1U);
   EXPECT_NE(one.svg.find("label 1"), std::string::npos);
@@ -61,7 +61,8 @@ TEST(SliceFigures, TheLabelsHaveAColourEachAndWhatWasTakenInOneOfItsOwn) {
   std::fill_n(run.closed->voxels.begin(), run.closed->voxels.size() / 4, std::uint16_t{1});
   run.t1.reset();
   run.record["label_names"] = {{"2", "ventricles"}};
-  const Figure both = labels_figure(run, view, view.planes[1]);
+  const View without_image = make_view(run);
+  const Figure both = labels_figure(run, without_image, without_image.slices[1]);
   for (const char* name : {"label 1", "ventricles", "taken in"}) {
     EXPECT_NE(both.svg.find(name), std::string::npos) << name;
   }
@@ -69,13 +70,25 @@ TEST(SliceFigures, TheLabelsHaveAColourEachAndWhatWasTakenInOneOfItsOwn) {
 
 TEST(SliceFigures, TheDisplacementIsDrawnWithAndWithoutAnImageAndAField) {
   RunData run = small_run();
+  run.solution->spacing.assign(run.solution->spacing.size(), 30.0);  // its nodes, all on the surface, know the inside
   const View view = make_view(run);
-  const Figure over_image = displacement_figure(run, view, view.planes[1]);
+  const Figure over_image = displacement_figure(run, view, view.slices[1]);
   EXPECT_EQ(strokes(over_image, "#ffffff"), 7U) << "arrows, the scale and five ticks of the colour bar";
   run.forward = VectorImage{run.t1->geometry, {}};
   run.forward->voxels.assign(run.t1->voxels.size(), {0, 0, 0});
   run.t1.reset();
-  EXPECT_EQ(strokes(displacement_figure(run, view, view.planes[1]), "#ffffff"), 6U) << "a field that moves nothing";
+  const View without_image = make_view(run);
+  EXPECT_EQ(strokes(displacement_figure(run, without_image, without_image.slices[1]), "#ffffff"), 6U)
+      << "a field that moves nothing";
+}
+
+TEST(SliceFigures, WithoutAFieldADisplacementBetweenNodesLiesBetweenTheirs) {
+  const RunData run = small_run();
+  const Points at_nodes = displacement_at(run, run.solution->positions);
+  EXPECT_LT((at_nodes - run.solution->displacement).cwiseAbs().maxCoeff(), 1e-9);
+  const double sunk = displacement_at(run, Points({{11, 0, 20}}))(0, 2);
+  EXPECT_LT(sunk, 0);
+  EXPECT_GT(sunk, -4);
 }
 
 TEST(SliceFigures, ArrowsAreLengthenedUntilTheyAreSeen) {

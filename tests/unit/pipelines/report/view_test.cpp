@@ -14,7 +14,7 @@ TEST(View, LooksThroughTheOpening) {
   EXPECT_TRUE(view.opening_centre.isApprox(Vector3d(0, 0, 20)));
   EXPECT_TRUE(view.inward.isApprox(-Vector3d::UnitZ(), 1e-9));
   EXPECT_EQ(view.opening_reach, 5);
-  EXPECT_DOUBLE_EQ(view.planes[0].corner.z(), 20 - depth_of_planes) << "the axial plane";
+  EXPECT_DOUBLE_EQ(view.slices[0].plane.corner.z(), 20 - depth_of_planes) << "the axial plane";
 }
 
 TEST(View, MovesTheSurfaceAndScalesTheColoursToIt) {
@@ -37,7 +37,7 @@ TEST(View, WithoutALoadThePlanesCutTheMiddle) {
   run.t1.reset();
   const View view = make_view(run);
   EXPECT_EQ(view.opening.rows(), 0);
-  EXPECT_NEAR(view.planes[0].corner.z(), 0, 1e-9);
+  EXPECT_NEAR(view.slices[0].plane.corner.z(), 0, 1e-9);
   EXPECT_EQ(view.brightest, 1);
 }
 

@@ -136,6 +136,31 @@ TEST_F(UncertaintyTest, DoesNotComputeFinishedSamplesAgainAndDoesThoseThatAreDam
   EXPECT_NE(read(folder_ / "first/uncertainty.vtu"), read(folder_ / "other/uncertainty.vtu"));
 }
 
+TEST_F(UncertaintyTest, OfSharesThatAreBroughtTogetherIsThatOfOneRun) {
+  SolveJob job = solve_job(5);
+  solved(job, "one");
+  const std::set<std::string> all = samples();
+  fs::rename(folder_ / "samples", folder_ / "of_one");
+  job.uncertainty->options.shares = 2;
+  std::size_t solved_in_shares = 0;
+  for (const int share : {1, 2}) {
+    job.uncertainty->options.share = share;
+    job.uncertainty->samples = folder_ / ("share" + std::to_string(share));
+    solved_in_shares +=
+        solved(job, "out" + std::to_string(share)).measures["uncertainty"]["samples"].get<std::size_t>();
+    fs::copy(job.uncertainty->samples, folder_ / "samples",
+             fs::copy_options::recursive | fs::copy_options::skip_existing);
+  }
+  EXPECT_EQ(solved_in_shares, 5U);
+  EXPECT_EQ(samples(), all);
+  job = solve_job(5);
+  const auto written = fs::last_write_time(folder_ / "samples" / *all.begin());
+  solved(job, "together");
+  EXPECT_EQ(fs::last_write_time(folder_ / "samples" / *all.begin()), written);
+  EXPECT_EQ(read(folder_ / "one/uncertainty.vtu"), read(folder_ / "together/uncertainty.vtu"));
+  EXPECT_EQ(read(folder_ / "one/samples.csv"), read(folder_ / "together/samples.csv"));
+}
+
 TEST_F(UncertaintyTest, LeavesTheSolutionAsItIs) {
   SolveJob job = solve_job(2);
   solved(job, "with");

@@ -70,6 +70,11 @@ TEST_F(CheckUncertainty, RefusesNumbersOfSamplesThatAreNone) {
   }
 }
 
+TEST_F(CheckUncertainty, RefusesAShareThatThereIsNot) {
+  EXPECT_EQ(fault_with("<uncertainty shares=\"3\" share=\"3\"/>"), "");
+  expect_parts(fault_with("<uncertainty shares=\"3\" share=\"4\"/>"), {"scene.xml:1", "share is 4 of 3 shares"});
+}
+
 TEST_F(CheckUncertainty, RefusesASceneWhoseConstantsAreKnownAndWhoseLoadHasNoNoise) {
   expect_parts(fault_with("<uncertainty stiffness=\"0\" poisson=\"0\"/>"),
                {"scene.xml:1", "nothing of the scene is uncertain", "give <load> a noise"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipelines/report/plot.hpp"
+#include "pipelines/tradeoff/plot.hpp"
 
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
@@ -46,7 +46,7 @@ TEST(Plot, NamesItsAxesAndSeriesAndHasRoundTicks) {
 
 TEST(Plot, LogarithmicTicksAreDecadesOverManyOfThem) {
   Plot plot = line_of({1, 2}, {1e-6, 1});
-  plot.scale = Scale::log_y;
+  plot.scale = Scale::log_log;
   const Drawn many = drawn(plot);
   EXPECT_TRUE(many.says("0.001"));
   EXPECT_FALSE(many.says("0.002"));
@@ -56,7 +56,7 @@ TEST(Plot, LogarithmicTicksAreDecadesOverManyOfThem) {
 
 TEST(Plot, LeavesOutWhatCannotBeShown) {
   Plot plot = line_of({1, 2, 3, 4}, {1, std::nan(""), 0, 10});
-  plot.scale = Scale::log_y;
+  plot.scale = Scale::log_log;
   EXPECT_EQ(drawn(plot).dots, 2U);
   plot.series[0].y = {std::nan(""), std::nan(""), std::nan(""), std::nan("")};
   EXPECT_EQ(drawn(plot).dots, 0U);
@@ -72,16 +72,6 @@ TEST(Plot, ManyPointsAreJoinedWithoutDots) {
   EXPECT_EQ(drawn(plot).dots, 0U);
   plot.series[0].joined = false;
   EXPECT_EQ(drawn(plot).dots, 50U);
-}
-
-TEST(Plot, ALevelIsWithinTheAxesAndAPhaseIsNamed) {
-  Plot plot = line_of({0, 4}, {10, 20});
-  plot.level = DashedLine{.y = 0, .name = "bound"};
-  plot.phase = ShadedPart{.from = 0, .to = 1, .name = "loading"};
-  const Drawn with = drawn(plot);
-  EXPECT_TRUE(with.says("bound"));
-  EXPECT_TRUE(with.says("loading"));
-  EXPECT_TRUE(with.says("0")) << "the axis reaches the level";
 }
 
 TEST(Plot, IsWrittenAsAFileOrSaysWhichItCouldNotWrite) {

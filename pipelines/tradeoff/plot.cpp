@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipelines/report/plot.hpp"
+#include "pipelines/tradeoff/plot.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 
 constexpr int width = 680, height = 440, left = 80, right = 24, bottom = 58;
 constexpr int title_height = 40, key_height = 20;
-constexpr Colour grid = {225, 225, 225}, phase_fill = {238, 242, 247}, level_stroke = {179, 38, 30};
+constexpr Colour grid = {225, 225, 225};
 constexpr std::array<Colour, 6> colours = {
     {{20, 90, 170}, {210, 90, 20}, {40, 140, 60}, {150, 40, 140}, {110, 110, 110}, {190, 160, 0}}};
 
@@ -85,8 +85,9 @@ std::size_t key_columns(const Plot& plot) {
 Frame frame_of(const Plot& plot) {
   const std::size_t columns = key_columns(plot);
   const auto rows = static_cast<int>((plot.series.size() + columns - 1) / columns);
-  Frame frame{.x = {.logarithmic = plot.scale == Scale::log_log},
-              .y = {.logarithmic = plot.scale != Scale::linear},
+  const bool logarithmic = plot.scale == Scale::log_log;
+  Frame frame{.x = {.logarithmic = logarithmic},
+              .y = {.logarithmic = logarithmic},
               .top = title_height + key_height * rows + (plot.y_label.empty() ? 0 : key_height)};
   for (const Series& series : plot.series) {
     for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -95,9 +96,6 @@ Frame frame_of(const Plot& plot) {
         frame.y.include(series.y[i]);
       }
     }
-  }
-  if (plot.level && frame.y.shows(plot.level->y)) {
-    frame.y.include(plot.level->y);
   }
   return frame;
 }
@@ -150,17 +148,7 @@ std::string plot_svg(const Plot& plot) {
   const Frame frame = frame_of(plot);
   Svg svg(plot.file, plot.title, width, height);
   svg.rectangle({0, 0}, {width, height}, colour::white);
-  if (plot.phase) {
-    const double from = frame.x_of(plot.phase->from), to = frame.x_of(plot.phase->to);
-    svg.rectangle({from, frame.top}, {to - from, height - bottom - frame.top}, phase_fill);
-    svg.text({from + 8, height - bottom - 12}, plot.phase->name, {.size = 13});
-  }
   draw_axes(svg, frame, plot);
-  if (plot.level && frame.y.shows(plot.level->y)) {
-    const double y = frame.y_of(plot.level->y);
-    svg.line({left, y}, {width - right, y}, {.colour = level_stroke, .width = 1.2, .dashed = true});
-    svg.text({width - right, y - 10}, plot.level->name, {.size = 13, .anchor = Anchor::right});
-  }
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     draw_series(svg, frame, plot.series[i], colours[i % colours.size()]);
     draw_key(svg, plot.series[i], colours[i % colours.size()], i, key_columns(plot));

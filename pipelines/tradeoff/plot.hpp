@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,27 +16,13 @@ struct Series {
   bool joined = true;
 };
 
-enum class Scale : std::uint8_t { linear, log_y, log_log };
-
-/// A value of y, drawn as a dashed line.
-struct DashedLine {
-  double y;
-  std::string name;
-};
-
-/// A shaded part of the x axis.
-struct ShadedPart {
-  double from, to;
-  std::string name;
-};
+enum class Scale : std::uint8_t { linear, log_log };
 
 struct Plot {
   std::string file;  ///< without .svg
   std::string title, x_label, y_label;
   std::vector<Series> series;
   Scale scale = Scale::linear;
-  std::optional<DashedLine> level = {};
-  std::optional<ShadedPart> phase = {};
 };
 
 /// The plot as SVG text.
