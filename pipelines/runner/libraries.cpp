@@ -5,9 +5,14 @@
 #include <itkMultiThreaderBase.h>
 #include <itkObject.h>
 #include <omp.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 #include <vtkObject.h>
 
+#include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <latch>
@@ -21,6 +26,20 @@ namespace {
 // A thread that has nothing to do looks so often, some microseconds, before it sleeps: alone that costs nothing
 // measurable, and beside a busy process a thread that spins on takes the processor from the one that it waits for.
 constexpr const char* spins = "1000";
+
+/// The shortest turn that Linux gives, ns.
+constexpr std::uint64_t turn = 100000;
+
+/// Of Linux' sched_setattr(2), in its first version; the C library has no name for it everywhere.
+struct SchedulingAttributes {
+  std::uint32_t size = sizeof(SchedulingAttributes);
+  std::uint32_t policy = SCHED_OTHER;
+  std::uint64_t flags = 0;
+  std::int32_t nice = 0;
+  std::uint32_t priority = 0;
+  std::uint64_t runtime = turn;
+  std::uint64_t deadline = 0, period = 0;
+};
 
 /// How many threads of so many can be made: limits on processes or on memory may not allow them all.
 int threads_allowed(int threads) {
@@ -56,7 +75,20 @@ int threads_in_use() {
   return omp_get_max_threads();
 }
 
+void take_short_turns() {
+#ifdef SYS_sched_setattr
+  errno = 0;
+  const int nice = getpriority(PRIO_PROCESS, 0);
+  if (errno == 0 && sched_getscheduler(0) == SCHED_OTHER) {
+    SchedulingAttributes attributes;
+    attributes.nice = nice;
+    syscall(SYS_sched_setattr, 0, &attributes, 0U);
+  }
+#endif
+}
+
 void wait_asleep(char** arguments) {
+  take_short_turns();
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) {
     return;
   }

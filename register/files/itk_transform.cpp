@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/files/itk_transform.hpp"
 
+#include <hdf5.h>
 #include <itkBSplineBaseTransform.h>
 #include <itkCompositeTransform.h>
 #include <itkDisplacementFieldTransform.h>
@@ -62,6 +63,7 @@ itk::TransformIOBaseTemplate<double>::Pointer reader_of(const fs::path& file) {
 }
 
 Transform::ConstPointer read_itk(const fs::path& file) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is thrown, not printed
   const auto reader = itk::TransformFileReaderTemplate<double>::New();
   try {
     reader->SetTransformIO(reader_of(file));

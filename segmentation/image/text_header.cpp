@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/image/text_header.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include "segmentation/files/refuse.hpp"
 
@@ -33,10 +35,11 @@ std::vector<Number> values_in(const std::filesystem::path& file, const std::stri
 }  // namespace
 
 TextHeader::TextHeader(const std::filesystem::path& file) : file_(file) {
-  constexpr std::size_t longest = std::size_t{1} << 20;
-  text_.resize(longest);
+  constexpr std::uintmax_t longest = std::uintmax_t{1} << 20;
+  std::error_code unknown;
+  text_.resize(static_cast<std::size_t>(std::min(longest, std::filesystem::file_size(file, unknown))));
   std::ifstream in(file, std::ios::binary);
-  in.read(text_.data(), static_cast<std::streamsize>(longest));
+  in.read(text_.data(), static_cast<std::streamsize>(text_.size()));
   text_.resize(static_cast<std::size_t>(in.gcount()));
 }
 

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
-// Functions with hot loops over lanes are compiled for three levels of the x86-64 instruction set, of which the loader
-// picks the best.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__AVX__)
-#define BRAINSHIFT_LANES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+// Hot loops over lanes are compiled for three levels of the x86-64 instruction set: a file ..._body.hpp is included
+// once for each, with the number of doubles that its registers hold as BRAINSHIFT_WIDTH. GCC takes longer vectors
+// apart, by way of memory.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define BRAINSHIFT_LEVELS
+#endif
+#if defined(__AVX512F__)
+#define BRAINSHIFT_BASIC_WIDTH 8
+#elif defined(__AVX__)
+#define BRAINSHIFT_BASIC_WIDTH 4
 #else
-#define BRAINSHIFT_LANES
+#define BRAINSHIFT_BASIC_WIDTH 2
 #endif
 #define BRAINSHIFT_INLINE [[gnu::always_inline]] inline  // takes on the instruction set of its caller
 #if defined(__clang__)
@@ -24,7 +30,7 @@ namespace brainshift::solve {
 constexpr int lanes = 8;
 
 /// A number of each of them, and what is true of each: -1, else 0. Aligned as the widest instructions want it, which
-/// is not what a compiler for narrower ones does by itself.
+/// is not what a compiler for narrower ones does by itself. To be kept; loops reckon with as many as a register holds.
 using Lane = double __attribute__((vector_size(8 * lanes), aligned(8 * lanes)));
 using Mask = std::int64_t __attribute__((vector_size(8 * lanes), aligned(8 * lanes)));
 
@@ -34,6 +40,18 @@ BRAINSHIFT_INLINE bool any(const Mask& mask) {
     some |= mask[l];
   }
   return some != 0;
+}
+
+/// How many of the levels, the fastest first, this processor does not run.
+inline std::size_t levels_out_of_reach() {
+#ifdef BRAINSHIFT_LEVELS
+  const bool fused = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  const bool wide = fused && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
+  return wide ? 0 : (fused ? 1 : 2);
+#else
+  return 0;
+#endif
 }
 
 }  // namespace brainshift::solve

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/force/step_kernels.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace brainshift::solve {
@@ -8,23 +9,27 @@ namespace brainshift::solve {
 namespace {
 
 namespace basic {
+#define BRAINSHIFT_WIDTH BRAINSHIFT_BASIC_WIDTH
 #include "solve/force/step_kernels_body.hpp"
+#undef BRAINSHIFT_WIDTH
 }  // namespace basic
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define BRAINSHIFT_LEVELS
-
+#ifdef BRAINSHIFT_LEVELS
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 namespace avx2 {
+#define BRAINSHIFT_WIDTH 4
 #include "solve/force/step_kernels_body.hpp"
+#undef BRAINSHIFT_WIDTH
 }  // namespace avx2
 #pragma GCC pop_options
 
 #pragma GCC push_options
 #pragma GCC target("avx2,fma,avx512f,avx512vl,avx512bw,avx512dq")
 namespace avx512 {
+#define BRAINSHIFT_WIDTH 8
 #include "solve/force/step_kernels_body.hpp"
+#undef BRAINSHIFT_WIDTH
 }  // namespace avx512
 #pragma GCC pop_options
 #endif
@@ -44,22 +49,10 @@ constexpr StepKernels all[] = {
     BRAINSHIFT_KERNELS(basic, "basic"),
 };
 
-/// How many of them this processor does not run.
-std::size_t out_of_reach() {
-#ifdef BRAINSHIFT_LEVELS
-  const bool fused = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  const bool wide = fused && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
-  return wide ? 0 : (fused ? 1 : 2);
-#else
-  return 0;
-#endif
-}
-
 }  // namespace
 
 std::span<const StepKernels> step_kernels() {
-  static const std::size_t first = out_of_reach();
+  static const std::size_t first = levels_out_of_reach();
   return std::span(all).subspan(first);
 }
 

@@ -1,21 +1,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Included by step_kernels.cpp once for each instruction set, inside a namespace of its own.
 
+/// Doubles that a register holds. GCC takes longer vectors apart, by way of memory.
+constexpr std::size_t width = BRAINSHIFT_WIDTH;
+typedef double Register __attribute__((vector_size(8 * width)));
+typedef std::uint64_t Bits __attribute__((vector_size(8 * width)));
+
 /// How far ahead derivatives are fetched: each is read once a step, and the processor foresees too little of it.
 constexpr std::size_t ahead = 4096;  // bytes
 
-/// A node's vector of four. One fills half a register or a quarter: filling it with two or four nodes, by shuffles or
-/// insertions, was slower, as they all go through one port of the processor.
+/// A node's vector of four, in one register or, where it does not fit, two. Filling a wider one with two or four nodes,
+/// by shuffles or insertions, was slower, as they all go through one port of the processor.
+template <class Scalar>
+constexpr std::size_t node_part = std::min<std::size_t>(4, 8 * width / sizeof(Scalar));
+template <class Scalar>
+constexpr std::size_t node_parts = 4 / node_part<Scalar>;
 template <class Scalar>
 struct NodeOf {
-  typedef Scalar Type __attribute__((vector_size(4 * sizeof(Scalar))));
+  typedef Scalar Part __attribute__((vector_size(node_part<Scalar> * sizeof(Scalar))));
 };
 template <class Scalar>
-using Node = typename NodeOf<Scalar>::Type;
+using Node = typename NodeOf<Scalar>::Part[node_parts<Scalar>];
 
 template <class Scalar>
-BRAINSHIFT_INLINE void load(const Scalar* values, std::uint16_t slot, Node<Scalar>& node) {
-  __builtin_memcpy(&node, values + 4 * std::size_t{slot}, sizeof node);
+BRAINSHIFT_INLINE void load(const Scalar* from, Node<Scalar>& node) {
+  BRAINSHIFT_UNROLL
+  for (std::size_t i = 0; i < node_parts<Scalar>; ++i) {
+    __builtin_memcpy(&node[i], from + i * node_part<Scalar>, sizeof node[i]);
+  }
+}
+
+template <class Scalar>
+BRAINSHIFT_INLINE void set(Scalar x, Scalar y, Scalar z, Node<Scalar>& node) {
+  using Part = typename NodeOf<Scalar>::Part;
+  if constexpr (node_parts<Scalar> == 1) {
+    node[0] = Part{x, y, z, 0};
+  } else {
+    node[0] = Part{x, y};
+    node[1] = Part{z, 0};
+  }
+}
+
+template <class Scalar>
+BRAINSHIFT_INLINE void store(const Node<Scalar>& node, Scalar* to) {
+  BRAINSHIFT_UNROLL
+  for (std::size_t i = 0; i < node_parts<Scalar>; ++i) {
+    __builtin_memcpy(to + i * node_part<Scalar>, &node[i], sizeof node[i]);
+  }
+}
+
+template <class Scalar>
+BRAINSHIFT_INLINE void add(Node<Scalar>& sum, const Node<Scalar>& node, Scalar factor) {
+  BRAINSHIFT_UNROLL
+  for (std::size_t i = 0; i < node_parts<Scalar>; ++i) {
+    sum[i] += node[i] * factor;
+  }
 }
 
 template <class Scalar>
@@ -32,9 +71,9 @@ void gradients(const PairRows<Scalar>& rows, std::int32_t first, std::int32_t la
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < quad; ++k) {
         Node<Scalar> node;
-        load(displacement, slot[k], node);
+        load(displacement + 4 * std::size_t{slot[k]}, node);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          sum[k % 2][axis] += node * derivative[3 * k + axis];
+          add(sum[k % 2][axis], node, derivative[3 * k + axis]);
         }
       }
       slot += quad;
@@ -43,7 +82,9 @@ void gradients(const PairRows<Scalar>& rows, std::int32_t first, std::int32_t la
     const auto i = static_cast<std::size_t>(p - first);
     TensorLanes& out = gradient[i / lanes];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Node<Scalar> column = sum[0][axis] + sum[1][axis];
+      Scalar column[4];
+      add(sum[0][axis], sum[1][axis], Scalar{1});
+      store(sum[0][axis], column);
       for (std::size_t row = 0; row < 3; ++row) {
         out.entry[3 * axis + row][i % lanes] = (row == axis ? 1.0 : 0.0) + static_cast<double>(column[row]);
       }
@@ -66,20 +107,19 @@ void spread(const PairRows<Scalar>& rows, std::int32_t first, std::int32_t last,
     const TensorLanes& of = stress[i / lanes];
     Node<Scalar> column[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      column[axis] = Node<Scalar>{static_cast<Scalar>(of.entry[3 * axis][i % lanes]),
-                                  static_cast<Scalar>(of.entry[3 * axis + 1][i % lanes]),
-                                  static_cast<Scalar>(of.entry[3 * axis + 2][i % lanes]), 0};
+      const auto entry = [&](std::size_t row) { return static_cast<Scalar>(of.entry[3 * axis + row][i % lanes]); };
+      set(entry(0), entry(1), entry(2), column[axis]);
     }
     const std::uint16_t* const end = rows.slot + rows.begin[p + 1];
     do {
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < quad; ++k) {
         Node<Scalar> node;
-        load(force, slot[k], node);
+        load(force + 4 * std::size_t{slot[k]}, node);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          node += column[axis] * derivative[3 * k + axis];
+          add(node, column[axis], derivative[3 * k + axis]);
         }
-        __builtin_memcpy(force + 4 * std::size_t{slot[k]}, &node, sizeof node);
+        store(node, force + 4 * std::size_t{slot[k]});
       }
       slot += quad;
       derivative += 3 * quad;
@@ -87,64 +127,76 @@ void spread(const PairRows<Scalar>& rows, std::int32_t first, std::int32_t last,
   }
 }
 
-/// Deformation, of `lanes` points.
-struct DeformationLanes {
-  Lane gradient[9], cofactor[9], jacobian;
-};
-
-BRAINSHIFT_INLINE void deform(const TensorLanes& gradient, DeformationLanes& d) {
-  __builtin_memcpy(d.gradient, gradient.entry, sizeof d.gradient);
-  for (int column = 0; column < 3; ++column) {
-    const Lane* a = d.gradient + 3 * ((column + 1) % 3);
-    const Lane* b = d.gradient + 3 * ((column + 2) % 3);
-    for (int row = 0; row < 3; ++row) {
-      const int next = (row + 1) % 3, last = (row + 2) % 3;
-      d.cofactor[3 * column + row] = a[next] * b[last] - a[last] * b[next];
+/// Deformation of as many points as a register holds, the first of them that of the group's.
+BRAINSHIFT_INLINE void deform(const TensorLanes& group, std::size_t first, Register (&gradient)[9],
+                              Register (&cofactor)[9], Register& jacobian) {
+  BRAINSHIFT_UNROLL
+  for (std::size_t k = 0; k < 9; ++k) {
+    __builtin_memcpy(&gradient[k], group.entry[k] + first, sizeof gradient[k]);
+  }
+  BRAINSHIFT_UNROLL
+  for (std::size_t column = 0; column < 3; ++column) {
+    const Register* a = gradient + 3 * ((column + 1) % 3);
+    const Register* b = gradient + 3 * ((column + 2) % 3);
+    BRAINSHIFT_UNROLL
+    for (std::size_t row = 0; row < 3; ++row) {
+      const std::size_t next = (row + 1) % 3, last = (row + 2) % 3;
+      cofactor[3 * column + row] = a[next] * b[last] - a[last] * b[next];
     }
   }
-  d.jacobian = d.gradient[0] * d.cofactor[0] + d.gradient[1] * d.cofactor[1] + d.gradient[2] * d.cofactor[2];
+  jacobian = gradient[0] * cofactor[0] + gradient[1] * cofactor[1] + gradient[2] * cofactor[2];
+}
+
+/// n / 3 rounded down, n < 2^34. Registers do not divide whole numbers, but a double holds them: beside 1.5 · 2^52,
+/// about which doubles lie 1 apart, its last bits are they.
+BRAINSHIFT_INLINE void third(const Bits& n, Bits& quotient) {
+  constexpr double large = 0x1.8p52;
+  const Bits large_bits = (Bits)(Register{} + large);
+  const Register x = (Register)(n | large_bits) - large;
+  quotient = (Bits)((x - 1) * (1.0 / 3) + large) ^ large_bits;
 }
 
 /// x^(−1/3) by Newton's method; NaN where x is not positive. The start, from the bits of x, is within 5 %.
-BRAINSHIFT_INLINE void inverse_cube_root(const Lane& x, Lane& root) {
-  std::uint64_t bits[lanes];
-  __builtin_memcpy(bits, &x, sizeof bits);
-  for (std::uint64_t& b : bits) {
-    b = 0x553ef0ff289dd796 - b / 3;
-  }
-  __builtin_memcpy(&root, bits, sizeof root);
+BRAINSHIFT_INLINE void inverse_cube_root(const Register& x, Register& root) {
+  const Bits bits = (Bits)x, high = bits >> 32;
+  Bits high_third, low_third;
+  third(high, high_third);
+  third(bits - (high_third << 32) - (high_third << 33), low_third);
+  root = (Register)(0x553ef0ff289dd796 - (high_third << 32) - low_third);
+  BRAINSHIFT_UNROLL
   for (int i = 0; i < 4; ++i) {
     root = root * (4.0 - x * root * root * root) * (1.0 / 3);
   }
-  const Lane nowhere = Lane{} + std::numeric_limits<double>::quiet_NaN();
+  const Register nowhere = Register{} + std::numeric_limits<double>::quiet_NaN();
   root = x > 0.0 ? root : nowhere;
 }
 
 void jacobian(const TensorLanes* gradient, std::size_t groups, double* out) {
-  for (std::size_t g = 0; g < groups; ++g) {
-    DeformationLanes d;
-    deform(gradient[g], d);
-    __builtin_memcpy(out + lanes * g, &d.jacobian, sizeof d.jacobian);
+  for (std::size_t i = 0; i < groups * lanes; i += width) {
+    Register f[9], cofactor[9], j;
+    deform(gradient[i / lanes], i % lanes, f, cofactor, j);
+    __builtin_memcpy(out + i, &j, sizeof j);
   }
 }
 
 void neo_hookean(const TensorLanes* gradient, std::size_t groups, double shear_modulus, const double* pressure,
                  const double* volume, TensorLanes* stress) {
-  for (std::size_t g = 0; g < groups; ++g) {
-    DeformationLanes d;
-    deform(gradient[g], d);
-    Lane root, p, w, squared_norm = {};
-    inverse_cube_root(d.jacobian, root);
-    __builtin_memcpy(&p, pressure + lanes * g, sizeof p);
-    __builtin_memcpy(&w, volume + lanes * g, sizeof w);
-    for (const Lane& f : d.gradient) {
-      squared_norm += f * f;
+  for (std::size_t i = 0; i < groups * lanes; i += width) {
+    Register f[9], cofactor[9], j, root, p, w, squared_norm = {};
+    deform(gradient[i / lanes], i % lanes, f, cofactor, j);
+    inverse_cube_root(j, root);
+    __builtin_memcpy(&p, pressure + i, sizeof p);
+    __builtin_memcpy(&w, volume + i, sizeof w);
+    BRAINSHIFT_UNROLL
+    for (std::size_t k = 0; k < 9; ++k) {
+      squared_norm += f[k] * f[k];
     }
-    const Lane scale = shear_modulus * root * root;
-    const Lane of_cofactor = w * (p - scale * squared_norm / (3.0 * d.jacobian)), of_gradient = w * scale;
-    for (int k = 0; k < 9; ++k) {
-      const Lane entry = of_gradient * d.gradient[k] + of_cofactor * d.cofactor[k];
-      __builtin_memcpy(stress[g].entry[k], &entry, sizeof entry);
+    const Register scale = shear_modulus * root * root;
+    const Register of_cofactor = w * (p - scale * squared_norm / (3.0 * j)), of_gradient = w * scale;
+    BRAINSHIFT_UNROLL
+    for (std::size_t k = 0; k < 9; ++k) {
+      const Register entry = of_gradient * f[k] + of_cofactor * cofactor[k];
+      __builtin_memcpy(stress[i / lanes].entry[k] + i % lanes, &entry, sizeof entry);
     }
   }
 }

@@ -92,4 +92,16 @@ void differentiate(std::span<const Neighbour> neighbours, std::span<const Distan
 /// Σ φ_a values_a of each point; values (n × 3).
 void blend(std::span<const Neighbour> neighbours, const Points& values, Lane (&sum)[3]);
 
+/// The functions above for one instruction set.
+struct FitKernels {
+  const char* name;
+  decltype(&find_neighbours) find;
+  decltype(&fit_shape) fit;
+  decltype(&differentiate) slopes;
+  decltype(&blend) mean;
+};
+
+/// Those that this processor runs, the fastest first, which the functions above call.
+std::span<const FitKernels> fit_kernels();
+
 }  // namespace brainshift::solve

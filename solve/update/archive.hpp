@@ -55,12 +55,8 @@ class ArchiveReader {
     std::size_t size = 0;
     plain(size);
     check(size, sizeof(Value));
-    const auto* first = bytes_.data();
     values.resize(size);
-    if (size > 0) {
-      std::memcpy(values.data(), first, size * sizeof(Value));
-    }
-    bytes_ = bytes_.subspan(size * sizeof(Value));
+    get(values.data(), size * sizeof(Value));
   }
   void points(Points& points) {
     Eigen::Index rows = 0;
@@ -79,7 +75,9 @@ class ArchiveReader {
   }
   void get(void* data, std::size_t size) {
     check(size, 1);
-    std::memcpy(data, bytes_.data(), size);
+    if (size > 0) {  // no points lie nowhere
+      std::memcpy(data, bytes_.data(), size);
+    }
     bytes_ = bytes_.subspan(size);
   }
   std::span<const char> bytes_;

@@ -19,6 +19,7 @@
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/shape/consistent_derivatives.hpp"
+#include "solve/shape/moving_least_squares.hpp"
 #include "solve/shape/node_supports.hpp"
 #include "solve/shape/support_search.hpp"
 #include "tests/benchmark/problems.hpp"
@@ -264,6 +265,78 @@ void time_plain_rows(State& state, Setting& setting) {
             bytes(plain.displacement));
 }
 
+/// The law of 1,024 points by one instruction set.
+void time_law(State& state, const StepKernels& kernels) {
+  constexpr std::size_t groups = 128;
+  std::vector<TensorLanes> gradient(groups), stress(groups);
+  for (std::size_t g = 0; g < groups; ++g) {
+    for (std::size_t k = 0; k < 9; ++k) {
+      for (std::size_t l = 0; l < lanes; ++l) {
+        gradient[g].entry[k][l] = (k % 4 == 0 ? 1.0 : 0.0) + 0.1 * std::sin(static_cast<double>(72 * g + 8 * k + l));
+      }
+    }
+  }
+  const std::vector<double> pressure(groups * lanes, 100), volume(pressure);
+  std::vector<double> jacobian(groups * lanes);
+  for (auto _ : state) {
+    kernels.jacobian(gradient.data(), groups, jacobian.data());
+    kernels.neo_hookean(gradient.data(), groups, 1000, pressure.data(), volume.data(), stress.data());
+    ::benchmark::DoNotOptimize(stress.data());
+  }
+  count(state, groups * lanes, 0);
+}
+
+/// MMLS shape functions and their derivatives at eight points amid a lattice, by one instruction set.
+void time_fit(State& state, const FitKernels& kernels) {
+  constexpr int side = 6;
+  constexpr double spacing = 2, radius = 4.4;
+  Candidates candidates;
+  for (int i = 0; i < side * side * side; ++i) {
+    candidates.node.push_back(i);
+    candidates.x.push_back(spacing * (i % side) + 0.4 * std::sin(i));
+    candidates.y.push_back(spacing * (i / side % side) + 0.4 * std::cos(i));
+    candidates.z.push_back(spacing * (i / side / side) + 0.4 * std::sin(2 * i));
+    candidates.radius.push_back(radius);
+  }
+  PointLanes places{};
+  for (int l = 0; l < lanes; ++l) {
+    for (int axis = 0; axis < 3; ++axis) {
+      places.at[axis][l] = spacing * (side - 1) / 2 + 0.5 * std::sin(3 * l + axis);
+    }
+  }
+  places.ball = {Eigen::Vector3d::Constant(spacing * (side - 1) / 2), 1};
+  std::vector<Neighbour> neighbours(candidates.node.size());
+  std::vector<ShapeGradient> gradients(neighbours.size());
+  const FitOptions options{3, 2, 1e-7, true};
+  Fit fit;
+  for (auto _ : state) {
+    const std::span found(neighbours.data(), kernels.find(candidates, 1, places, neighbours.data()));
+    kernels.fit(found, options, fit);
+    kernels.slopes(found, {}, options, Derivatives::full, fit, gradients.data());
+    ::benchmark::DoNotOptimize(gradients.data());
+  }
+  double pairs = 0;
+  for (int l = 0; l < lanes; ++l) {
+    pairs += static_cast<double>(fit.count[l]);
+  }
+  count(state, pairs, 0);
+}
+
+/// On one thread.
+template <class Kernels>
+void enrol_levels(const char* kernel, std::span<const Kernels> levels, void (*time)(State&, const Kernels&)) {
+  for (const Kernels& level : levels) {
+    ::benchmark::RegisterBenchmark((std::string(kernel) + "; " + level.name + "; 1").c_str(),
+                                   [&level, time](State& state) {
+                                     omp_set_num_threads(1);
+                                     time(state, level);
+                                   })
+        ->Unit(::benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime();
+  }
+}
+
 /// As published in double and single precision, and the program's defaults, on a problem for each.
 std::vector<Setting> settings(const Problem& published, const Problem& usual) {
   std::vector<Setting> all;
@@ -302,6 +375,8 @@ void enrol_all(std::vector<Setting>& all) {
     enrol(all[i], "correction of the derivatives", time_correction);
   }
   enrol(all[0], "essential conditions", time_conditions);
+  enrol_levels("neo-Hookean law", step_kernels(), time_law);
+  enrol_levels("MMLS fit and derivatives", fit_kernels(), time_fit);
   if (all[0].problem.model.skull) {
     enrol(all[0], "contact", time_contact);
   }

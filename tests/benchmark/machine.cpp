@@ -16,9 +16,18 @@
 
 namespace {
 
+// A register of this processor: GCC takes longer vectors apart, by way of memory.
+#if defined(__AVX512F__)
+constexpr std::size_t register_bytes = 64;
+#elif defined(__AVX__)
+constexpr std::size_t register_bytes = 32;
+#else
+constexpr std::size_t register_bytes = 16;
+#endif
 template <class T>
-using Vector [[gnu::vector_size(64)]] = T;
-using Floats [[gnu::vector_size(64), gnu::aligned(4)]] = float;
+using Vector [[gnu::vector_size(register_bytes)]] = T;
+using Floats [[gnu::vector_size(register_bytes), gnu::aligned(4)]] = float;
+constexpr std::size_t floats = register_bytes / sizeof(float);
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -30,14 +39,14 @@ thread_local volatile double sink;
 /// Sums with eight running sums, so that loads are what it waits for.
 float sum(const float* from, std::size_t count) {
   Floats part[8] = {};
-  for (std::size_t i = 0; i + 128 <= count; i += 128) {
+  for (std::size_t i = 0; i + 8 * floats <= count; i += 8 * floats) {
     for (std::size_t k = 0; k < 8; ++k) {
-      part[k] += *reinterpret_cast<const Floats*>(from + i + 16 * k);
+      part[k] += *reinterpret_cast<const Floats*>(from + i + floats * k);
     }
   }
   float total = 0;
   for (const Floats& p : part) {
-    for (int lane = 0; lane < 16; ++lane) {
+    for (std::size_t lane = 0; lane < floats; ++lane) {
       total += p[lane];
     }
   }
@@ -85,7 +94,7 @@ double read_rate(int threads, double seconds, std::size_t bytes) {
 template <class T>
 double flop_rate(int threads, double seconds) {
   constexpr int chains = 12, rounds = 4000000;
-  constexpr double lanes = 64 / sizeof(T);
+  constexpr double lanes = register_bytes / sizeof(T);
   return best_rate(threads, seconds, 2.0 * chains * rounds * lanes, [](int) {
     Vector<T> x[chains];
     for (int k = 0; k < chains; ++k) {

@@ -30,7 +30,8 @@ rows "$folder/scale.csv" '^[0-9]' 2
 
 if [ $# -ge 4 ]; then
   "$4" --benchmark_min_time=0.001 --benchmark_out="$folder/kernels.csv" --benchmark_out_format=csv
-  for kernel in 'internal force' 'plain rows' 'neighbour search' 'shape functions' 'correction' 'essential' 'contact'; do
+  for kernel in 'internal force' 'plain rows' 'neighbour search' 'shape functions' 'correction' 'essential' 'contact' 'neo-Hookean law' \
+    'MMLS fit'; do
     rows "$folder/kernels.csv" "^\"$kernel.*; 1/.*,[0-9]" 1
   done
 fi

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whole commands on damaged files: those that a library reads (ITK, VTK, GDCM), which libFuzzer does not watch.
+"""Whole commands on damaged files: those that a library reads (ITK, VTK, GDCM, HDF5), which libFuzzer does not watch.
 
   python3 tests/fuzz/commands.py PROGRAM SECONDS [--seed N] [--failed DIR]
 
@@ -13,6 +13,7 @@ import argparse
 import gzip
 import os
 import random
+import re
 import shutil
 import signal
 import struct
@@ -36,6 +37,9 @@ CODES = (0, 2, 3)  # done, refused, not converged
 EXTREMES = [struct.pack(kind, value) for kind, value in
             [("<i", 0), ("<i", -1), ("<i", 2**31 - 1), ("<q", 2**40), ("<h", -32768), ("<f", float("nan")),
              ("<f", 1e38), ("<d", float("inf")), ("<d", 1e308), ("<d", -1e-300)]]
+# Of 3D Slicer's segmentations, in the header of a .seg.nrrd.
+SEGMENTS = b"".join(f"Segment{i}_Name:={name}\nSegment{i}_LabelValue:={i + 1}\nSegment{i}_Layer:=0\n".encode()
+                    for i, name in enumerate(("brain", "ventricles", "tumor", "csf", "skull", "scalp")))
 NUMBERS = [b"0", b"-1", b"nan", b"inf", b"1e308", b"2147483648", b"99999999999999999999", b"0.3", b"x", b""]
 
 
@@ -70,7 +74,7 @@ def other_formats(folder):
         (folder / f"{name}.nrrd").write_bytes(
             f"NRRD0004\ntype: {kind}\ndimension: 3\nspace: left-posterior-superior\nsizes: {sizes}\n"
             f"space directions: {directions}\nkinds: domain domain domain\nendian: little\nencoding: raw\n"
-            f"space origin: (0,0,0)\n\n".encode() + body)
+            f"space origin: (0,0,0)\n".encode() + (SEGMENTS if name == "labels" else b"") + b"\n" + body)
         (folder / f"{name}.mha").write_bytes(
             f"ObjectType = Image\nNDims = 3\nBinaryData = True\nCompressedData = False\nOffset = 0 0 0\n"
             f"ElementSpacing = {' '.join(map(str, spacing))}\nDimSize = {sizes}\nElementType = {meta}\n"
@@ -98,8 +102,58 @@ def surfaces(folder):
     nibabel.save(nibabel.gifti.GiftiImage(darrays=arrays), folder / "s.gii")
 
 
+def tracts(folder):
+    """Two tracts of every kind, in the brain's middle."""
+    points = [numpy.array([[0, 0, z], [1, 2, z], [2, 3, z + 1]], "f4") for z in (0, 4)]
+    made = nibabel.streamlines.Tractogram(points, affine_to_rasmm=numpy.eye(4))
+    nibabel.streamlines.save(made, str(folder / "t.tck"))
+    head = {"voxel_sizes": (2, 2, 2), "dimensions": (40, 40, 40), "voxel_to_rasmm": numpy.diag([2, 2, 2, 1]),
+            "voxel_order": "RAS"}
+    nibabel.streamlines.save(made, str(folder / "t.trk"), header=head)
+
+
+def dicom_element(group, number, kind, value):
+    if isinstance(value, str):
+        value = value.encode()
+    value += (b"\0" if kind == "UI" else b" ") * (len(value) % 2)
+    size = struct.pack("<2xI" if kind == "OW" else "<H", len(value))
+    return struct.pack("<HH", group, number) + kind.encode() + size + value
+
+
+def dicom_series(folder):
+    """The phantom's T1, a slice a file, in explicit little endian."""
+    image = nibabel.load(folder / "head/t1.nii.gz")
+    values = numpy.asarray(image.dataobj).astype("<u2")
+    step = image.header.get_zooms()[0]
+    (folder / "series").mkdir()
+    for k in range(values.shape[2]):
+        kind, mine = "1.2.840.10008.5.1.4.1.1.4", f"1.2.3.5.{k + 1}"
+        meta = b"".join((dicom_element(2, 2, "UI", kind), dicom_element(2, 3, "UI", mine),
+                         dicom_element(2, 16, "UI", "1.2.840.10008.1.2.1")))
+        numbers = ((2, 1), (16, values.shape[1]), (17, values.shape[0]), (0x100, 16), (0x101, 16), (0x102, 15), (0x103, 0))
+        shape = {number: dicom_element(0x28, number, "US", struct.pack("<H", value)) for number, value in numbers}
+        shape[4] = dicom_element(0x28, 4, "CS", "MONOCHROME2")
+        shape[0x30] = dicom_element(0x28, 0x30, "DS", f"{step:g}\\{step:g}")
+        body = b"".join((dicom_element(8, 0x16, "UI", kind), dicom_element(8, 0x18, "UI", mine),
+                         dicom_element(8, 0x60, "CS", "MR"), dicom_element(0x20, 0xe, "UI", "1.2.3.4"),
+                         dicom_element(0x20, 0x32, "DS", f"0\\0\\{k * step:g}"),
+                         dicom_element(0x20, 0x37, "DS", "1\\0\\0\\0\\1\\0"),
+                         *(shape[number] for number in sorted(shape)),
+                         dicom_element(0x7fe0, 16, "OW", values[:, :, k].tobytes(order="F"))))
+        (folder / f"series/{k:03}.dcm").write_bytes(
+            b"\0" * 128 + b"DICM" + dicom_element(2, 0, "UL", struct.pack("<I", len(meta))) + meta + body)
+
+
+def scenes(folder):
+    """The phantom's scene beside its folder, and one with another program's transform as its load: damaged.h5."""
+    text = (folder / "head/scene.xml").read_text()
+    load = '<field file="../damaged.h5" moves="points" where="../run/segment/brain.vtp"/>'
+    (folder / "scene.xml").write_text(re.sub(r'"([\w.]+\.(nii\.gz|csv|json))"', r'"head/\1"', text))
+    (folder / "head/field.xml").write_text(text.replace('<craniotomy file="craniotomy.csv"/>', load))
+
+
 def targets(folder):
-    """What is damaged, and the command that reads it; {} is the damaged file."""
+    """What is damaged, and the command that reads it; {} is the damaged file. Of a slice the whole series is read."""
     labels = ["segment", "--quiet", "--labels", "{}", "--brain-labels", 1, 2, 3, "--edge-length", 14, "--out", "out"]
     image = ["segment", "--quiet", "--t1", "{}", "--labels", folder / "head/labels.nii.gz", "--brain-labels", 1, 2, 3,
              "--edge-length", 14, "--out", "out"]
@@ -110,9 +164,16 @@ def targets(folder):
              folder / "head/craniotomy.csv", "--material=1:brain", "--material=2:brain", "--material=3:brain",
              "--tolerance", 0.5, "--out", "out"]
     found = [(folder / f"labels{ending}", labels) for ending in (".nii", ".mgz", ".nrrd", ".mha")]
-    found += [(folder / f"t1{ending}", image) for ending in (".nii", ".mgz", ".nrrd", ".mha")]
+    found += [(folder / f"t1{ending}", image) for ending in (".nii", ".mgz")]
+    # These two and the series lie elsewhere: with them go labels of the same frame.
+    elsewhere = [folder / "labels.mha" if part == folder / "head/labels.nii.gz" else part for part in image]
+    found += [(folder / f"t1{ending}", elsewhere) for ending in (".nrrd", ".mha")]
     found += [(folder / f"s{ending}", warp) for ending in (".vtk", ".ply", ".obj", ".stl", ".gii")]
     found += [(folder / f"s{ending}", surface) for ending in (".ply", ".obj", ".stl")]
+    found += [(folder / f"t{ending}", warp) for ending in (".tck", ".trk")]
+    found.append((folder / "labels.seg.nrrd", labels))
+    found += [(folder / "series/002.dcm", [folder / "broken" if part == "{}" else part for part in elsewhere])] * 3
+    found += [(next((folder / "run/register").glob("*mode-points_xfm.h5")), ["scene", "--check", folder / "head/field.xml"])] * 3
     found += [(folder / "head/labels.nii.gz", labels), (folder / "head/t1.nii.gz", warp),
               (folder / "run/segment/brain.vtp", surface), (folder / "run/segment/brain.vtp", warp),
               (folder / "run/solve/solution.vtu", warp)]
@@ -120,7 +181,7 @@ def targets(folder):
         command = list(solve)
         command[command.index(option) + 1] = "{}"
         found.append((folder / "run/discretise" / file, command))
-    found.append((folder / "head/scene.xml", ["scene", "--check", "{}"]))
+    found.append((folder / "scene.xml", ["scene", "--check", "{}"]))
     return found
 
 
@@ -178,7 +239,7 @@ def fault_of(process, said, waited, usage, file):
         lines = said.splitlines()
         if len(lines) != 1 or not lines[0].startswith("brainshift: "):
             return f"{len(lines)} lines where one sentence was expected"
-        if file.name not in lines[0]:
+        if file.name not in lines[0] and not (file.suffix == ".dcm" and "broken" in lines[0]):
             return "the sentence does not name the file"
     return ""
 
@@ -220,11 +281,19 @@ def main():
         phantom(options.program.resolve(), folder)
         other_formats(folder)
         surfaces(folder)
+        shutil.copy(folder / "labels.nrrd", folder / "labels.seg.nrrd")
+        tracts(folder)
+        dicom_series(folder)
+        scenes(folder)
         all_targets = targets(folder)
         end = time.monotonic() + options.seconds
         while time.monotonic() < end:
             original, command = chance.choice(all_targets)
             file = folder / ("damaged" + "".join(original.suffixes))
+            if original.suffix == ".dcm":
+                shutil.rmtree(folder / "broken", ignore_errors=True)
+                shutil.copytree(original.parent, folder / "broken")
+                file = folder / "broken" / original.name
             file.write_bytes(damage(original, chance))
             fault, said, arguments = attempt(options.program.resolve(), command, file, folder)
             runs += 1
@@ -232,7 +301,7 @@ def main():
             if fault:
                 faults += 1
                 options.failed.mkdir(exist_ok=True)
-                kept = options.failed / f"{options.seed}-{runs}{file.name[len('damaged'):]}"
+                kept = options.failed / f"{options.seed}-{runs}{''.join(file.suffixes)}"
                 shutil.copy(file, kept)
                 print(f"FAULT: {fault}: {kept}\n  {' '.join(arguments)}\n  " + said[:600].replace("\n", "\n  "))
     print(f"{runs} damaged files, {refused} of them refused or noted, {faults} faults")

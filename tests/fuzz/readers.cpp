@@ -18,6 +18,9 @@
 #include <string_view>
 
 #include "register/files/gii_claims.hpp"
+#include "register/files/warp_tracts.hpp"
+#include "register/files/warped_name.hpp"
+#include "segmentation/files/legacy_vtk_claims.hpp"
 #include "segmentation/files/ply_claims.hpp"
 #include "segmentation/files/points_file.hpp"
 #include "segmentation/files/read_obj.hpp"
@@ -27,6 +30,7 @@
 #include "segmentation/image/image_header.hpp"
 #include "solve/interface/load_curve.hpp"
 #include "solve/load/craniotomy_load.hpp"
+#include "solve/update/archive.hpp"
 
 namespace brainshift {
 namespace {
@@ -38,21 +42,78 @@ struct Reader {
   std::function<void(const fs::path& file)> read;
 };
 
+/// A field of a millimetre on few voxels: some points lie on it, others do not.
+VectorImage small_field() {
+  VectorImage field;
+  field.geometry.size = {3, 3, 3};
+  field.geometry.spacing = {20, 20, 20};
+  field.voxels.assign(27, {1, -1, 0.5F});
+  return field;
+}
+
+/// Warps the tracts of a file to another, which goes again. Each point has a value of its own beside.
+template <class Warp>
+void warp_tracts(const fs::path& file, const Warp& warp) {
+  static const VectorImage field = small_field();
+  registration::PointMover mover(field, [](const Points& places) {
+    return std::vector<PointValues>{{"size", std::vector<double>(static_cast<std::size_t>(places.rows()), 1)}};
+  });
+  const fs::path moved = fs::path(file).replace_filename("moved_" + file.filename().string());
+  const auto remove = [&] {
+    for (const fs::path& made : {moved, registration::values_name("size", moved)}) {
+      std::error_code ignored;
+      fs::remove(made, ignored);
+    }
+  };
+  try {
+    warp(file, mover, moved);
+  } catch (...) {
+    remove();
+    throw;
+  }
+  remove();
+}
+
+/// Arrays of three kinds in turn, to the end.
+void read_archive(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  solve::ArchiveReader reader(bytes);
+  try {
+    while (!reader.at_end()) {
+      std::uint8_t flag = 0;
+      std::vector<std::int32_t> numbers;
+      std::vector<double> values;
+      Points points;
+      reader.plain(flag);
+      reader.many(numbers);
+      reader.many(values);
+      reader.points(points);
+    }
+  } catch (const std::length_error&) {
+  }
+}
+
 const std::map<std::string, Reader>& readers() {
   static const std::map<std::string, Reader> all = {
+      {"archive", {".bin", read_archive}},
       {"curve", {".csv", [](const fs::path& file) { solve::read_load_curve(file, solve::LoadCurve::Join::smooth); }}},
       {"dicom", {".dcm", [](const fs::path& file) { read_dicom_slice(file); }}},
       {"fcsv", {".fcsv", [](const fs::path& file) { PointsFile{file}; }}},
       {"gii", {".gii", [](const fs::path& file) { registration::check_gii_claims(file); }}},
+      {"legacy_vtk", {".vtk", [](const fs::path& file) { check_legacy_vtk_claims(file); }}},
       {"load", {".csv", [](const fs::path& file) { solve::read_craniotomy_csv(file); }}},
       {"markups", {".mrk.json", [](const fs::path& file) { PointsFile{file}; }}},
       {"meta", {".mha", [](const fs::path& file) { check_header(file, read_meta_header(file), 1); }}},
+      {"mgh", {".mgh", [](const fs::path& file) { check_header(file, read_mgh_header(file), 1); }}},
       {"nifti", {".nii", [](const fs::path& file) { check_header(file, read_nifti_header(file), 1); }}},
       {"nifti_gz", {".nii.gz", [](const fs::path& file) { check_header(file, read_nifti_header(file), 1); }}},
       {"nrrd", {".nrrd", [](const fs::path& file) { check_header(file, read_nrrd_header(file), 1); }}},
       {"obj", {".obj", [](const fs::path& file) { read_obj(file); }}},
       {"ply", {".ply", [](const fs::path& file) { check_ply_claims(file); }}},
       {"points", {".csv", [](const fs::path& file) { PointsFile{file}; }}},
+      {"tck", {".tck", [](const fs::path& file) { warp_tracts(file, registration::warp_tck); }}},
+      {"trk", {".trk", [](const fs::path& file) { warp_tracts(file, registration::warp_trk); }}},
       {"vtk", {".vtp", [](const fs::path& file) { check_vtk_claims(file); }}},
   };
   return all;

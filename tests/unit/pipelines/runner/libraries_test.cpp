@@ -3,9 +3,19 @@
 
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
 #include <vtkPoints.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <thread>
+#include <utility>
 
 namespace brainshift::pipelines::libraries_test {
 
@@ -21,6 +31,32 @@ TEST(Libraries, TakeAsManyThreadsAsTheyAreTold) {
     EXPECT_EQ(team, threads);
   }
   set_threads(before);
+}
+
+/// Of the calling thread by Linux' sched_getattr(2): nice value, and the length of a turn, ns; 0 before Linux 6.12.
+std::pair<std::int32_t, std::uint64_t> scheduling() {
+  std::array<char, 48> attributes{};
+  std::pair<std::int32_t, std::uint64_t> found{};
+  if (syscall(SYS_sched_getattr, 0, attributes.data(), attributes.size(), 0) == 0) {
+    std::memcpy(&found.first, attributes.data() + 16, sizeof(found.first));
+    std::memcpy(&found.second, attributes.data() + 24, sizeof(found.second));
+  }
+  return found;
+}
+
+TEST(Libraries, TakeShortTurnsAtTheSamePriority) {
+  if (scheduling().second == 0) {
+    GTEST_SKIP() << "this system does not let a process choose the length of its turns";
+  }
+  const int nice = getpriority(PRIO_PROCESS, 0);
+  std::thread([&] {
+    take_short_turns();
+    std::thread([&] {
+      EXPECT_EQ(scheduling().second, 100000U) << "inherited";
+      EXPECT_EQ(scheduling().first, nice);
+    }).join();
+  }).join();
+  EXPECT_NE(scheduling().second, 100000U) << "of the thread that asks alone, and of those that it makes";
 }
 
 TEST(Libraries, SayNothingOnceTheyAreSilenced) {

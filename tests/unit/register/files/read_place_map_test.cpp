@@ -102,7 +102,9 @@ TEST(ReadPlaceMap, RefusesWhatIsNoMap) {
   const auto refused = [&](const char* name) { return refusal([&] { read_place_map(folder.path() / name); }); };
   expect_parts(refused("none.h5"), {"none.h5"});
   std::ofstream(folder.path() / "torn.h5") << "\x89HDF\r\n\x1a\n and then nothing";
+  testing::internal::CaptureStderr();
   expect_parts(refused("torn.h5"), {"torn.h5: is no ITK transform"});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "HDF5's own words";
   std::ofstream(folder.path() / "torn.tfm") << "#Insight Transform File V1.0\nTransform: Bent_double_3_3\n";
   expect_parts(refused("torn.tfm"), {"torn.tfm: is no ITK transform"});
   std::ofstream(folder.path() / "torn.mat") << "nothing";

@@ -41,6 +41,20 @@ TEST_P(EveryFormat, GivesBackVoxelsAndPlace) {
   EXPECT_TRUE(same_geometry(back.geometry, image.geometry));
 }
 
+/// NIfTI's own library takes the voxels of a.nii for those of a.nii.gz.
+TEST(ReadImage, TakesTheFileThatIsNamedAndNotOneBesideIt) {
+  const ScratchFolder folder;
+  const ScalarImage image = wavy_image();
+  ScalarImage other = image;
+  for (float& value : other.voxels) {
+    value += 1;
+  }
+  write_image(folder / "a.nii.gz", image);
+  write_image(folder / "a.nii", other);
+  EXPECT_EQ(read_image(folder / "a.nii.gz").voxels, image.voxels);
+  EXPECT_EQ(read_image(folder / "a.nii").voxels, other.voxels);
+}
+
 TEST_P(EveryFormat, GivesBackLabels) {
   const ScratchFolder folder;
   const LabelMap labels = ball(wavy_image().geometry, {40.0, -70.0, 15.0}, 9.0);

@@ -198,4 +198,40 @@ TEST(MovingLeastSquares, BlendTheValuesOfTheNodes) {
   }
 }
 
+/// Values, derivatives and means of eight places by one instruction set, and what is admissible.
+std::vector<double> found_by(const FitKernels& kernels, EightPlaces eight, const FitOptions& options) {
+  eight.neighbours.resize(eight.candidates.node.size());
+  eight.neighbours.resize(kernels.find(eight.candidates, 1, eight.places, eight.neighbours.data()));
+  kernels.fit(eight.neighbours, options, eight.fit);
+  std::vector<ShapeGradient> gradients(eight.neighbours.size());
+  kernels.slopes(eight.neighbours, {}, options, Derivatives::full, eight.fit, gradients.data());
+  Lane mean[3];
+  kernels.mean(eight.neighbours, eight.positions, mean);
+  std::vector<double> all;
+  for (int l = 0; l < lanes; ++l) {
+    all.insert(all.end(), {mean[0][l], mean[1][l], mean[2][l], static_cast<double>(eight.fit.admissible[l]),
+                           static_cast<double>(eight.fit.count[l])});
+    for (std::size_t a = 0; a < gradients.size(); ++a) {
+      const Lane(&axis)[3] = gradients[a].axis;
+      all.insert(all.end(), {eight.neighbours[a].value[l], axis[0][l], axis[1][l], axis[2][l]});
+    }
+  }
+  return all;
+}
+
+TEST(MovingLeastSquares, AreTheSameByEveryInstructionSet) {
+  for (const FitOptions& options :
+       {FitOptions{3, 1, 0, false}, {3, 2, 0, false}, {3, 2, 1e-7, true}, {2, 1, 0, false}, {2, 2, 1e-7, true}}) {
+    const EightPlaces eight = options.dimensions == 3 ? in_space() : in_plane();
+    const std::vector<double> expected = found_by(fit_kernels().front(), eight, options);
+    for (const FitKernels& kernels : fit_kernels()) {
+      const std::vector<double> found = found_by(kernels, eight, options);
+      ASSERT_EQ(found.size(), expected.size()) << kernels.name;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        ASSERT_NEAR(found[i], expected[i], 1e-11) << kernels.name << ", order " << options.order << ", number " << i;
+      }
+    }
+  }
+}
+
 }  // namespace brainshift::solve::moving_least_squares_test

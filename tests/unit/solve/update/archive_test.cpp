@@ -11,6 +11,7 @@ std::vector<char> written() {
   writer.plain(0.5);
   writer.many(std::vector<float>{1, 2, 3});
   writer.many(std::vector<int>());
+  writer.points(Points(0, 3));
   writer.points(Points::Constant(2, 3, 7.0));
   return bytes;
 }
@@ -21,14 +22,16 @@ TEST(Archive, GivesBackWhatWasPutIn) {
   double number = 0;
   std::vector<float> floats;
   std::vector<int> none = {1};
-  Points points;
+  Points points, no_points = Points::Zero(1, 3);
   reader.plain(number);
   reader.many(floats);
   reader.many(none);
+  reader.points(no_points);
   reader.points(points);
   EXPECT_EQ(number, 0.5);
   EXPECT_EQ(floats, (std::vector<float>{1, 2, 3}));
   EXPECT_TRUE(none.empty());
+  EXPECT_EQ(no_points.rows(), 0);
   EXPECT_EQ(points, Points::Constant(2, 3, 7.0));
   EXPECT_TRUE(reader.at_end());
 }
