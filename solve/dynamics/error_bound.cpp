@@ -16,14 +16,14 @@ double largest_recent(const std::vector<double>& values) {
 
 }  // namespace
 
-void ErrorBound::add(double moved, double damping_rate, bool loaded) {
+void ErrorBound::add(double moved, double damping_rate, bool loaded, double rounding) {
   moved_.push_back(moved);
   rates_.push_back(damping_rate);
   bounds_.push_back(std::numeric_limits<double>::infinity());
   loaded_ = loaded ? loaded_ + 1 : 0;
   if (loaded && moved_.size() > recent_windows) {
     const double earlier = *(moved_.end() - 1 - recent_windows);
-    const double measured = moved > 0 ? std::pow(moved / earlier, 1.0 / (recent_windows * window_)) : 0.0;
+    const double measured = moved > rounding ? std::pow(moved / earlier, 1.0 / (recent_windows * window_)) : 0.0;
     const double rate = std::max(measured, largest_recent(rates_));
     bounds_.back() = rate < 1 ? rate / (1 - rate) * moved : bounds_.back();
     value_ = largest_recent(bounds_);

@@ -15,8 +15,9 @@ class ErrorBound {
   /// window: steps between two calls of add().
   explicit ErrorBound(int window) : window_(window) {}
 
-  /// moved: |û⁺ − û|∞ of the last step, mm; damping_rate: √β; loaded: the whole load is on.
-  void add(double moved, double damping_rate, bool loaded);
+  /// moved: |û⁺ − û|∞ of the last step, mm; damping_rate: √β; loaded: the whole load is on; rounding: what no longer
+  /// moves than this, mm, has no rate that could be measured.
+  void add(double moved, double damping_rate, bool loaded, double rounding = 0);
 
   /// mm; infinite until there are enough windows under the whole load.
   double value() const { return value_; }

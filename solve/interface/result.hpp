@@ -115,7 +115,7 @@ struct SolveMeasures {
   int steps = 0;
   bool single_precision = false;  ///< of derivatives; double where materials differ too much, whatever was asked for
   bool converged = false;
-  std::string took;                 ///< what it was solved with after it had turned unstable as asked for; else empty
+  std::string took;                 ///< what it was solved with where not as asked for; else empty
   double error_bound = 0;           ///< mm
   double critical_step = 0;         ///< transient: as estimated for the undeformed body, s
   int consistency_iterations = 0;   ///< of the correction of the derivatives

@@ -15,6 +15,7 @@
 #include "solve/measured/inner_rows.hpp"
 #include "solve/quadrature/adaptive_points.hpp"
 #include "solve/quadrature/cell_points.hpp"
+#include "solve/quadrature/missing_octants.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
 #include "solve/shape/consistent_derivatives.hpp"
 
@@ -43,16 +44,17 @@ std::vector<double> nodes_per_point(const IntegrationPoints& points, const Shape
   return share;
 }
 
-AdaptivePoints place_points(const Model& model, const ShapeFunctions& shape, const SolveOptions& options) {
+AdaptivePoints place_points(const Model& model, const BackgroundCells& cells, const ShapeFunctions& shape,
+                            const SolveOptions& options) {
   const LabelMap* labels = model.labels ? &*model.labels : nullptr;
   const std::vector<std::int32_t> tissues = tissues_of(model);
   const bool adaptive = options.integration_tolerance > 0;
-  const int per_cell = points_per_cell(options.points_per_cell, model.cells.kind, adaptive);
+  const int per_cell = points_per_cell(options.points_per_cell, cells.kind, adaptive);
   if (adaptive) {
     const AdaptiveRule rule{options.integration_tolerance, options.integration_depth, per_cell};
-    return adaptive_points(model.cells, shape, rule, labels, tissues);
+    return adaptive_points(cells, shape, rule, labels, tissues);
   }
-  AdaptivePoints plain{integration_points(model.cells, per_cell, labels, tissues), {}};
+  AdaptivePoints plain{integration_points(cells, per_cell, labels, tissues), {}};
   plain.rows = shape.evaluate(plain.points.positions, true);
   return plain;
 }
@@ -191,7 +193,8 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   if (parts.cloud.conditions.measured) {
     parts.inner_rows = inner_rows(shape, parts.cloud.conditions.measured->inner);
   }
-  AdaptivePoints placed = place_points(model, shape, options);
+  const std::optional<BackgroundCells> completed = with_missing_octants(model.cells, model.boundary, model.cloud);
+  AdaptivePoints placed = place_points(model, completed ? *completed : model.cells, shape, options);
   if (model.resection) {
     leave_out(*model.resection, placed);
   }
