@@ -8,7 +8,8 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int recent_windows = 4;  // that the bound looks back on
+constexpr int recent_windows = 4;         // that the bound looks back on
+constexpr std::ptrdiff_t long_time = 10;  // windows of a standstill
 
 double largest_recent(const std::vector<double>& values) {
   return *std::max_element(values.end() - recent_windows, values.end());
@@ -31,7 +32,6 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded, double roun
 }
 
 bool ErrorBound::stands_still(double rounding) const {
-  constexpr std::ptrdiff_t long_time = 10;  // windows
   constexpr double even = 0.9;
   if (loaded_ < 2 * long_time) {
     return false;
@@ -39,6 +39,11 @@ bool ErrorBound::stands_still(double rounding) const {
   const double now = *std::max_element(moved_.end() - long_time, moved_.end());
   const double before = *std::max_element(moved_.end() - 2 * long_time, moved_.end() - long_time);
   return now <= rounding && now >= even * before && before >= even * now;
+}
+
+double ErrorBound::at_standstill(double slowest_rate) {
+  value_ = slowest_rate / (1 - slowest_rate) * *std::max_element(moved_.end() - long_time, moved_.end());
+  return value_;
 }
 
 void ErrorBound::reset() {

@@ -26,6 +26,10 @@ class ErrorBound {
   /// before, and no larger than `rounding`, mm. The bound then stays what it is.
   bool stands_still(double rounding) const;
 
+  /// Of steps that stand still: none but motions of this rate a step or slower can be left, so the bound is what such a
+  /// one has still to go. Returns it, as value() does from now on, mm.
+  double at_standstill(double slowest_rate);
+
   /// What was seen so far says nothing any more, as when the body has changed.
   void reset();
 

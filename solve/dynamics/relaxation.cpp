@@ -93,6 +93,10 @@ class Relaxation {
           return finish();
         }
         if (bound_.stands_still(rounding())) {
+          if (bound_.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue))) <= tolerance() &&
+              no_change_is_left()) {
+            return finish();
+          }
           fail_at_standstill();
         }
       }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "solve/body/check_discretisation.hpp"
@@ -133,6 +134,7 @@ void check_rupture(const Model& model, Dynamics dynamics) {
 /// soft one: the bound of the error no longer holds beyond these (measured: tests/extremes, precision).
 constexpr double most_bulk_in_single = 400;       // K / µ of a material
 constexpr double most_contrast_in_single = 1000;  // largest over least µ
+constexpr double most_of_both_in_single = 4e4;    // largest K over least µ
 constexpr double finest_in_single = 1e-5;         // error that may be left, over the size of the body
 
 /// The error that relaxation may leave open, mm, as far as the load says it beforehand.
@@ -145,14 +147,16 @@ double error_wanted(const Model& model, double tolerance) {
 }
 
 bool single_serves(const Model& model, double tolerance) {
-  double bulk = 0;
+  double bulk = 0, stiffest = 0, softest = std::numeric_limits<double>::infinity();
   for (const auto& [label, material] : model.materials) {
     bulk = std::max(bulk, bulk_modulus(material) / shear_modulus(material));
+    stiffest = std::max(stiffest, bulk_modulus(material));
+    softest = std::min(softest, shear_modulus(material));
   }
   const Points& x = model.cloud.positions;
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
   return bulk <= most_bulk_in_single && stiffness_contrast(model.materials) <= most_contrast_in_single &&
-         error_wanted(model, tolerance) >= finest_in_single * size;
+         stiffest <= most_of_both_in_single * softest && error_wanted(model, tolerance) >= finest_in_single * size;
 }
 
 bool cuts_go_on(const Model& model) {
