@@ -38,7 +38,8 @@ class Bricks:
                         on = lambda o: o[axis] == end
                         middle = [1, 1, 1]
                         middle[axis] = end
-                        self.faces.append((at(middle), [at(o) for o in CORNERS if on(o)], [at(o) for o in EDGES if on(o)]))
+                        self.faces.append((at(middle), [at(o) for o in CORNERS if on(o)],
+                                           [at(o) for o in EDGES if on(o)]))
 
     def numbers(self, corners, edges, turned):
         if not turned:
@@ -107,8 +108,8 @@ class Bricks:
         """With the middles of faces and bricks, by the functions of the 20 nodes."""
         for share, places in ((0.5, self.faces), (0.25, self.middles)):
             for node, corners, edges in places:
-                values[node] = tuple(-0.25 * sum(values[a][i] for a in corners) + share * sum(values[a][i] for a in edges)
-                                     for i in range(3))
+                values[node] = tuple(share * sum(values[a][i] for a in edges) -
+                                     0.25 * sum(values[a][i] for a in corners) for i in range(3))
         return [values[a] for a in range(len(self.grid.points))]
 
     def interpolate(self, values, x):

@@ -78,7 +78,6 @@ def cut_cells(body, side, random):
         depth = body.depth([b + side / 2 for b in base])
         if depth < -side * math.sqrt(dimensions) / 2:
             continue
-        # A quarter: an ellipsoid's depth is at least a third of the distance.
         whole = depth > side * math.sqrt(dimensions) / 2
         parts = {}
         if not whole:

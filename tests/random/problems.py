@@ -166,12 +166,6 @@ class Problem:
             moved[up] = -0.6 * amount * height
         return moved
 
-    def largest_prescribed(self, points):
-        largest = 0.0
-        for x in points:
-            largest = max([largest] + [abs(u) for u in self.prescribed(x) if u == u])
-        return largest
-
     def gravity(self):
         """m/s²: the weight of a column of the body's height over E is the amount."""
         if self.load["kind"] != "gravity":
@@ -321,7 +315,8 @@ class Problem:
                  for counts in self.body.divisions(self.spacing / finer)]
         grid = bodies.Grid(self.body, self.even(parts))
         tiny = 1e-6 * self.height()
-        self.write_nodes(folder / "nodes.vtu", grid.points, [1 if self.body.depth(x) < tiny else 0 for x in grid.points])
+        on_surface = [1 if self.body.depth(x) < tiny else 0 for x in grid.points]
+        self.write_nodes(folder / "nodes.vtu", grid.points, on_surface)
         cells = bodies.Grid(self.body, self.even(parts))
         self.write_cells(folder / "cells.vtu", "quadrilateral" if self.dimensions == 2 else "hexahedron", cells.points,
                          cells.cells(), None, None)
@@ -371,4 +366,5 @@ class Problem:
         tissues = "; ".join(f"{young / YOUNG:.3g}, {poisson:g}" for young, poisson in self.tissues)
         plane = f" (plane {self.plane})" if self.plane else ""
         return {"seed": self.seed, "body": self.shape + plane, "cloud": self.cloud, "cells": self.cells,
-                "basis": self.basis, "tissues": tissues, "load": f"{self.load['kind']} {100 * self.load['amount']:.0f} %"}
+                "basis": self.basis, "tissues": tissues,
+                "load": f"{self.load['kind']} {100 * self.load['amount']:.0f} %"}

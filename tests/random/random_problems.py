@@ -94,7 +94,8 @@ def judge(seed, arguments):
     folder = arguments.out / str(seed)
     shutil.rmtree(folder, ignore_errors=True)
     given = problem.write(folder)
-    run = Run(arguments.program, given + (["--tolerance", SMALL_TOLERANCE] if problem.small else []), folder / "solved", arguments.seconds)
+    stop = ["--tolerance", SMALL_TOLERANCE] if problem.small else []
+    run = Run(arguments.program, given + stop, folder / "solved", arguments.seconds)
     row = {**problem.says(), "rim": int(problem.has_rim()), "nodes": len(problem.points), "exit": run.exit,
            "steps": run.sizes.get("steps", ""), "took": run.measures.get("took", ""),
            "smallest_jacobian": run.measures.get("smallest_jacobian", ""),
@@ -143,7 +144,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, required=True)
     parser.add_argument("--count", type=int, default=300)
     parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--seconds", type=int, default=15, help="of processor time a solve; a reference takes four times")
+    parser.add_argument("--seconds", type=int, default=15, help="of processor time a solve; a reference may take four")
     parser.add_argument("--small", action="store_true")
     parser.add_argument("--anew", action="store_true", help="forget what an earlier call found")
     parser.add_argument("--calculix", action="store_true")
@@ -168,7 +169,8 @@ def main():
             file.flush()
             rows.append(row)
             (arguments.out / "problems.md").write_text(table.page(rows))
-            print(*(row.get(k, "") for k in ("seed", "verdict", "body", "load", "error_95", "estimate_95", "seconds")), flush=True)
+            print(*(row.get(k, "") for k in ("seed", "verdict", "body", "load", "error_95", "estimate_95", "seconds")),
+                  flush=True)
             if row["verdict"] == "good" and not arguments.keep:
                 shutil.rmtree(arguments.out / str(seed))
     bad = [row for row in rows if row["verdict"] not in ("good", "neither solves")]
