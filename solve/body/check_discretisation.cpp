@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/body/check_discretisation.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
@@ -79,6 +80,33 @@ void check_everywhere(const OrderedCloud& cloud, const ShapeRows& point_rows, co
   }
 }
 
+/// How far a place lies outside the box of the nodes, mm; negative inside.
+double beyond(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& x) {
+  return std::max((box.min() - x).maxCoeff(), (x - box.max()).maxCoeff());
+}
+
+/// Nodes lie on a body's surface, or half a spacing below it where they are the middles of cells. Cells a third larger
+/// than the cloud would make tissue of what is around it, between corners that are still near a node.
+void check_box(const OrderedCloud& cloud, const IntegrationPoints& points, const ShapeRows& point_rows) {
+  constexpr double farthest = 0.6;  // spacings
+  Eigen::AlignedBox3d box;
+  for (const auto& x : cloud.positions.rowwise()) {
+    box.extend(Eigen::Vector3d(x));
+  }
+  for (Eigen::Index p = 0; p < points.positions.rows(); ++p) {
+    const Eigen::Vector3d x = points.positions.row(p);
+    const double out = beyond(box, x);
+    const auto is_near = [&](std::int32_t a) { return out <= farthest * cloud.spacing[static_cast<std::size_t>(a)]; };
+    if (out > 0 && std::ranges::none_of(point_rows[static_cast<std::size_t>(p)].node, is_near)) {
+      std::ostringstream text;
+      text << "the background cells reach beyond the node cloud: an integration point at (" << x[0] << ", " << x[1]
+           << ", " << x[2] << ") mm lies " << out << " mm outside the box of all nodes; make cells and cloud of the "
+           << "same body";
+      throw std::invalid_argument(text.str());
+    }
+  }
+}
+
 /// Supports grow until they reach the cloud: tissue where no node is would be invented.
 void check_within(const OrderedCloud& cloud, const IntegrationPoints& points, const ShapeRows& point_rows) {
   constexpr double farthest = 1.5;  // from every node, of the node's spacing; of our clouds below 1
@@ -121,6 +149,7 @@ void check_cloud(const NodeCloud& cloud) {
 void check_points(const OrderedCloud& cloud, const IntegrationPoints& points, const ShapeRows& point_rows,
                   const ShapeRows& nodal_rows) {
   check_within(cloud, points, point_rows);
+  check_box(cloud, points, point_rows);
   check_number(cloud.size(), points.size());
   check_everywhere(cloud, point_rows, nodal_rows);
 }

@@ -8,7 +8,8 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int recent_windows = 4;  // that the bound looks back on
+constexpr int recent_windows = 4;         // that the bound looks back on
+constexpr std::ptrdiff_t long_time = 10;  // windows of a standstill
 
 double largest_recent(const std::vector<double>& values) {
   return *std::max_element(values.end() - recent_windows, values.end());
@@ -16,14 +17,14 @@ double largest_recent(const std::vector<double>& values) {
 
 }  // namespace
 
-void ErrorBound::add(double moved, double damping_rate, bool loaded) {
+void ErrorBound::add(double moved, double damping_rate, bool loaded, double rounding) {
   moved_.push_back(moved);
   rates_.push_back(damping_rate);
   bounds_.push_back(std::numeric_limits<double>::infinity());
   loaded_ = loaded ? loaded_ + 1 : 0;
   if (loaded && moved_.size() > recent_windows) {
     const double earlier = *(moved_.end() - 1 - recent_windows);
-    const double measured = moved > 0 ? std::pow(moved / earlier, 1.0 / (recent_windows * window_)) : 0.0;
+    const double measured = moved > rounding ? std::pow(moved / earlier, 1.0 / (recent_windows * window_)) : 0.0;
     const double rate = std::max(measured, largest_recent(rates_));
     bounds_.back() = rate < 1 ? rate / (1 - rate) * moved : bounds_.back();
     value_ = largest_recent(bounds_);
@@ -31,7 +32,6 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded) {
 }
 
 bool ErrorBound::stands_still(double rounding) const {
-  constexpr std::ptrdiff_t long_time = 10;  // windows
   constexpr double even = 0.9;
   if (loaded_ < 2 * long_time) {
     return false;
@@ -39,6 +39,11 @@ bool ErrorBound::stands_still(double rounding) const {
   const double now = *std::max_element(moved_.end() - long_time, moved_.end());
   const double before = *std::max_element(moved_.end() - 2 * long_time, moved_.end() - long_time);
   return now <= rounding && now >= even * before && before >= even * now;
+}
+
+double ErrorBound::at_standstill(double slowest_rate) {
+  value_ = slowest_rate / (1 - slowest_rate) * *std::max_element(moved_.end() - long_time, moved_.end());
+  return value_;
 }
 
 void ErrorBound::reset() {

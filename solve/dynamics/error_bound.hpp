@@ -15,8 +15,9 @@ class ErrorBound {
   /// window: steps between two calls of add().
   explicit ErrorBound(int window) : window_(window) {}
 
-  /// moved: |û⁺ − û|∞ of the last step, mm; damping_rate: √β; loaded: the whole load is on.
-  void add(double moved, double damping_rate, bool loaded);
+  /// moved: |û⁺ − û|∞ of the last step, mm; damping_rate: √β; loaded: the whole load is on; rounding: what no longer
+  /// moves than this, mm, has no rate that could be measured.
+  void add(double moved, double damping_rate, bool loaded, double rounding = 0);
 
   /// mm; infinite until there are enough windows under the whole load.
   double value() const { return value_; }
@@ -24,6 +25,10 @@ class ErrorBound {
   /// Whether steps under the whole load have stopped growing shorter: for ten windows they are as large as in the ten
   /// before, and no larger than `rounding`, mm. The bound then stays what it is.
   bool stands_still(double rounding) const;
+
+  /// Of steps that stand still: none but motions of this rate a step or slower can be left, so the bound is what such a
+  /// one has still to go. Returns it, as value() does from now on, mm.
+  double at_standstill(double slowest_rate);
 
   /// What was seen so far says nothing any more, as when the body has changed.
   void reset();

@@ -54,7 +54,10 @@ class Motion {
   /// Strain and kinetic energy now, 1e-9 J. Of laws that do not relax: else it would be a step of theirs.
   double energy(const PointLaws& laws, std::span<const double> mass);
 
-  /// Energy that left the body, 1e-9 J, as when it is cut.
+  /// Of the last step, 1e-9 J.
+  double energy_of_motion(std::span<const double> mass) const;
+
+  /// Energy that left the body, 1e-9 J, as when it is cut, or its fictitious masses change.
   void lose(double energy) { dissipated_ += energy; }
 
   /// The result, with the last state that was kept.
@@ -80,6 +83,7 @@ class Motion {
   void keep_snapshot();
   void fail(const std::string& why, const HistoryRow& row, const Fault& fault);
   void add_energies(std::span<const double> mass, double alpha, double beta, double fraction);
+  double kinetic_energy(std::span<const double> mass) const;
   HistoryRow row(std::span<const double> mass, const PointState& state) const;
   double imbalance(const HistoryRow& row);
 

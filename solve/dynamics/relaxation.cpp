@@ -93,6 +93,10 @@ class Relaxation {
           return finish();
         }
         if (bound_.stands_still(rounding())) {
+          if (bound_.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue))) <= tolerance() &&
+              no_change_is_left()) {
+            return finish();
+          }
           fail_at_standstill();
         }
       }
@@ -154,8 +158,9 @@ class Relaxation {
       return;
     }
     estimate_lowest_eigenvalue();
-    bound_.add(largest_difference(motion_.now, motion_.before), std::sqrt(critical_beta(lowest_)), motion_.time >= 1);
     farthest_ = std::max(farthest_, largest_component(motion_.now));
+    bound_.add(largest_difference(motion_.now, motion_.before), std::sqrt(critical_beta(lowest_)), motion_.time >= 1,
+               rounding_of_places());
     HistoryRow& row = motion_.result.history.back();
     row.residual = residual();
     calm_ = calm_rows(calm_, row.residual);
@@ -199,10 +204,12 @@ class Relaxation {
   /// A step that is no longer than this is made of rounding, mm: of differences of sums of ten terms and more.
   double rounding() const {
     const bool single = points().precision() == Precision::single_precision;
-    constexpr double terms = 10;
-    return terms * farthest_ *
-           (single ? double{std::numeric_limits<float>::epsilon()} : std::numeric_limits<double>::epsilon());
+    return single ? terms * farthest_ * double{std::numeric_limits<float>::epsilon()} : rounding_of_places();
   }
+
+  /// The same of the places alone, which are double in any case: a body that moves no more may be one of which every
+  /// node is held.
+  double rounding_of_places() const { return terms * farthest_ * std::numeric_limits<double>::epsilon(); }
 
   void fail_at_standstill() {
     std::ostringstream text;
@@ -238,9 +245,11 @@ class Relaxation {
       stiffer = stiffer || mass_scale_ * bound[a] > mass_[a];
     }
     if (stiffer) {
+      const double lighter = motion_.energy_of_motion(mass_);
       for (std::size_t a = 0; a < nodes(); ++a) {
         mass_[a] = std::max(mass_[a], mass_margin * mass_scale_ * bound[a]);
       }
+      motion_.lose(lighter - motion_.energy_of_motion(mass_));
       weigh();
     }
   }
@@ -268,6 +277,7 @@ class Relaxation {
     return motion_.finish();
   }
 
+  static constexpr double terms = 10;
   static constexpr double smallest_eigenvalue = 1e-8;
   static constexpr double largest_eigenvalue_of_beta = 0.028;  // above it β is too small for α
 

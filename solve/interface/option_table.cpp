@@ -54,8 +54,8 @@ OptionTable<SolveOptions> integration_options() {
           {{"double", Precision::double_precision}, {"single", Precision::single_precision}},
           "of the derivatives while stepping and of the sums over pairs of points and nodes; "
           "stresses are double in any case. On the demo single is within 0.0001 mm of double. Double is "
-          "taken where K of a material is over 400 µ, the largest µ over 1000 times the least, or the tolerance "
-          "below a hundred thousandth of the body's size")};
+          "taken where K of a material is over 400 µ, the largest µ over 1000 or the largest K over 40000 times the "
+          "least µ, or the tolerance below a hundred thousandth of the body's size")};
 }
 
 OptionTable<SolveOptions> stepping_options() {

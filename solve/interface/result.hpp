@@ -115,16 +115,16 @@ struct SolveMeasures {
   int steps = 0;
   bool single_precision = false;  ///< of derivatives; double where materials differ too much, whatever was asked for
   bool converged = false;
-  std::string took;                 ///< what it was solved with after it had turned unstable as asked for; else empty
-  double error_bound = 0;           ///< mm
-  double critical_step = 0;         ///< transient: as estimated for the undeformed body, s
-  int consistency_iterations = 0;   ///< of the correction of the derivatives
-  double largest_displacement = 0;  ///< mm
-  double constraint_error = 0;      ///< largest |Σφû − prescribed|, mm
-  double largest_penetration = 0;   ///< deepest node outside the skull, mm
-  double smallest_jacobian = 0;     ///< least det F over integration points
-  double largest_stretch = 0;       ///< largest principal stretch
-  double compressed_share = 0;      ///< of the volume, pressed so far that its free faces may crease
+  std::string took;                          ///< what it was solved with where not as asked for; else empty
+  double error_bound = 0;                    ///< mm
+  double critical_step = 0;                  ///< transient: as estimated for the undeformed body, s
+  int consistency_iterations = 0;            ///< of the correction of the derivatives
+  double largest_displacement = 0;           ///< mm
+  double constraint_error = 0;               ///< largest |Σφû − prescribed|, mm
+  double largest_penetration = 0;            ///< deepest node outside the skull, mm
+  double smallest_jacobian = 0;              ///< least det F over integration points
+  double largest_stretch = 0;                ///< largest principal stretch
+  double compressed_share = 0;               ///< of the volume, pressed so far that its free faces may crease
   std::optional<double> estimated_error_95;  ///< 95 % of the nodes' estimates, mm, see estimated_error()
   std::optional<CutMeasures> cut;            ///< absent: nothing was cut
   std::optional<SeptumMeasures> septum;

@@ -13,7 +13,7 @@ namespace brainshift::solve {
 
 namespace {
 
-void cut_hexahedron(const InsideOctants& part, int points, std::vector<WeightedPoint>& out) {
+void cut_cell(const InsideOctants& part, int points, std::vector<WeightedPoint>& out) {
   if (points == 1) {
     out.push_back(inside_point(part));
     return;
@@ -36,9 +36,9 @@ void append_points(const BackgroundCells& cells, std::size_t cell, int points, s
     whole += out[i].volume / points;
     out[i].volume *= cells.inside_fraction[cell];
   }
-  if (cells.kind == CellKind::hexahedron && cut >= 0) {
+  if (cut >= 0) {
     out.resize(first);
-    cut_hexahedron(cells.cut_parts[static_cast<std::size_t>(cut)], points, out);
+    cut_cell(cells.cut_parts[static_cast<std::size_t>(cut)], points, out);
   }
   full.resize(out.size(), whole);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "solve/body/check_discretisation.hpp"
@@ -15,6 +16,7 @@
 #include "solve/measured/inner_rows.hpp"
 #include "solve/quadrature/adaptive_points.hpp"
 #include "solve/quadrature/cell_points.hpp"
+#include "solve/quadrature/missing_octants.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
 #include "solve/shape/consistent_derivatives.hpp"
 
@@ -43,16 +45,17 @@ std::vector<double> nodes_per_point(const IntegrationPoints& points, const Shape
   return share;
 }
 
-AdaptivePoints place_points(const Model& model, const ShapeFunctions& shape, const SolveOptions& options) {
+AdaptivePoints place_points(const Model& model, const BackgroundCells& cells, const ShapeFunctions& shape,
+                            const SolveOptions& options) {
   const LabelMap* labels = model.labels ? &*model.labels : nullptr;
   const std::vector<std::int32_t> tissues = tissues_of(model);
   const bool adaptive = options.integration_tolerance > 0;
-  const int per_cell = points_per_cell(options.points_per_cell, model.cells.kind, adaptive);
+  const int per_cell = points_per_cell(options.points_per_cell, cells.kind, adaptive);
   if (adaptive) {
     const AdaptiveRule rule{options.integration_tolerance, options.integration_depth, per_cell};
-    return adaptive_points(model.cells, shape, rule, labels, tissues);
+    return adaptive_points(cells, shape, rule, labels, tissues);
   }
-  AdaptivePoints plain{integration_points(model.cells, per_cell, labels, tissues), {}};
+  AdaptivePoints plain{integration_points(cells, per_cell, labels, tissues), {}};
   plain.rows = shape.evaluate(plain.points.positions, true);
   return plain;
 }
@@ -131,6 +134,7 @@ void check_rupture(const Model& model, Dynamics dynamics) {
 /// soft one: the bound of the error no longer holds beyond these (measured: tests/extremes, precision).
 constexpr double most_bulk_in_single = 400;       // K / µ of a material
 constexpr double most_contrast_in_single = 1000;  // largest over least µ
+constexpr double most_of_both_in_single = 4e4;    // largest K over least µ
 constexpr double finest_in_single = 1e-5;         // error that may be left, over the size of the body
 
 /// The error that relaxation may leave open, mm, as far as the load says it beforehand.
@@ -143,14 +147,16 @@ double error_wanted(const Model& model, double tolerance) {
 }
 
 bool single_serves(const Model& model, double tolerance) {
-  double bulk = 0;
+  double bulk = 0, stiffest = 0, softest = std::numeric_limits<double>::infinity();
   for (const auto& [label, material] : model.materials) {
     bulk = std::max(bulk, bulk_modulus(material) / shear_modulus(material));
+    stiffest = std::max(stiffest, bulk_modulus(material));
+    softest = std::min(softest, shear_modulus(material));
   }
   const Points& x = model.cloud.positions;
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
   return bulk <= most_bulk_in_single && stiffness_contrast(model.materials) <= most_contrast_in_single &&
-         error_wanted(model, tolerance) >= finest_in_single * size;
+         stiffest <= most_of_both_in_single * softest && error_wanted(model, tolerance) >= finest_in_single * size;
 }
 
 bool cuts_go_on(const Model& model) {
@@ -191,7 +197,8 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   if (parts.cloud.conditions.measured) {
     parts.inner_rows = inner_rows(shape, parts.cloud.conditions.measured->inner);
   }
-  AdaptivePoints placed = place_points(model, shape, options);
+  const std::optional<BackgroundCells> completed = with_missing_octants(model.cells, model.boundary, model.cloud);
+  AdaptivePoints placed = place_points(model, completed ? *completed : model.cells, shape, options);
   if (model.resection) {
     leave_out(*model.resection, placed);
   }

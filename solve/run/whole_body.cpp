@@ -66,9 +66,25 @@ bool may_be_tried_again(const Model& model, const SolveOptions& options) {
          stiffness_contrast(model.materials) <= most_contrast;
 }
 
-SolveResult attempt(const Model& model, const SolveOptions& options, SolveMeasures measures, const Progress& progress) {
+/// Two layers of nodes determine no quadratic terms across them, however far supports grow. MMLS then leaves these to
+/// its penalty, on supports half as wide again: it bends a sheet as linear functions do, in three to eight times the
+/// steps.
+bool too_thin_for_quadratic(const SolveOptions& options, const SolveMeasures& measures) {
+  return options.shape.basis == Basis::modified_quadratic && 2 * measures.grown_supports > measures.integration_points;
+}
+
+SolveResult attempt(const Model& model, const SolveOptions& options, const SolveMeasures& known,
+                    const Progress& progress) {
   const Stopwatch start;
+  SolveMeasures measures = known;
   Prepared prepared = prepare(model, options, {}, measures, progress);
+  if (too_thin_for_quadratic(options, measures)) {
+    SolveOptions linear = options;
+    linear.shape.basis = Basis::linear;
+    SolveResult result = attempt(model, linear, known, progress);
+    result.measures.took = "linear shape functions, as the cloud is too thin for quadratic ones";
+    return result;
+  }
   measures.seconds_setup = start.seconds();
   std::optional<Points> coarse;
   NodalVectors start_from;

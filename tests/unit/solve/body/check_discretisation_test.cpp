@@ -59,6 +59,22 @@ TEST(CheckDiscretisation, RefusesCellsThatReachBeyondTheCloud) {
   EXPECT_THAT(refusal(pressed(8, 1.5 * model_side)), HasSubstr("the background cells reach beyond the node cloud"));
 }
 
+/// About the same middle: each corner is near a node.
+TEST(CheckDiscretisation, RefusesCellsAThirdLargerThanTheCloud) {
+  Model model = pressed(8, 1.3 * model_side);
+  model.cells.vertices.array() -= 0.15 * model_side;
+  EXPECT_THAT(refusal(model), HasSubstr("mm outside the box of all nodes"));
+}
+
+/// As of nodes in the middles of voxels.
+TEST(CheckDiscretisation, TakesNodesHalfASpacingBelowTheSurface) {
+  constexpr double spacing = model_side / (n - 1);
+  Model model = uniaxial(0.95, n);
+  model.cells = test::box_cells(n, n * spacing);
+  model.cells.vertices.array() -= spacing / 2;
+  EXPECT_EQ(refusal(model), "");
+}
+
 TEST(CheckDiscretisation, RefusesASpacingThatIsNotTheNodes) {
   Model model = pressed(8);
   for (double& s : model.cloud.spacing) {

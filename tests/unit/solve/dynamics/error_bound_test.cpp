@@ -61,6 +61,23 @@ TEST(ErrorBound, StandsStillWhereRoundingKeepsTheStepsAlike) {
   EXPECT_FALSE(after(100, 0.998).stands_still(1)) << "slow, but it comes nearer";
 }
 
+TEST(ErrorBound, AtAStandstillIsWhatTheSlowestMotionHasStillToGo) {
+  ErrorBound bound = after(10, 1.0);
+  for (int k = 0; k < 20; ++k) {
+    bound.add(k % 3 == 0 ? 2e-9 : 1e-9, 0.9, true);
+  }
+  EXPECT_NEAR(bound.at_standstill(0.999), 999 * 2e-9, 1e-12);
+  EXPECT_EQ(bound.value(), bound.at_standstill(0.999));
+}
+
+TEST(ErrorBound, MeasuresNoRateOfRounding) {
+  ErrorBound bound(window);
+  for (int k = 0; k < 8; ++k) {
+    bound.add(k % 2 == 0 ? 1e-15 : 1.5e-15, 0.9, true, 1e-14);
+  }
+  EXPECT_NEAR(bound.value(), 9 * 1.5e-15, 1e-16);
+}
+
 TEST(ErrorBound, TakesTheSlowerOfTheMeasuredRateAndThatOfTheDamping) {
   constexpr int looks = 12;
   const double moved = std::pow(0.9, (looks - 4) * window);

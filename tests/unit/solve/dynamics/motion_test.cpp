@@ -66,6 +66,20 @@ TEST(Motion, IsSoundUnderAForceNextToNothing) {
   }
 }
 
+/// The fastest motions turn from step to step: their energy is that of the velocities before and after, not of the
+/// mean.
+TEST(Motion, BalancesTheEnergiesOfItsFastestMotions) {
+  const Marched pulled(0.9, 1e-2);
+  double most = 0;
+  for (const HistoryRow& row : pulled.result.history) {
+    most = std::max(most, row.strain_energy);
+  }
+  for (const HistoryRow& row : pulled.result.history) {
+    EXPECT_NEAR(row.strain_energy + row.kinetic_energy + row.dissipated_energy, row.external_work, 1e-4 * most)
+        << "at step " << row.step;
+  }
+}
+
 TEST(Motion, IsFoundUnstableJustAboveTheCriticalStepAndKeepsTheLastGoodState) {
   for (const double of_critical : {1.03, 1.5}) {
     const Marched marched(of_critical);

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/specimen.hpp"
 
@@ -32,6 +34,36 @@ TEST(Relaxation, SaysAtOnceThatRoundingKeepsItFromTheTolerance) {
   EXPECT_THAT(result.failure, testing::HasSubstr("1e-15 mm are wanted; take a larger tolerance"));
   EXPECT_LT(result.measures.steps, 3000);
   EXPECT_FALSE(result.measures.converged);
+}
+
+/// Tissue that hardly changes its volume, pressed fast: most of the work goes into the damping, and the masses are made
+/// anew on the way.
+TEST(Relaxation, BalancesItsEnergiesWhileItsMassesGrow) {
+  Model model = uniaxial(0.7, 5);
+  model.materials[1].poisson_ratio = 0.4999;
+  SolveOptions options;
+  options.load_steps = 200;
+  options.max_steps = 400;  // it need not come to rest
+  double most = 0;
+  for (const HistoryRow& row : solve(model, options).history) {
+    most = std::max(most, row.external_work);
+    EXPECT_NEAR(row.strain_energy + row.kinetic_energy + row.dissipated_energy, row.external_work, 0.005 * most)
+        << "at step " << row.step;
+  }
+}
+
+/// As of two layers of nodes between bonded plates. From a coarse solution on only rounding moves.
+TEST(Relaxation, EndsWhereEveryNodeIsHeld) {
+  const Eigen::Matrix3d stretch = Eigen::Vector3d(0.02, 0.02, -0.05).asDiagonal();
+  Model model = box_model(test::box_cells(5, side), 8);
+  model.conditions.displacement = model.cloud.positions * stretch;
+  SolveOptions options;
+  options.start = Start::coarse;
+  options.precision = Precision::single_precision;
+  const SolveResult result = solve(model, options);
+  EXPECT_EQ(result.failure, "");
+  EXPECT_LT(difference_from(result.solution, stretch), 1e-9);
+  EXPECT_LT(result.measures.steps, 200);
 }
 
 }  // namespace brainshift::solve::relaxation_test

@@ -38,6 +38,10 @@ TEST(Completed, TakesDoublePrecisionWhereStiffnessDiffersMuch) {
   model.materials[1].poisson_ratio = 0.49;
   model.materials[2] = {model.materials[1].youngs_modulus * 2000, 0.49, 1000};
   EXPECT_EQ(precision(), Precision::double_precision) << "of one µ and another";
+  model.materials[2] = {model.materials[1].youngs_modulus * 900, 0.49, 1000};
+  EXPECT_EQ(precision(), Precision::double_precision) << "of K here and µ there";
+  model.materials[2].youngs_modulus /= 2;
+  EXPECT_EQ(precision(), Precision::single_precision);
 }
 
 /// Of a head ten metres long single precision resolves no hundredth of a millimetre.
