@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Included by step_kernels.cpp once for each instruction set, inside a namespace of its own.
 
+#include "solve/force/deformation_lanes_body.hpp"
+
 /// How far ahead derivatives are fetched: each is read once a step, and the processor foresees too little of it.
 constexpr std::size_t ahead = 4096;  // bytes
 
@@ -87,25 +89,13 @@ void spread(const PairRows<Scalar>& rows, std::int32_t first, std::int32_t last,
   }
 }
 
-/// Deformation, of `lanes` points.
-struct DeformationLanes {
-  Lane gradient[9], cofactor[9], jacobian;
-};
-
+/// Of the gradient at `lanes` points.
 BRAINSHIFT_INLINE void deform(const TensorLanes& gradient, DeformationLanes& d) {
   __builtin_memcpy(d.gradient, gradient.entry, sizeof d.gradient);
-  for (int column = 0; column < 3; ++column) {
-    const Lane* a = d.gradient + 3 * ((column + 1) % 3);
-    const Lane* b = d.gradient + 3 * ((column + 2) % 3);
-    for (int row = 0; row < 3; ++row) {
-      const int next = (row + 1) % 3, last = (row + 2) % 3;
-      d.cofactor[3 * column + row] = a[next] * b[last] - a[last] * b[next];
-    }
-  }
-  d.jacobian = d.gradient[0] * d.cofactor[0] + d.gradient[1] * d.cofactor[1] + d.gradient[2] * d.cofactor[2];
+  deform(d);
 }
 
-/// x^(−1/3) by Newton's method; NaN where x is not positive. The start, from the bits of x, is within 5 %.
+/// x^(−1/3). The start is from the bits of x.
 BRAINSHIFT_INLINE void inverse_cube_root(const Lane& x, Lane& root) {
   std::uint64_t bits[lanes];
   __builtin_memcpy(bits, &x, sizeof bits);
@@ -113,11 +103,7 @@ BRAINSHIFT_INLINE void inverse_cube_root(const Lane& x, Lane& root) {
     b = 0x553ef0ff289dd796 - b / 3;
   }
   __builtin_memcpy(&root, bits, sizeof root);
-  for (int i = 0; i < 4; ++i) {
-    root = root * (4.0 - x * root * root * root) * (1.0 / 3);
-  }
-  const Lane nowhere = Lane{} + std::numeric_limits<double>::quiet_NaN();
-  root = x > 0.0 ? root : nowhere;
+  refine_inverse_cube_root(x, root);
 }
 
 void jacobian(const TensorLanes* gradient, std::size_t groups, double* out) {
@@ -133,18 +119,13 @@ void neo_hookean(const TensorLanes* gradient, std::size_t groups, double shear_m
   for (std::size_t g = 0; g < groups; ++g) {
     DeformationLanes d;
     deform(gradient[g], d);
-    Lane root, p, w, squared_norm = {};
+    Lane root, p, w, of_group[9];
     inverse_cube_root(d.jacobian, root);
     __builtin_memcpy(&p, pressure + lanes * g, sizeof p);
     __builtin_memcpy(&w, volume + lanes * g, sizeof w);
-    for (const Lane& f : d.gradient) {
-      squared_norm += f * f;
-    }
-    const Lane scale = shear_modulus * root * root;
-    const Lane of_cofactor = w * (p - scale * squared_norm / (3.0 * d.jacobian)), of_gradient = w * scale;
+    neo_hookean_stress(d, root, Lane{} + shear_modulus, p, w, of_group);
     for (int k = 0; k < 9; ++k) {
-      const Lane entry = of_gradient * d.gradient[k] + of_cofactor * d.cofactor[k];
-      __builtin_memcpy(stress[g].entry[k], &entry, sizeof entry);
+      __builtin_memcpy(stress[g].entry[k], &of_group[k], sizeof of_group[k]);
     }
   }
 }
