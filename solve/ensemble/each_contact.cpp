@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "solve/arrays/lanes.hpp"
+#include "solve/ensemble/each_distance.hpp"
 
 namespace brainshift::solve {
 
@@ -19,6 +19,25 @@ void add_displacement(const std::int32_t* node, const double* shape, std::size_t
       for (std::size_t m = 0; m < members; ++m) {
         x.of[axis][m] += shape[k] * u.of[axis][m];
       }
+    }
+  }
+}
+
+/// Of the vectors one component, and of the members as many as a Lane has, from the first on.
+struct Part {
+  std::size_t axis, first;
+};
+
+/// û += M⁻¹ φ push.
+BRAINSHIFT_LANES
+void add_push(const std::int32_t* node, const double* shape, std::size_t pairs,
+              const NumberOfEach<double>* inverse_mass, const double* push, const Part& part,
+              VectorOfEach<double>* parameters) {
+  for (std::size_t k = 0; k < pairs; ++k) {
+    const double* inverse = inverse_mass[node[k]].of + part.first;
+    double* u = parameters[node[k]].of[part.axis] + part.first;
+    for (std::size_t m = 0; m < members_at_once; ++m) {
+      u[m] += inverse[m] * shape[k] * push[part.first + m];
     }
   }
 }
@@ -50,7 +69,7 @@ void EachContact::weigh(const EachNumbers& mass, const Chosen& chosen) {
   }
 }
 
-void EachContact::find_push(std::size_t i, const Chosen& chosen, const EachVectors& parameters) {
+void EachContact::find_push(std::size_t i, const Numbers& chosen, const EachVectors& parameters) {
   const auto [node, shape] = contact_.nodes().row(i);
   const Eigen::RowVector3d start = contact_.nodes().positions().row(static_cast<Eigen::Index>(i));
   VectorOfEach<double> x;
@@ -58,20 +77,13 @@ void EachContact::find_push(std::size_t i, const Chosen& chosen, const EachVecto
     numbers(x.of[axis]) = start[static_cast<Eigen::Index>(axis)];
   }
   add_displacement(node.data(), shape.data(), node.size(), parameters.data(), x);
-  push_[i] = {};
-  touches_[i] = 0;
-  for (std::size_t m = 0; m < members; ++m) {
-    if (!chosen[m]) {
-      continue;
-    }
-    const Eigen::Vector3d place(x.of[0][m], x.of[1][m], x.of[2][m]);
-    const double outside = contact_.skull()->value(place) - contact_.allowed()[i];
-    if (outside > 0) {
-      const Eigen::Vector3d push = -outside * inverse_row_sum_[i].of[m] * contact_.skull()->gradient(place);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        push_[i].of[axis][m] = push[static_cast<Eigen::Index>(axis)];
-      }
-      touches_[i] = 1;
+  const Numbers outside = numbers(distance_of_each(*contact_.skull(), x).of) - contact_.allowed()[i];
+  const Numbers length = (outside > 0).select(-outside * numbers(inverse_row_sum_[i].of), 0.0) * chosen;
+  touches_[i] = (length < 0).any() ? 1 : 0;
+  if (touches_[i] != 0) {
+    push_[i] = gradient_of_each(*contact_.skull(), x);
+    for (auto& axis : push_[i].of) {
+      numbers(axis) *= length;
     }
   }
 }
@@ -81,26 +93,22 @@ void EachContact::push(std::size_t axis, std::size_t first, EachVectors& paramet
     if (touches_[i] == 0) {
       continue;
     }
-    const double* push = push_[i].of[axis] + first;
     const auto [node, shape] = contact_.nodes().row(i);
-    for (std::size_t k = 0; k < node.size(); ++k) {
-      const auto a = static_cast<std::size_t>(node[k]);
-      double* u = parameters[a].of[axis] + first;
-      for (std::size_t m = 0; m < members_at_once; ++m) {
-        u[m] += inverse_mass_[a].of[first + m] * shape[k] * push[m];
-      }
-    }
+    add_push(node.data(), shape.data(), node.size(), inverse_mass_.data(), push_[i].of[axis], {axis, first},
+             parameters.data());
   }
 }
 
 void EachContact::apply(const Chosen& chosen, EachVectors& parameters) {
   const auto nodes = static_cast<std::int64_t>(push_.size());
+  Numbers one_where_chosen;
+  std::copy(chosen.begin(), chosen.end(), one_where_chosen.begin());
   constexpr std::size_t parts = members / members_at_once;
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
     for (std::int64_t i = 0; i < nodes; ++i) {
-      find_push(static_cast<std::size_t>(i), chosen, parameters);
+      find_push(static_cast<std::size_t>(i), one_where_chosen, parameters);
     }
 #pragma omp for schedule(static, 1)
     for (std::size_t task = 0; task < 3 * parts; ++task) {

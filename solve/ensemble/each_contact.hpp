@@ -21,7 +21,8 @@ class EachContact {
   void apply(const Chosen& chosen, EachVectors& parameters);
 
  private:
-  void find_push(std::size_t i, const Chosen& chosen, const EachVectors& parameters);
+  /// chosen: 1, else 0.
+  void find_push(std::size_t i, const Numbers& chosen, const EachVectors& parameters);
   void push(std::size_t axis, std::size_t first, EachVectors& parameters) const;
 
   const Contact& contact_;
