@@ -23,21 +23,21 @@ void add_displacement(const std::int32_t* node, const double* shape, std::size_t
   }
 }
 
-/// Of the vectors one component, and of the members as many as a Lane has, from the first on.
-struct Part {
-  std::size_t axis, first;
-};
-
-/// û += M⁻¹ φ push.
+/// û += M⁻¹ φ push, of as many members as a Lane has, from the first on.
 BRAINSHIFT_LANES
 void add_push(const std::int32_t* node, const double* shape, std::size_t pairs,
-              const NumberOfEach<double>* inverse_mass, const double* push, const Part& part,
+              const NumberOfEach<double>* inverse_mass, const VectorOfEach<double>& push, std::size_t first,
               VectorOfEach<double>* parameters) {
   for (std::size_t k = 0; k < pairs; ++k) {
-    const double* inverse = inverse_mass[node[k]].of + part.first;
-    double* u = parameters[node[k]].of[part.axis] + part.first;
+    double share[members_at_once];
     for (std::size_t m = 0; m < members_at_once; ++m) {
-      u[m] += inverse[m] * shape[k] * push[part.first + m];
+      share[m] = inverse_mass[node[k]].of[first + m] * shape[k];
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double* u = parameters[node[k]].of[axis] + first;
+      for (std::size_t m = 0; m < members_at_once; ++m) {
+        u[m] += share[m] * push.of[axis][first + m];
+      }
     }
   }
 }
@@ -88,14 +88,12 @@ void EachContact::find_push(std::size_t i, const Numbers& chosen, const EachVect
   }
 }
 
-void EachContact::push(std::size_t axis, std::size_t first, EachVectors& parameters) const {
+void EachContact::push(std::size_t first, EachVectors& parameters) const {
   for (std::size_t i = 0; i < push_.size(); ++i) {
-    if (touches_[i] == 0) {
-      continue;
+    if (touches_[i] != 0) {
+      const auto [node, shape] = contact_.nodes().row(i);
+      add_push(node.data(), shape.data(), node.size(), inverse_mass_.data(), push_[i], first, parameters.data());
     }
-    const auto [node, shape] = contact_.nodes().row(i);
-    add_push(node.data(), shape.data(), node.size(), inverse_mass_.data(), push_[i].of[axis], {axis, first},
-             parameters.data());
   }
 }
 
@@ -103,7 +101,6 @@ void EachContact::apply(const Chosen& chosen, EachVectors& parameters) {
   const auto nodes = static_cast<std::int64_t>(push_.size());
   Numbers one_where_chosen;
   std::copy(chosen.begin(), chosen.end(), one_where_chosen.begin());
-  constexpr std::size_t parts = members / members_at_once;
 #pragma omp parallel
   {
 #pragma omp for schedule(static)
@@ -111,8 +108,8 @@ void EachContact::apply(const Chosen& chosen, EachVectors& parameters) {
       find_push(static_cast<std::size_t>(i), one_where_chosen, parameters);
     }
 #pragma omp for schedule(static, 1)
-    for (std::size_t task = 0; task < 3 * parts; ++task) {
-      push(task / parts, task % parts * members_at_once, parameters);
+    for (std::size_t first = 0; first < members; first += members_at_once) {
+      push(first, parameters);
     }
   }
 }

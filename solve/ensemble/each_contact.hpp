@@ -23,7 +23,7 @@ class EachContact {
  private:
   /// chosen: 1, else 0.
   void find_push(std::size_t i, const Numbers& chosen, const EachVectors& parameters);
-  void push(std::size_t axis, std::size_t first, EachVectors& parameters) const;
+  void push(std::size_t first, EachVectors& parameters) const;
 
   const Contact& contact_;
   EachNumbers inverse_mass_;           // one a node of the cloud
