@@ -8,6 +8,37 @@
 
 namespace brainshift::solve {
 
+namespace {
+
+/// x ← (L D Lᵀ)⁻¹ x, of as many members as a Lane has, from the first on.
+BRAINSHIFT_LANES
+void eliminate(const int* begin, const int* row, std::size_t size, const NumberOfEach<double>* lower,
+               const NumberOfEach<double>* pivot, std::size_t first, NumberOfEach<double>* x) {
+  for (std::size_t j = 0; j < size; ++j) {
+    const double* of_column = x[j].of + first;
+    for (int k = begin[j]; k < begin[j + 1]; ++k) {
+      double* to = x[row[k]].of + first;
+      for (std::size_t m = 0; m < members_at_once; ++m) {
+        to[m] -= lower[k].of[first + m] * of_column[m];
+      }
+    }
+  }
+  for (std::size_t j = size; j-- > 0;) {
+    double* to = x[j].of + first;
+    for (std::size_t m = 0; m < members_at_once; ++m) {
+      to[m] /= pivot[j].of[first + m];
+    }
+    for (int k = begin[j]; k < begin[j + 1]; ++k) {
+      const double* from = x[row[k]].of + first;
+      for (std::size_t m = 0; m < members_at_once; ++m) {
+        to[m] -= lower[k].of[first + m] * from[m];
+      }
+    }
+  }
+}
+
+}  // namespace
+
 EachConditions::EachConditions(const EssentialConditions& essential, std::span<const Points> prescribed)
     : essential_(essential) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -43,32 +74,6 @@ void EachConditions::Factor::set(const EssentialConditions::Factor& of_member, s
   }
   for (std::size_t i = 0; i < pivot.size(); ++i) {
     pivot[i].of[member] = of_member.pivot[static_cast<Eigen::Index>(i)];
-  }
-}
-
-BRAINSHIFT_LANES
-static void eliminate(const int* begin, const int* row, std::size_t size, const NumberOfEach<double>* lower,
-                      const NumberOfEach<double>* pivot, std::size_t first, NumberOfEach<double>* x) {
-  for (std::size_t j = 0; j < size; ++j) {
-    const double* of_column = x[j].of + first;
-    for (int k = begin[j]; k < begin[j + 1]; ++k) {
-      double* to = x[row[k]].of + first;
-      for (std::size_t m = 0; m < members_at_once; ++m) {
-        to[m] -= lower[k].of[first + m] * of_column[m];
-      }
-    }
-  }
-  for (std::size_t j = size; j-- > 0;) {
-    double* to = x[j].of + first;
-    for (std::size_t m = 0; m < members_at_once; ++m) {
-      to[m] /= pivot[j].of[first + m];
-    }
-    for (int k = begin[j]; k < begin[j + 1]; ++k) {
-      const double* from = x[row[k]].of + first;
-      for (std::size_t m = 0; m < members_at_once; ++m) {
-        to[m] -= lower[k].of[first + m] * from[m];
-      }
-    }
   }
 }
 

@@ -120,7 +120,9 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
     }
     return displacements;
   } catch (const std::logic_error&) {
-    return alone(model, constants, one);  // what the whole cloud holds in place, the coarse one may not
+    return alone(model, constants, one);  // which says of each that it cannot be solved
+  } catch (const std::runtime_error&) {
+    return alone(model, constants, one);
   }
 }
 
