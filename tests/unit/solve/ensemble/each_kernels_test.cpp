@@ -62,6 +62,66 @@ void expect_law(const EachKernels& kernels, double rounding) {
   }
 }
 
+/// Two points that see three and six of four nodes' slots, padded to quads.
+template <class Scalar>
+void expect_passes(const EachKernels& kernels, double rounding) {
+  const std::vector<std::int64_t> begin = {0, 4, 12};
+  const std::vector<std::uint16_t> slot = {0, 2, 3, 0, 1, 3, 0, 2, 1, 3, 1, 1};
+  std::vector<Scalar> derivative;
+  for (std::size_t pair = 0; pair < slot.size(); ++pair) {
+    const bool padding = pair == 3 || pair > 9;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      derivative.push_back(padding ? Scalar{0} : static_cast<Scalar>(std::cos(static_cast<double>(3 * pair + axis))));
+    }
+  }
+  std::vector<VectorOfEach<Scalar>> displacement(4), force(4);
+  for (std::size_t node = 0; node < 4; ++node) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t m = 0; m < members; ++m) {
+        displacement[node].of[row][m] = static_cast<Scalar>(std::sin(static_cast<double>(node + 5 * row + 11 * m)));
+        force[node].of[row][m] = static_cast<Scalar>(m);  // what is there stays
+      }
+    }
+  }
+  const PairRows<Scalar> rows{begin.data(), slot.data(), derivative.data()};
+  std::vector<TensorOfEach<Scalar>> gradient(2);
+  kernels.of<Scalar>().gradients(rows, 0, 2, displacement.data(), gradient.data());
+  kernels.of<Scalar>().spread(rows, 0, 2, gradient.data(), force.data());
+  for (std::size_t m = 0; m < members; ++m) {
+    Eigen::Matrix<double, 3, 4> expected_force = Eigen::Matrix<double, 3, 4>::Constant(static_cast<double>(m));
+    for (std::size_t p = 0; p < 2; ++p) {
+      const auto first = static_cast<std::size_t>(begin[p]), last = static_cast<std::size_t>(begin[p + 1]);
+      const auto b = [&](std::size_t pair) {
+        return Eigen::Map<const Eigen::Matrix<Scalar, 3, 1>>(&derivative[3 * pair]).template cast<double>().eval();
+      };
+      Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+      for (std::size_t pair = first; pair < last; ++pair) {
+        const auto& u = displacement[slot[pair]].of;
+        h += Eigen::Vector3d(u[0][m], u[1][m], u[2][m]) * b(pair).transpose();
+      }
+      for (std::size_t k = 0; k < 9; ++k) {
+        EXPECT_NEAR(gradient[p].entry[k][m], h.data()[k], rounding) << kernels.name;
+      }
+      for (std::size_t pair = first; pair < last; ++pair) {
+        expected_force.col(slot[pair]) += h * b(pair);
+      }
+    }
+    for (std::size_t node = 0; node < 4; ++node) {
+      for (std::size_t row = 0; row < 3; ++row) {
+        EXPECT_NEAR(force[node].of[row][m],
+                    expected_force(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(node)), 30 * rounding);
+      }
+    }
+  }
+}
+
+TEST(EachKernels, PassOverPairsAsSumsSayOnAllInstructionSets) {
+  for (const EachKernels& kernels : each_kernels()) {
+    expect_passes<double>(kernels, 1e-14);
+    expect_passes<float>(kernels, 2e-6);
+  }
+}
+
 TEST(EachKernels, AnswerAsTheLawDoesOnAllInstructionSets) {
   ASSERT_EQ(each_kernels().size(), step_kernels().size());
   for (const EachKernels& kernels : each_kernels()) {
