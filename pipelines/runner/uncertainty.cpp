@@ -3,9 +3,11 @@
 
 #include <vtkPointData.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <span>
 #include <stdexcept>
 
 #include "pipelines/runner/sha256.hpp"
@@ -139,57 +141,98 @@ class Sampler {
     }
   }
 
-  std::optional<Points> displacement(const solve::Constants& constants) {
-    const std::string key = key_of(options_, answer_.displacement, constants);
-    std::optional<Points> found = folder_.find(key, answer_.positions.rows());
-    if (!found) {
-      found = solve::sampled_displacement(solve::with_constants(model_, constants), options_);
-      if (found) {
-        Solution sample = answer_;
-        sample.displacement = *found;
-        sample.reaction_force.setZero();
-        sample.estimated_error.clear();
-        folder_.keep(key, std::move(sample));
+  /// One of each; those that are not found are solved together. Absent: it could not be solved.
+  std::vector<std::optional<Points>> displacements(const std::vector<solve::Constants>& constants,
+                                                   const Progress& progress) {
+    std::vector<std::optional<Points>> all;
+    std::vector<solve::Constants> missing;
+    for (const solve::Constants& c : constants) {
+      all.push_back(folder_.find(key_of(options_, answer_.displacement, c), answer_.positions.rows()));
+      if (!all.back()) {
+        missing.push_back(c);
       }
     }
-    return found;
+    std::vector<std::optional<Points>> solved;
+    if (!missing.empty()) {
+      solved = solve::sampled_displacements(model_, options_, missing, progress);
+    }
+    auto next = solved.begin();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i]) {
+        continue;
+      }
+      all[i] = std::move(*next++);
+      if (all[i]) {
+        keep(constants[i], *all[i]);
+      }
+    }
+    return all;
   }
 
   void clear_others() const { folder_.clear_others(); }
 
  private:
+  void keep(const solve::Constants& constants, const Points& displacement) const {
+    Solution sample = answer_;
+    sample.displacement = displacement;
+    sample.reaction_force.setZero();
+    sample.estimated_error.clear();
+    folder_.keep(key_of(options_, answer_.displacement, constants), std::move(sample));
+  }
+
   const solve::SolveOptions& options_;
   solve::Model model_;
   const Solution& answer_;
   SampleFolder folder_;
 };
 
+/// Samples that are asked for at once, and kept when all of them are there: as many as are stepped together, beside
+/// the model's own constants.
+constexpr std::size_t together = 17;
+
+/// 0: the model's own constants; then the draws of this share.
+std::vector<int> sample_numbers(const solve::UncertaintyOptions& options) {
+  std::vector<int> numbers = {0};
+  for (int sample = options.share; sample <= options.samples; sample += options.shares) {
+    numbers.push_back(sample);
+  }
+  return numbers;
+}
+
 Eigen::MatrixXd spread_of_constants(const UncertaintyJob& job, const Solved& solved, const fs::path& out,
                                     StageReport& said, const Progress& progress) {
   const solve::UncertaintyOptions& options = job.options;
   const solve::Constants own{solved.model.materials, solved.model.gravity, solved.model.fluid};
   Sampler sampler(job, solved, out);
-  report(progress, 0, "samples: the model's own constants");
-  const std::optional<Points> answer = sampler.displacement(own);
-  if (!answer) {
-    throw std::runtime_error("the model could not be solved once more for its samples; leave <uncertainty> out");
-  }
   SampleTable table(out / "samples.csv", own);
+  std::optional<Points> answer;
   std::vector<Points> samples;
-  std::size_t drawn = 0;
-  for (int sample = options.share; sample <= options.samples; sample += options.shares) {
-    ++drawn;
-    report(progress, static_cast<double>(sample) / (options.samples + 1),
-           "sample " + std::to_string(sample) + " of " + std::to_string(options.samples));
-    const solve::Constants constants = solve::drawn_constants(solved.model, options, sample);
-    if (std::optional<Points> found = sampler.displacement(constants)) {
-      table.add(sample, constants, root_mean_square(*found - *answer));
-      samples.push_back(std::move(*found));
+  const std::vector<int> numbers = sample_numbers(options);
+  for (std::size_t begin = 0; begin < numbers.size(); begin += together) {
+    const auto group = std::span(numbers).subspan(begin, std::min(together, numbers.size() - begin));
+    std::vector<solve::Constants> constants;
+    for (const int sample : group) {
+      constants.push_back(sample == 0 ? own : solve::drawn_constants(solved.model, options, sample));
+    }
+    const auto of_these = [&](double done, std::string_view what) {
+      const double before = static_cast<double>(begin), these = static_cast<double>(group.size());
+      report(progress, (before + done * these) / static_cast<double>(numbers.size()), what);
+    };
+    std::vector<std::optional<Points>> found = sampler.displacements(constants, of_these);
+    if (begin == 0 && !(answer = std::move(found.front()))) {
+      throw std::runtime_error("the model could not be solved once more for its samples; leave <uncertainty> out");
+    }
+    for (std::size_t i = begin == 0 ? 1 : 0; i < group.size(); ++i) {
+      if (found[i]) {
+        table.add(group[i], constants[i], root_mean_square(*found[i] - *answer));
+        samples.push_back(std::move(*found[i]));
+      }
     }
   }
   table.close();
   sampler.clear_others();
   said.measures["uncertainty"]["samples"] = samples.size();
+  const std::size_t drawn = numbers.size() - 1;
   if (const std::size_t failed = drawn - samples.size(); failed > 0) {
     said.notes.push_back("warning: " + std::to_string(failed) + " of " + std::to_string(drawn) +
                          " samples could not be solved and are left out of the uncertainty; see samples.csv");

@@ -10,6 +10,15 @@
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define BRAINSHIFT_LEVELS
 #endif
+
+// Functions with plain loops over the members of an ensemble are left to the compiler, which makes one of each level;
+// the loader picks the best.
+#if defined(BRAINSHIFT_LEVELS) && !defined(__SANITIZE_ADDRESS__) && !defined(__AVX__)
+#define BRAINSHIFT_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#else
+#define BRAINSHIFT_CLONES
+#endif
+
 #if defined(__AVX512F__)
 #define BRAINSHIFT_BASIC_WIDTH 8
 #elif defined(__AVX__)

@@ -51,8 +51,8 @@ NodalVectors full_force(const Model& model, const BodyParts& parts) {
   return force;
 }
 
-/// In a transient run the fluid's level sinks with the load's curve, from the top of the body on; to rest only where it
-/// ends counts.
+}  // namespace
+
 ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamics dynamics) {
   NodalVectors force = full_force(model, parts);
   if (!model.fluid) {
@@ -79,8 +79,6 @@ ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamic
   return ExternalForce(std::move(at_levels));
 }
 
-}  // namespace
-
 PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics) {
   PointLaws laws;
   for (const Material& m : table.material) {
@@ -95,6 +93,18 @@ PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics)
   laws.plane_stress = plane == Plane::stress;
   laws.in_time = dynamics == Dynamics::transient;
   return laws;
+}
+
+PointLaws laws_with(const Body& body, const std::map<std::int32_t, Material>& materials) {
+  MaterialTable table;
+  for (const Patch& patch : body.points.patches) {
+    const auto row = static_cast<std::size_t>(patch.material);
+    if (row >= table.material.size()) {
+      table.material.resize(row + 1);
+    }
+    table.material[row] = materials.at(body.placed.tissue[static_cast<std::size_t>(patch.first_point)]);
+  }
+  return point_laws(table, Plane::none, Dynamics::relaxation);
 }
 
 namespace {

@@ -42,6 +42,9 @@ class Contact {
   Measures measure(const NodalVectors& parameters) const;
 
   const std::shared_ptr<const SignedDistance>& skull() const { return skull_; }
+  const PushedNodes& nodes() const { return nodes_; }
+  /// mm outside the skull at the start, one a node that may touch.
+  std::span<const double> allowed() const { return allowed_; }
 
  private:
   std::shared_ptr<const SignedDistance> skull_;

@@ -24,6 +24,31 @@ namespace brainshift::solve {
 /// Each component (x, y, z) has its own constrained nodes.
 class EssentialConditions {
  public:
+  using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  /// Of V M⁻¹ Vᵀ. Solves without allocating, as Eigen's solve() does not.
+  struct Factor {
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
+    Eigen::VectorXd pivot;
+
+    explicit Factor(const Eigen::SparseMatrix<double>& system) : ldlt(system), pivot(ldlt.vectorD()) {}
+    void solve(Eigen::VectorXd& x, Eigen::VectorXd& scratch) const;
+  };
+
+  /// The conditions of one component.
+  struct Component {
+    std::vector<std::int32_t> node;
+    RowMatrix shape;                         ///< V, (conditions × nodes)
+    Eigen::VectorXd prescribed;              ///< ū, mm
+    Eigen::VectorXd multiplier;              ///< μ
+    Eigen::VectorXd loaded;                  ///< 1 where the node is loaded, else 0
+    Eigen::VectorXd lumped;                  ///< of the simplified form
+    Eigen::VectorXd scratch;                 ///< of apply()
+    Eigen::SparseMatrix<double> compliance;  ///< C/s, mm/µN; empty: held exactly
+    Eigen::VectorXd multiplier_before;       ///< μ of the step before; empty: held exactly
+    std::shared_ptr<Factor> factor;          ///< components with the same system share it
+  };
+
   /// Nothing is prescribed.
   EssentialConditions() = default;
   /// prescribed (n × 3) mm, NaN: free. nodal_rows: shape functions at all nodes' positions. names: what the user calls
@@ -67,28 +92,9 @@ class EssentialConditions {
   /// These nodes are held, not loaded, whatever is prescribed there: reaction_of_loaded() leaves them out.
   void count_as_held(std::span<const std::int32_t> nodes);
 
- private:
-  /// Solves without allocating, as Eigen's solve() does not.
-  struct Factor {
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
-    Eigen::VectorXd pivot;
+  const std::array<Component, 3>& components() const { return component_; }
 
-    explicit Factor(const Eigen::SparseMatrix<double>& system) : ldlt(system), pivot(ldlt.vectorD()) {}
-    void solve(Eigen::VectorXd& x, Eigen::VectorXd& scratch) const;
-  };
-  using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  struct Component {
-    std::vector<std::int32_t> node;
-    RowMatrix shape;                         ///< V, (conditions × nodes)
-    Eigen::VectorXd prescribed;              ///< ū, mm
-    Eigen::VectorXd multiplier;              ///< μ
-    Eigen::VectorXd loaded;                  ///< 1 where the node is loaded, else 0
-    Eigen::VectorXd lumped;                  ///< of the simplified form
-    Eigen::VectorXd scratch;                 ///< of apply()
-    Eigen::SparseMatrix<double> compliance;  ///< C/s, mm/µN; empty: held exactly
-    Eigen::VectorXd multiplier_before;       ///< μ of the step before; empty: held exactly
-    std::shared_ptr<Factor> factor;
-  };
+ private:
   bool nothing_prescribed() const;
 
   std::array<Component, 3> component_;

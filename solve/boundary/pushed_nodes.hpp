@@ -22,8 +22,22 @@ class PushedNodes {
 
   std::size_t size() const { return inverse_row_sum_.size(); }
 
+  /// Undeformed, mm, one row a node that may be pushed, and the shape functions there.
+  const Points& positions() const { return positions_; }
+  struct Row {
+    std::span<const std::int32_t> node;
+    std::span<const double> shape;
+  };
+  Row row(std::size_t i) const {
+    const auto first = static_cast<std::size_t>(begin_[i]), size = static_cast<std::size_t>(begin_[i + 1]) - first;
+    return {std::span(node_).subspan(first, size), std::span(shape_).subspan(first, size)};
+  }
+
   /// Sets the nodal masses (one a node) that weigh the pushes.
   void weigh(std::span<const double> mass);
+
+  /// D⁻¹, one a node that may be pushed, as weighed last.
+  std::span<const double> inverse_row_sum() const { return inverse_row_sum_; }
 
   /// Where the i-th node is, mm.
   Eigen::Vector3d place(std::size_t i, const NodalVectors& parameters) const;

@@ -17,10 +17,9 @@ void add(const NodalVectors& a, const NodalVectors& b, NodalVectors& sum) {
 }  // namespace
 
 void Quickening::look(Motion& motion, std::span<const double> mass, double beta, double lowest) {
-  constexpr int seldom = 10;           // windows
-  constexpr double much_slower = 0.2;  // else what is won is less than what it costs to know
+  constexpr int seldom = 10;  // windows
   if (!motion.rigid_modes) {
-    if (lowest > much_slower * RigidModes::quick) {
+    if (!wanted(lowest)) {
       return;
     }
     const Body& body = motion.body;

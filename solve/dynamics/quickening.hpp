@@ -13,6 +13,9 @@ class Quickening {
  public:
   explicit Quickening(double alpha) : alpha_(alpha) {}
 
+  /// Whether the lowest active eigenvalue is so low that what is won is more than what it costs to know.
+  static bool wanted(double lowest) { return lowest <= 0.2 * RigidModes::quick; }
+
   /// Once a window, after look(). lowest: the lowest active eigenvalue of M⁻¹K, as estimated.
   void look(Motion& motion, std::span<const double> mass, double beta, double lowest);
 

@@ -10,6 +10,7 @@
 #include "solve/dynamics/load_pace.hpp"
 #include "solve/dynamics/motion.hpp"
 #include "solve/dynamics/quickening.hpp"
+#include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/force/stiffness_bound.hpp"
 
@@ -17,20 +18,8 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int usual_window = 20;      // steps between looks at the state
-constexpr int settled_window = 5;     // the same of a start that is near the end
-constexpr double far_from_rest = 10;  // bounds over the tolerance: nearer to the end nothing is gained
-constexpr double mass_margin = 1.1;   // stiffness may grow by this before the masses are made anew
-
-/// α of all steps. It stays the same: nodes in contact rest where a step's push and their way back cancel, which moves
-/// with α. Stable up to 2(1 + β) for A_m = 1; the best, 4/(1 + √A_0)², would save an eighth of the steps.
-constexpr double alpha = 3;
-
-/// β that makes the lowest mode decay fastest, by √β a step: its critical damping.
-double critical_beta(double lowest_eigenvalue) {
-  const double root = 1 - std::sqrt(alpha * lowest_eigenvalue);
-  return root * root;
-}
+constexpr int settled_window = 5;  // steps between looks of a start that is near the end
+constexpr double alpha = relaxation_alpha;
 
 /// By how much swelling stiffens the body in the end: a tissue that has grown by a stretch s has s times its tangent.
 double stiffening(const PointLaws& laws) {
@@ -166,7 +155,7 @@ class Relaxation {
     calm_ = calm_rows(calm_, row.residual);
     row.error_bound = bound_.value();
     const int windows = motion_.result.steps / window_;
-    if (windows % (motion_.time < 1 ? 3 : 10) == 0) {
+    if (windows % windows_to_stiffness(motion_.time >= 1) == 0) {
       follow_stiffness();
     }
     if (motion_.time >= 1 && !cautious_ && (motion_.rigid_modes || bound_.value() > far_from_rest * tolerance())) {
@@ -182,7 +171,7 @@ class Relaxation {
     });
     const double inertia = m.inertia(mass_, m.before, m.next);
     if (inertia > 0 && stiffness > 0) {
-      lowest_ = std::clamp(stiffness / inertia + spring_stiffness(), smallest_eigenvalue, largest_eigenvalue_of_beta);
+      lowest_ = bounded_eigenvalue(stiffness / inertia + spring_stiffness());
     }
   }
 
@@ -196,20 +185,12 @@ class Relaxation {
     return work / m.inertia(mass_, m.now, m.before);
   }
 
-  /// The bound that is wanted, mm: of a small load's answer not more than a small part is left open.
-  double tolerance() const {
-    return farthest_ > 0 ? std::min(options_.tolerance, open_part * farthest_) : options_.tolerance;
-  }
-
-  /// A step that is no longer than this is made of rounding, mm: of differences of sums of ten terms and more.
-  double rounding() const {
-    const bool single = points().precision() == Precision::single_precision;
-    return single ? terms * farthest_ * double{std::numeric_limits<float>::epsilon()} : rounding_of_places();
-  }
+  double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
+  double rounding() const { return rounding_of_step(farthest_, points().precision()); }
 
   /// The same of the places alone, which are double in any case: a body that moves no more may be one of which every
   /// node is held.
-  double rounding_of_places() const { return terms * farthest_ * std::numeric_limits<double>::epsilon(); }
+  double rounding_of_places() const { return rounding_of_step(farthest_, Precision::double_precision); }
 
   void fail_at_standstill() {
     std::ostringstream text;
@@ -276,10 +257,6 @@ class Relaxation {
     motion_.result.settled = {.mass = std::move(mass_), .mass_scale = mass_scale_, .lowest = lowest_};
     return motion_.finish();
   }
-
-  static constexpr double terms = 10;
-  static constexpr double smallest_eigenvalue = 1e-8;
-  static constexpr double largest_eigenvalue_of_beta = 0.028;  // above it β is too small for α
 
   const int window_;
   const Course& course_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "segmentation/progress/progress.hpp"
 #include "solve/dynamics/stepping.hpp"
 #include "solve/interface/options.hpp"
@@ -14,6 +16,12 @@ inline constexpr int rows_of_rest = 4;
 
 /// Of the largest displacement: the error that may be left, whatever the tolerance.
 inline constexpr double open_part = 0.02;
+
+/// The bound of the error that is wanted, mm, with the largest displacement so far: of a small load's answer not more
+/// than a small part is left open.
+inline double wanted_bound(double tolerance, double farthest) {
+  return farthest > 0 ? std::min(tolerance, open_part * farthest) : tolerance;
+}
 
 /// How many rows up to one with this residual are calm, from how many up to the one before.
 inline int calm_rows(int before, double residual) {

@@ -6,20 +6,24 @@
 
 namespace brainshift::solve {
 
-double largest_eigenvalue(const PointBlocks& points, const PointLaws& laws, std::span<const double> mass,
-                          int iterations) {
-  constexpr double amplitude = 1e-7;  // mm: small enough to stay linear
-  const std::size_t nodes = points.nodes();
-  ForceScratch scratch(points, laws);
-  NodalVectors mode(4 * nodes, 0.0), force(4 * nodes);
+NodalVectors rough_mode(std::size_t nodes) {
+  NodalVectors mode(4 * nodes, 0.0);
   std::mt19937 random(1);
   for (std::size_t i = 0; i < mode.size(); ++i) {
     mode[i] = i % 4 < 3 ? static_cast<double>(random() % 2001) - 1000.0 : 0.0;
   }
+  return mode;
+}
+
+double largest_eigenvalue(const PointBlocks& points, const PointLaws& laws, std::span<const double> mass,
+                          int iterations) {
+  const std::size_t nodes = points.nodes();
+  ForceScratch scratch(points, laws);
+  NodalVectors mode = rough_mode(nodes), force(4 * nodes);
   double eigenvalue = 0;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     const double norm = std::sqrt(sum_over_nodes(nodes, [&](std::size_t a) { return at(mode, a).squaredNorm(); }));
-    const double scale = amplitude * std::sqrt(static_cast<double>(nodes)) / norm;
+    const double scale = small_mode * std::sqrt(static_cast<double>(nodes)) / norm;
     for (double& x : mode) {
       x *= scale;
     }
@@ -35,13 +39,11 @@ double largest_eigenvalue(const PointBlocks& points, const PointLaws& laws, std:
 
 double bound_tightness(const PointBlocks& points, const PointLaws& laws, std::span<const double> bound,
                        std::span<const double> mass) {
-  constexpr int iterations = 40;
-  constexpr double margin = 1.25;  // power iteration comes from below, and tangents turn as the body deforms
   double largest = 0;
   for (std::size_t a = 0; a < mass.size(); ++a) {
     largest = std::max(largest, bound[a] / mass[a]);
   }
-  return std::min(1.0, margin * largest_eigenvalue(points, laws, mass, iterations) / largest);
+  return std::min(1.0, tightness_margin * largest_eigenvalue(points, laws, mass, tightness_iterations) / largest);
 }
 
 }  // namespace brainshift::solve

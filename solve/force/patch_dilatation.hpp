@@ -48,12 +48,17 @@ double point_energy(const ElasticLaw& law, double seen, double dilatation) {
          law.shear_modulus * depth * depth;
 }
 
+/// dU_b/dθ, the barrier's part of the pressure, Pa.
+template <class ElasticLaw>
+double barrier_pressure(const ElasticLaw& law, double dilatation) {
+  const double depth = depth_in_barrier(law, dilatation);
+  return depth < 0 ? 2 * law.shear_modulus * depth / (dilatation - law.least_dilatation) : 0.0;
+}
+
 /// The pressure of which the patch's variation consists, Kθ̄ + k (θ − θ̄) + dU_b/dθ, Pa.
 template <class ElasticLaw>
 double point_pressure(const ElasticLaw& law, double seen, double dilatation) {
-  const double pressure = law.bulk_modulus * seen + unprojected_modulus(law) * (dilatation - seen);
-  const double depth = depth_in_barrier(law, dilatation);
-  return depth < 0 ? pressure + 2 * law.shear_modulus * depth / (dilatation - law.least_dilatation) : pressure;
+  return law.bulk_modulus * seen + unprojected_modulus(law) * (dilatation - seen) + barrier_pressure(law, dilatation);
 }
 
 /// d²U/dθ² of the point alone, θ̄ held, Pa.

@@ -10,8 +10,6 @@
 
 namespace brainshift::solve {
 
-namespace {
-
 Eigen::Matrix3Xd derivatives(const PointBlocks& points, std::int32_t point) {
   const auto nodes = static_cast<Eigen::Index>(points.support_size(point));
   if (points.precision() == Precision::single_precision) {
@@ -20,7 +18,6 @@ Eigen::Matrix3Xd derivatives(const PointBlocks& points, std::int32_t point) {
   return Eigen::Map<const Eigen::Matrix3Xd>(points.derivatives_of<double>(point), 3, nodes);
 }
 
-/// ‖Σ_b B_b ⊗ B_b / |B_b|‖, the largest eigenvalue.
 double weighted_norm(const Eigen::Matrix3Xd& b) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (Eigen::Index a = 0; a < b.cols(); ++a) {
@@ -33,6 +30,8 @@ double weighted_norm(const Eigen::Matrix3Xd& b) {
   eigen.computeDirect(sum, Eigen::EigenvaluesOnly);
   return eigen.eigenvalues()[2];
 }
+
+namespace {
 
 /// Sums over the slots of a block.
 struct BlockSums {

@@ -19,6 +19,10 @@ namespace brainshift::solve {
 /// see that.
 std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch);
 
+/// ∂φ_a/∂X of a point's support, (3 × nodes) 1/mm, and of them ‖Σ_b B_b ⊗ B_b / |B_b|‖, the largest eigenvalue.
+Eigen::Matrix3Xd derivatives(const PointBlocks& points, std::int32_t point);
+double weighted_norm(const Eigen::Matrix3Xd& b);
+
 /// The physical mass of the nodes (g): each point's is shared evenly by the nodes of its support, as Wittek et al., eq.
 /// 21, have it. density: g/mm³, one a row of the material table.
 std::vector<double> physical_mass(const PointBlocks& points, std::span<const double> density);

@@ -15,10 +15,9 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double coarser = 2;             // spacing over that of the cloud
-constexpr double least_distance = 1.41;   // of chosen nodes, over the cloud's spacing: leaves about an eighth
-constexpr double looser = 0.1;            // stop, over the region's displacement
-constexpr std::size_t fewest_nodes = 60;  // of a coarse cloud
+constexpr double coarser = 2;            // spacing over that of the cloud
+constexpr double least_distance = 1.41;  // of chosen nodes, over the cloud's spacing: leaves about an eighth
+constexpr double looser = 0.1;           // stop, over the region's displacement
 
 /// Loaded nodes first, then the surface, then the inside; each in the cloud's order.
 std::vector<std::int32_t> by_importance(const NodeCloud& cloud, const Conditions& conditions) {
@@ -69,7 +68,7 @@ std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud, const Conditions&
 }
 
 CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& model, const SolveOptions& given,
-                       const Progress& progress) {
+                       const Progress& progress, bool keep_parts) {
   CoarseBody coarse{.model = model, .options = given, .measures = {}, .prepared = {}};
   coarse.model.cloud = subset(model.cloud, nodes);
   coarse.model.conditions = subset(model.conditions, nodes);
@@ -81,11 +80,24 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
   coarse.options.shape = {.basis = Basis::linear, .derivatives = given.shape.derivatives};
   coarse.options.snapshot_every = 0;
   coarse.options.tolerance = std::max(given.tolerance, looser * given.region);
-  coarse.prepared = prepare(coarse.model, coarse.options, {}, coarse.measures, progress);
+  coarse.prepared = prepare(coarse.model, coarse.options, {}, coarse.measures, progress, keep_parts);
   if (coarse.prepared.body.contact) {
     touch_with_whole_surface(model, coarse.model.cloud, coarse.options.shape, coarse.prepared.body);
   }
   return coarse;
+}
+
+Points as_prescribed(Points displacement, const Conditions& conditions) {
+  if (conditions.measured) {
+    return displacement;  // what was measured gives way
+  }
+  const Points& prescribed = conditions.displacement;
+  for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
+    if (!std::isnan(prescribed.data()[i])) {
+      displacement.data()[i] = prescribed.data()[i];
+    }
+  }
+  return displacement;
 }
 
 namespace {
@@ -99,24 +111,14 @@ std::optional<Points> solved_on(const std::vector<std::int32_t>& nodes, const Mo
   }
   const ShapeFunctions shape(coarse.cloud.positions, coarse.cloud.spacing, result.solution.shape);
   const Points parameters = parameters_from_displacement(shape, coarse.cloud.positions, result.solution.displacement);
-  Points displacement = shape.interpolate(model.cloud.positions, parameters);
-  if (model.conditions.measured) {
-    return displacement;  // what was measured gives way
-  }
-  const Points& prescribed = model.conditions.displacement;
-  for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
-    if (!std::isnan(prescribed.data()[i])) {
-      displacement.data()[i] = prescribed.data()[i];
-    }
-  }
-  return displacement;
+  return as_prescribed(shape.interpolate(model.cloud.positions, parameters), model.conditions);
 }
 
 }  // namespace
 
 std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress) {
   const std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
-  if (nodes.size() < fewest_nodes) {
+  if (nodes.size() < fewest_coarse_nodes) {
     return std::nullopt;
   }
   try {

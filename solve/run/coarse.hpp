@@ -24,9 +24,15 @@ struct CoarseBody {
   Prepared prepared;
 };
 
-/// Throws as prepare() does.
+/// Throws as prepare() does, which sees keep_parts.
 CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& model, const SolveOptions& options,
-                       const Progress& progress);
+                       const Progress& progress, bool keep_parts = false);
+
+/// A cloud with fewer coarse nodes is not solved on them.
+inline constexpr std::size_t fewest_coarse_nodes = 60;
+
+/// A displacement of the coarse solution at all nodes, with what is prescribed exactly as it is prescribed.
+Points as_prescribed(Points displacement, const Conditions& conditions);
 
 /// The displacement at all nodes (n × 3) mm of the solution on the coarse nodes, their spacing doubled, with linear
 /// shape functions and one point a cell; prescribed components as prescribed. Empty when that cannot be solved: too few

@@ -174,7 +174,7 @@ SolveOptions completed(SolveOptions options, const Model& model) {
 }
 
 Prepared prepare(const Model& model, const SolveOptions& options, std::span<const std::uint8_t> pinned,
-                 SolveMeasures& measures, const Progress& progress) {
+                 SolveMeasures& measures, const Progress& progress, bool keep_parts) {
   check_model(model);
   check_rupture(model, options.dynamics);
   std::optional<CutBody> cut;
@@ -230,7 +230,7 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
     extras.faces = cut->cut_pairs();
   }
   Prepared prepared{.body = lay_out(model, options, parts, std::move(extras)), .cut = std::move(cut), .parts = {}};
-  if (cuts_go_on(model)) {
+  if (keep_parts || cuts_go_on(model)) {
     prepared.parts = std::move(parts);
   }
   return prepared;

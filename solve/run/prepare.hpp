@@ -19,14 +19,15 @@ namespace brainshift::solve {
 struct Prepared {
   Body body;
   std::optional<CutBody> cut;      ///< absent: a scene without one
-  std::optional<BodyParts> parts;  ///< where cuts go on; else they are gone
+  std::optional<BodyParts> parts;  ///< where cuts go on or they are asked for; else they are gone
 };
 
 /// pinned: one a node of the cloud, not 0 where the prescribed displacement is that of the node's parameter û (and the
 /// node's row of shape functions 1 at itself); empty: none. Such a node is held, not loaded. Sets the sizes among the
-/// measures. Of a model with a resection this is what it leaves, resect(). Throws as solve() does.
+/// measures. Of a model with a resection this is what it leaves, resect(). keep_parts: see Prepared. Throws as solve()
+/// does.
 Prepared prepare(const Model& model, const SolveOptions& options, std::span<const std::uint8_t> pinned,
-                 SolveMeasures& measures, const Progress& progress);
+                 SolveMeasures& measures, const Progress& progress, bool keep_parts = false);
 
 /// The options with what the model says of them.
 SolveOptions completed(SolveOptions options, const Model& model);

@@ -21,21 +21,21 @@ struct Attempt {
   std::string what;
 };
 
+}  // namespace
+
 bool starts_coarse(const Model& model, const SolveOptions& options) {
   return options.start == Start::coarse && options.dynamics == Dynamics::relaxation && options.snapshot_every == 0 &&
          model.plane == Plane::none && model.cuts.empty() && !model.septum && !model.rupture && !model.resection &&
          model.curve.at(model.curve.duration()) == 1;
 }
 
-/// The displacement at the nodes, (n × 3) mm, absent where the coarse cloud cannot be solved.
-std::optional<Points> coarse_solution(const Model& model, SolveOptions options) {
+SolveOptions of_coarse_start(SolveOptions options) {
   constexpr double factor = 5;  // what a coarse solution is wrong by is more
   options.tolerance *= factor;
   options.load_steps = std::min(options.load_steps, 100);
-  return coarse_displacement(model, options, {});
+  return options;
 }
 
-/// It is taken for the parameters: near enough for a start.
 NodalVectors as_start(const Points& displacement, const std::vector<std::int32_t>& original) {
   NodalVectors start(4 * original.size(), 0.0);
   for (std::size_t a = 0; a < original.size(); ++a) {
@@ -43,6 +43,8 @@ NodalVectors as_start(const Points& displacement, const std::vector<std::int32_t
   }
   return start;
 }
+
+namespace {
 
 /// What the body is tried with after stepping has turned unstable, in this order: none makes the answer looser.
 std::vector<Attempt> further_attempts(const SolveOptions& options) {
@@ -91,7 +93,7 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
   if (starts_coarse(model, options)) {
     const Stopwatch begin;
     report(progress, 0, "solving a coarse cloud");
-    coarse = coarse_solution(model, options);
+    coarse = coarse_displacement(model, of_coarse_start(options), {});
     if (coarse) {
       start_from = as_start(*coarse, prepared.body.original);
     }

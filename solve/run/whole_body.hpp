@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "segmentation/progress/progress.hpp"
+#include "solve/arrays/nodal_vectors.hpp"
 #include "solve/interface/model.hpp"
 #include "solve/interface/options.hpp"
 #include "solve/interface/result.hpp"
@@ -10,5 +14,11 @@ namespace brainshift::solve {
 
 /// solve() without a region: the resection is taken out, the rest prepared, started and stepped to the end.
 SolveResult solve_whole_body(const Model& model, const SolveOptions& options, const Progress& progress);
+
+/// Whether it is started from a coarse solution, with what options that is made, and û at the body's nodes that is made
+/// of it: the displacement (n × 3) mm is taken for the parameters, which is near enough for a start.
+bool starts_coarse(const Model& model, const SolveOptions& options);
+SolveOptions of_coarse_start(SolveOptions options);
+NodalVectors as_start(const Points& displacement, const std::vector<std::int32_t>& original);
 
 }  // namespace brainshift::solve

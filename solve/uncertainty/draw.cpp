@@ -73,13 +73,6 @@ Constants drawn_constants(const Model& model, const UncertaintyOptions& options,
   return constants;
 }
 
-Model with_constants(Model model, const Constants& constants) {
-  model.materials = constants.materials;
-  model.gravity = constants.gravity;
-  model.fluid = constants.fluid;
-  return model;
-}
-
 bool varies(const Model& model, const UncertaintyOptions& options) {
   return options.stiffness > 0 || options.poisson > 0 ||
          (options.gravity_angle > 0 && (model.fluid || !model.gravity.isZero())) ||

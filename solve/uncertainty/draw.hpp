@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "solve/interface/model.hpp"
+#include "solve/interface/constants.hpp"
 #include "solve/uncertainty/uncertainty_options.hpp"
 
 namespace brainshift::solve {
-
-/// The constants of a model that may be other than they say.
-struct Constants {
-  std::map<std::int32_t, Material> materials;
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s²
-  std::optional<DrainedFluid> fluid = {};
-};
 
 /// Sample `sample` >= 1 of the constants of a model; the same for the same seed and sample, whatever was drawn before:
 /// a longer series begins as a shorter one. Each tissue's moduli are multiplied by exp(stiffness · ε), its Poisson's
 /// ratio is uniform (a law of one's own keeps its constants); gravity is turned about the two axes across it, now and
 /// of the image by the same turn; the fluid's surface is turned with it about the middle of the nodes and moved.
 Constants drawn_constants(const Model& model, const UncertaintyOptions& options, int sample);
-
-/// The model with these constants.
-Model with_constants(Model model, const Constants& constants);
 
 /// Whether anything can come out of a draw but what the model says.
 bool varies(const Model& model, const UncertaintyOptions& options);

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "solve/interface/model.hpp"
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "segmentation/progress/progress.hpp"
+#include "solve/interface/constants.hpp"
 #include "solve/interface/options.hpp"
 
 namespace brainshift::solve {
@@ -15,6 +20,12 @@ inline constexpr std::size_t most_sampled_nodes = 2000;
 /// model cannot be solved. Throws std::invalid_argument with a part that samples do not go with: motion in time, a
 /// region, cuts, tears, a septum, a resection, a plane problem.
 std::optional<Points> sampled_displacement(const Model& model, const SolveOptions& options);
+
+/// sampled_displacement() of a model with each of these constants, to rounding, solved together; absent where that
+/// is. The same for any number of threads; a sample does not depend on which others are asked for.
+std::vector<std::optional<Points>> sampled_displacements(const Model& model, const SolveOptions& options,
+                                                         std::span<const Constants> constants,
+                                                         const Progress& progress = {});
 
 /// Throws as sampled_displacement() does.
 void check_sampled(const Model& model, const SolveOptions& options);

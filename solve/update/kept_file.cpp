@@ -150,23 +150,10 @@ std::shared_ptr<const SignedDistance> read_skull(ArchiveReader& reader) {
   return std::make_shared<const SignedDistance>(std::move(samples));
 }
 
-/// A patch's row has the material of the label of its points.
-PointLaws laws_of(const Body& body, const std::map<std::int32_t, Material>& materials) {
-  MaterialTable table;
-  for (const Patch& patch : body.points.patches) {
-    const auto row = static_cast<std::size_t>(patch.material);
-    if (row >= table.material.size()) {
-      table.material.resize(row + 1);
-    }
-    table.material[row] = materials.at(body.placed.tissue[static_cast<std::size_t>(patch.first_point)]);
-  }
-  return point_laws(table, Plane::none, Dynamics::relaxation);
-}
-
 /// The next load says which nodes may touch the skull.
 void add_what_is_not_kept(KeptBody& kept, const std::map<std::int32_t, Material>& materials,
                           const std::shared_ptr<const SignedDistance>& skull) {
-  kept.body.laws = laws_of(kept.body, materials);
+  kept.body.laws = laws_with(kept.body, materials);
   if (skull) {
     kept.body.contact.emplace(skull, Points(0, 3), std::span<const std::int32_t>(), ShapeRows());
   }

@@ -19,8 +19,6 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr std::size_t fewest_coarse_nodes = 60;
-
 NodalVectors in_body_order(const Points& values, const std::vector<std::int32_t>& original) {
   NodalVectors ordered(4 * original.size(), 0.0);
   for (std::size_t a = 0; a < original.size(); ++a) {

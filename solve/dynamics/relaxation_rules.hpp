@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solve/force/point_laws.hpp"
+#include "solve/interface/options.hpp"
+
+namespace brainshift::solve {
+
+// What adaptive dynamic relaxation goes by, of one body and of an ensemble alike: relax() says what it means.
+
+inline constexpr int usual_window = 20;      // steps between looks at the state
+inline constexpr double far_from_rest = 10;  // bounds over the tolerance: nearer to the end nothing is gained
+inline constexpr double mass_margin = 1.1;   // stiffness may grow by this before the masses are made anew
+
+/// α of all steps. It stays the same: nodes in contact rest where a step's push and their way back cancel, which moves
+/// with α. Stable up to 2(1 + β) for A_m = 1; the best, 4/(1 + √A_0)², would save an eighth of the steps.
+inline constexpr double relaxation_alpha = 3;
+
+/// β that makes the lowest mode decay fastest, by √β a step: its critical damping.
+inline double critical_beta(double lowest_eigenvalue) {
+  const double root = 1 - std::sqrt(relaxation_alpha * lowest_eigenvalue);
+  return root * root;
+}
+
+inline constexpr double smallest_eigenvalue = 1e-8;
+
+/// A_0 within what β allows: above the upper bound it is too small for α.
+inline double bounded_eigenvalue(double eigenvalue) {
+  return std::clamp(eigenvalue, smallest_eigenvalue, 0.028);
+}
+
+/// Windows between looks at the stiffness.
+inline int windows_to_stiffness(bool loaded) {
+  return loaded ? 10 : 3;
+}
+
+/// A step that is no longer than this is made of rounding, mm: of differences of sums of ten terms and more.
+inline double rounding_of_step(double farthest, Precision precision) {
+  constexpr double terms = 10;
+  return terms * farthest *
+         (precision == Precision::single_precision ? double{std::numeric_limits<float>::epsilon()}
+                                                   : std::numeric_limits<double>::epsilon());
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/ensemble/relax_together.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "solve/dynamics/error_bound.hpp"
+#include "solve/dynamics/load_pace.hpp"
+#include "solve/dynamics/quickening.hpp"
+#include "solve/dynamics/relaxation.hpp"
+#include "solve/dynamics/relaxation_rules.hpp"
+#include "solve/ensemble/each_conditions.hpp"
+#include "solve/ensemble/each_contact.hpp"
+#include "solve/ensemble/each_eigenvalue.hpp"
+#include "solve/ensemble/each_force.hpp"
+#include "solve/ensemble/each_motion.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+/// What is known of one member on its way.
+struct Way {
+  double mass_scale = 1;
+  double lowest = 1e-4;  // A_0: a guess until there are increments
+  ErrorBound bound{usual_window};
+  double farthest = 0;     // largest |û| on the way, mm
+  double squeezed_to = 1;  // J
+};
+
+class Ensemble {
+ public:
+  Ensemble(const Body& body, std::span<const Member> loads, const LoadCurve& curve, const SolveOptions& options)
+      : body_(body),
+        curve_(curve),
+        options_(options),
+        motion_(body, loads),
+        pace_(options.load_steps, false),
+        results_(loads.size()) {
+    std::fill_n(active_.begin(), loads.size(), true);
+    motion_.find_force();
+    mass_ = motion_.force_law.stiffness_bound(all_chosen());
+    const Numbers tightness = bound_tightness_of_each(motion_.force_law, mass_);
+    for (std::size_t m = 0; m < members; ++m) {
+      way_[m].mass_scale = tightness[static_cast<Eigen::Index>(m)];
+    }
+    for (NumberOfEach<double>& of_node : mass_) {
+      for (std::size_t m = 0; m < members; ++m) {
+        of_node.of[m] *= mass_margin * way_[m].mass_scale;
+      }
+    }
+    motion_.weigh(mass_, all_chosen());
+    if (!loads.front().start.empty()) {
+      motion_.start_from(loads);
+      pace_.skip();
+      follow_stiffness(active_);
+    }
+  }
+
+  std::vector<MemberResult> run(const Progress& progress) {
+    while (any_active() && motion_.steps < options_.max_steps) {
+      step();
+      if (motion_.steps % usual_window == 0) {
+        look();
+        report(progress, 0.5 * motion_.time, "step " + std::to_string(motion_.steps) + " of an ensemble");
+      }
+    }
+    for (std::size_t m = 0; m < results_.size(); ++m) {
+      if (active_[m]) {
+        end(m, MemberResult::End::not_converged);
+      }
+    }
+    return std::move(results_);
+  }
+
+ private:
+  static Chosen all_chosen() {
+    Chosen all;
+    all.fill(true);
+    return all;
+  }
+  bool any_active() const { return std::find(active_.begin(), active_.end(), true) != active_.end(); }
+
+  void step() {
+    if (motion_.steps % usual_window == usual_window - 1) {
+      std::swap(motion_.force, motion_.force_before);
+    }
+    const double time = pace_.go_on(false);
+    NumberOfEach<double> beta;
+    for (std::size_t m = 0; m < members; ++m) {
+      beta.of[m] = critical_beta(way_[m].lowest);
+    }
+    motion_.step(mass_, beta, time, curve_.at(time * curve_.duration()), active_);
+    Chosen squeezed = {};
+    const Numbers smallest = motion_.force_law.smallest_jacobian();
+    for (std::size_t m = 0; m < members; ++m) {
+      constexpr double much = 0.8;
+      const double jacobian = smallest[static_cast<Eigen::Index>(m)];
+      if (active_[m] && !(jacobian >= much * way_[m].squeezed_to)) {
+        way_[m].squeezed_to = jacobian;
+        squeezed[m] = true;
+      }
+    }
+    follow_stiffness(squeezed);
+  }
+
+  /// Once a window: as Relaxation does it.
+  void look() {
+    const Numbers smallest = motion_.force_law.smallest_jacobian(), moved = motion_.largest_step();
+    const Numbers lowest = motion_.lowest_eigenvalue(mass_), farthest = motion_.farthest();
+    const Numbers too_lively = motion_.motion_over_work(mass_);
+    const int windows = motion_.steps / usual_window;
+    for (std::size_t m = 0; m < members; ++m) {
+      const auto i = static_cast<Eigen::Index>(m);
+      if (!active_[m]) {
+        continue;
+      }
+      Way& way = way_[m];
+      if (!std::isfinite(moved[i]) || !(smallest[i] > 0) || too_lively[i] > 1) {
+        end(m, MemberResult::End::left);
+        continue;
+      }
+      way.squeezed_to = smallest[i];
+      if (lowest[i] > 0) {
+        way.lowest = bounded_eigenvalue(lowest[i]);
+      }
+      way.farthest = std::max(way.farthest, farthest[i]);
+      way.bound.add(moved[i], std::sqrt(critical_beta(way.lowest)), motion_.time >= 1,
+                    rounding_of_step(way.farthest, Precision::double_precision));
+    }
+    if (windows % windows_to_stiffness(motion_.time >= 1) == 0) {
+      follow_stiffness(active_);
+    }
+    for (std::size_t m = 0; m < members; ++m) {
+      if (active_[m]) {
+        end_if_due(m);
+      }
+    }
+  }
+
+  void end_if_due(std::size_t m) {
+    Way& way = way_[m];
+    const double wanted = wanted_bound(options_.tolerance, way.farthest);
+    if (motion_.time >= 1 && way.bound.value() > far_from_rest * wanted && Quickening::wanted(way.lowest)) {
+      end(m, MemberResult::End::left);
+    } else if (motion_.time >= 1 && way.bound.value() <= wanted) {
+      end(m, MemberResult::End::rest);
+    } else if (way.bound.stands_still(rounding_of_step(way.farthest, body_.points.precision()))) {
+      const double left = way.bound.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue)));
+      end(m, left <= wanted ? MemberResult::End::rest : MemberResult::End::not_converged);
+    }
+  }
+
+  void end(std::size_t m, MemberResult::End how) {
+    results_[m] = {.end = how,
+                   .parameters = how == MemberResult::End::rest ? member_of(motion_.now, m) : NodalVectors(),
+                   .error_bound = way_[m].bound.value(),
+                   .steps = motion_.steps};
+    active_[m] = false;
+    motion_.let_go(m);
+  }
+
+  /// Makes the masses of those members anew of which a node has become stiffer than they allow for.
+  void follow_stiffness(const Chosen& asked) {
+    if (std::find(asked.begin(), asked.end(), true) == asked.end()) {
+      return;
+    }
+    const EachNumbers bound = motion_.force_law.stiffness_bound(asked);
+    Chosen stiffer = {};
+    for (std::size_t a = 0; a < mass_.size(); ++a) {
+      for (std::size_t m = 0; m < members; ++m) {
+        stiffer[m] = stiffer[m] || (asked[m] && way_[m].mass_scale * bound[a].of[m] > mass_[a].of[m]);
+      }
+    }
+    if (std::find(stiffer.begin(), stiffer.end(), true) == stiffer.end()) {
+      return;
+    }
+    for (std::size_t a = 0; a < mass_.size(); ++a) {
+      for (std::size_t m = 0; m < members; ++m) {
+        if (stiffer[m]) {
+          mass_[a].of[m] = std::max(mass_[a].of[m], mass_margin * way_[m].mass_scale * bound[a].of[m]);
+        }
+      }
+    }
+    motion_.weigh(mass_, stiffer);
+  }
+
+  const Body& body_;
+  const LoadCurve& curve_;
+  const SolveOptions& options_;
+  EachMotion motion_;
+  EachNumbers mass_;
+  std::array<Way, members> way_;
+  LoadPace pace_;
+  Chosen active_ = {};
+  std::vector<MemberResult> results_;
+};
+
+}  // namespace
+
+bool may_go_together(const Body& body, const SolveOptions& options) {
+  return options.dynamics == Dynamics::relaxation && options.imposition == Imposition::exact && options.region == 0 &&
+         options.snapshot_every == 0 && body.cut.empty() && !body.face_contact && !body.septum_contact &&
+         body.laws.swelling.empty() && body.laws.prony.empty() && !body.laws.plane_stress && !body.laws.in_time;
+}
+
+std::vector<MemberResult> relax_together(const Body& body, std::span<const Member> loads, const LoadCurve& curve,
+                                         const SolveOptions& options, const Progress& progress) {
+  return Ensemble(body, loads, curve, options).run(progress);
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "segmentation/progress/progress.hpp"
+#include "solve/body/body.hpp"
+#include "solve/ensemble/member.hpp"
+#include "solve/interface/load_curve.hpp"
+#include "solve/interface/options.hpp"
+
+namespace brainshift::solve {
+
+/// How a member ended.
+struct MemberResult {
+  enum class End : std::uint8_t {
+    rest,           ///< as relax() ends
+    not_converged,  ///< relax() would not either: too many steps, or rounding
+    left,           ///< it wants what an ensemble does not have: relax() it alone
+  };
+  End end = End::left;
+  NodalVectors parameters = {};  ///< û at rest, mm
+  double error_bound = 0;        ///< mm
+  int steps = 0;
+};
+
+/// Whether a body can be stepped as an ensemble: at rest it may hold prescribed displacements, exact or with noise,
+/// touch a skull and have forces; it may not be cut, parted, planar, swollen or held by the simplified imposition.
+bool may_go_together(const Body& body, const SolveOptions& options);
+
+/// relax() of up to `members` loads of one body at once. What a step reads of the body is read once for all of them.
+/// Each has masses, damping, error bound and end of its own, so that each ends, to rounding, where and when relax()
+/// would have ended it alone; a member that has ended is kept as it was. One that proves unstable, or is so slow that
+/// relax() would quicken it, leaves. All members start from rest, or all from their start. The result does not depend
+/// on the number of threads, nor a member's on the others. Throws as EssentialConditions::factorise() does.
+std::vector<MemberResult> relax_together(const Body& body, std::span<const Member> loads, const LoadCurve& curve,
+                                         const SolveOptions& options, const Progress& progress);
+
+}  // namespace brainshift::solve

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/run/together.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "solve/body/lay_out.hpp"
+#include "solve/ensemble/each.hpp"
+#include "solve/ensemble/relax_together.hpp"
+#include "solve/run/coarse.hpp"
+#include "solve/run/prepare.hpp"
+#include "solve/run/whole_body.hpp"
+#include "solve/shape/nodal_displacement.hpp"
+#include "solve/shape/shape_functions.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+using Displacements = std::vector<std::optional<Points>>;
+
+/// Whether what acts on the body differs.
+bool forces_differ(const Model& model, std::span<const Constants> constants) {
+  return model.fluid || !model.gravity.isZero() ||
+         std::any_of(constants.begin(), constants.end(),
+                     [](const Constants& c) { return c.fluid || !c.gravity.isZero(); });
+}
+
+/// The members by their constants. model: what was prepared; its constants are used up.
+std::vector<Member> members_of(Model& model, const Prepared& prepared, std::span<const Constants> constants) {
+  std::vector<Member> loads;
+  for (const Constants& c : constants) {
+    model = with_constants(std::move(model), c);
+    loads.push_back({.laws = laws_with(prepared.body, model.materials),
+                     .external = prepared.parts ? external_force(model, *prepared.parts, Dynamics::relaxation)
+                                                : prepared.body.external});
+  }
+  return loads;
+}
+
+/// relax_together() of any number of members.
+std::vector<MemberResult> relax_all(const Body& body, std::span<const Member> loads, const LoadCurve& curve,
+                                    const SolveOptions& options, const Progress& progress) {
+  std::vector<MemberResult> results;
+  for (std::size_t first = 0; first < loads.size(); first += members) {
+    const std::span<const Member> some = loads.subspan(first, std::min(members, loads.size() - first));
+    for (MemberResult& result : relax_together(body, some, curve, options, progress)) {
+      results.push_back(std::move(result));
+    }
+  }
+  return results;
+}
+
+/// Nothing that stepping has not seen is wrong with a member that has come to rest.
+bool holds(const MemberResult& result, const Body& body) {
+  return result.end == MemberResult::End::rest && !(body.contact && body.contact->measure(result.parameters).lost);
+}
+
+/// The precision that an option leaves to the model may be another with other constants.
+bool same_precision(const Model& model, const SolveOptions& options, std::span<const Constants> constants) {
+  Model with = model;
+  const Precision own = completed(options, model).precision;
+  return std::all_of(constants.begin(), constants.end(), [&](const Constants& c) {
+    with = with_constants(std::move(with), c);
+    return completed(options, with).precision == own;
+  });
+}
+
+Displacements alone(const Model& model, std::span<const Constants> constants,
+                    const std::function<std::optional<Points>(const Model&)>& solve) {
+  Displacements displacements;
+  for (const Constants& c : constants) {
+    displacements.push_back(solve(with_constants(model, c)));
+  }
+  return displacements;
+}
+
+std::optional<Points> whole_displacement(const Model& model, const SolveOptions& options) {
+  SolveResult result = solve_whole_body(model, options, {});
+  return result.failure.empty() ? std::optional(std::move(result.solution.displacement)) : std::nullopt;
+}
+
+/// û of the coarse nodes in the cloud's order.
+Points in_cloud_order(const NodalVectors& parameters, const std::vector<std::int32_t>& original) {
+  Points ordered(static_cast<Eigen::Index>(original.size()), 3);
+  for (std::size_t a = 0; a < original.size(); ++a) {
+    ordered.row(original[a]) = at(parameters, a).head<3>();
+  }
+  return ordered;
+}
+
+}  // namespace
+
+Displacements coarse_displacements(const Model& model, const SolveOptions& options,
+                                   std::span<const Constants> constants, const Progress& progress) {
+  const auto one = [&](const Model& with) { return coarse_displacement(with, options, {}); };
+  const std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
+  if (nodes.size() < fewest_coarse_nodes || !same_precision(model, options, constants)) {
+    return alone(model, constants, one);
+  }
+  try {
+    CoarseBody coarse = coarse_body(nodes, model, options, progress, forces_differ(model, constants));
+    const Body& body = coarse.prepared.body;
+    if (!may_go_together(body, coarse.options)) {
+      return alone(model, constants, one);
+    }
+    const std::vector<MemberResult> results =
+        relax_all(body, members_of(coarse.model, coarse.prepared, constants), model.curve, coarse.options, progress);
+    const ShapeFunctions shape(coarse.model.cloud.positions, coarse.model.cloud.spacing, coarse.options.shape);
+    Displacements displacements(constants.size());
+    for (std::size_t m = 0; m < results.size(); ++m) {
+      if (holds(results[m], body)) {
+        const Points parameters = in_cloud_order(results[m].parameters, body.original);
+        displacements[m] = as_prescribed(shape.interpolate(model.cloud.positions, parameters), model.conditions);
+      } else if (results[m].end == MemberResult::End::left) {
+        displacements[m] = one(with_constants(model, constants[m]));
+      }
+    }
+    return displacements;
+  } catch (const std::logic_error&) {
+    return alone(model, constants, one);  // which says of each that it cannot be solved
+  } catch (const std::runtime_error&) {
+    return alone(model, constants, one);
+  }
+}
+
+Displacements whole_displacements(const Model& model, const SolveOptions& given, std::span<const Constants> constants,
+                                  const Progress& progress) {
+  const SolveOptions options = completed(given, model);
+  const auto one = [&](const Model& with) { return whole_displacement(with, given); };
+  if (!same_precision(model, given, constants)) {
+    return alone(model, constants, one);
+  }
+  Displacements starts(constants.size());
+  if (starts_coarse(model, options)) {
+    starts = coarse_displacements(model, of_coarse_start(options), constants, progress);
+  }
+  SolveMeasures measures;
+  const Prepared prepared = prepare(model, options, {}, measures, progress, forces_differ(model, constants));
+  if (!may_go_together(prepared.body, options)) {
+    return alone(model, constants, one);
+  }
+  Model with = model;
+  std::vector<Member> loads = members_of(with, prepared, constants);
+  std::vector<std::size_t> from_start, from_rest;
+  for (std::size_t m = 0; m < loads.size(); ++m) {
+    (starts[m] ? from_start : from_rest).push_back(m);
+    if (starts[m]) {
+      loads[m].start = as_start(*starts[m], prepared.body.original);
+    }
+  }
+  Displacements displacements(constants.size());
+  for (const std::vector<std::size_t>& some : {from_start, from_rest}) {
+    std::vector<Member> chosen;
+    for (const std::size_t m : some) {
+      chosen.push_back(std::move(loads[m]));
+    }
+    const std::vector<MemberResult> results = relax_all(prepared.body, chosen, model.curve, options, progress);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      if (holds(results[i], prepared.body)) {
+        displacements[some[i]] =
+            nodal_displacement(prepared.body.nodal_rows, results[i].parameters, prepared.body.original);
+      } else if (results[i].end == MemberResult::End::left) {
+        displacements[some[i]] = one(with_constants(model, constants[some[i]]));
+      }
+    }
+  }
+  return displacements;
+}
+
+}  // namespace brainshift::solve
