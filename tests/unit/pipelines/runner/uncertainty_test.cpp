@@ -10,6 +10,7 @@
 #include "pipelines/runner/jobs.hpp"
 #include "register/files/register_fields.hpp"
 #include "segmentation/files/vtu_file.hpp"
+#include "solve/output/solution_file.hpp"
 #include "tests/unit/expect_parts.hpp"
 #include "tests/unit/pipelines/ball_folder.hpp"
 
