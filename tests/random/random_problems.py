@@ -31,6 +31,7 @@ FINER = 1.6  # the reference's cloud, in each direction
 FINER_SMALL = 1.26  # twice the nodes
 SMALL_TOLERANCE = 0.05  # mm
 FACTOR = 5  # of the estimate: what it may be off by
+MOST = 1 / 3  # of the largest displacement: where there is no estimate, and no rim
 EXACT = 1e-3  # of the largest displacement: of states that are known on paper
 IMBALANCE = 0.01
 
@@ -134,6 +135,8 @@ def judge(seed, arguments):
             faults.append("not exact")
         elif estimate is not None and row["error_95"] > FACTOR * estimate + bound:
             faults.append("estimate")
+        elif estimate is None and not problem.has_rim() and row["error_95"] > MOST * moved + bound:
+            faults.append("far off")
     row["verdict"] = ", ".join(faults) or "good"
     return problem, row
 
