@@ -81,7 +81,7 @@ def reference(problem, folder, program, arguments, seconds):
     if arguments.calculix and calculix.can_solve(problem):
         bricks = calculix.Bricks(problem, FINER)
         values = bricks.solve(folder / "calculix", seconds)
-        return "CalculiX", (lambda x: bricks.interpolate(values, x)) if values else None
+        return ("CalculiX", lambda x: bricks.interpolate(values, x)) if values else ("CalculiX stopped", None)
     grid, more = problem.write_reference(folder / "finer", FINER_SMALL if problem.small else FINER)
     run = Run(program, more, folder / "finer" / "solved", seconds)
     if run.exit != 0:
