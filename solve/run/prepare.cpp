@@ -135,14 +135,20 @@ void check_rupture(const Model& model, Dynamics dynamics) {
 constexpr double most_bulk_in_single = 400;       // K / µ of a material
 constexpr double most_contrast_in_single = 1000;  // largest over least µ
 constexpr double most_of_both_in_single = 4e4;    // largest K over least µ
+constexpr double farthest_in_single = 0.5;        // what is imposed, over the size of the body: half turns
 constexpr double finest_in_single = 1e-5;         // error that may be left, over the size of the body
 
-/// The error that relaxation may leave open, mm, as far as the load says it beforehand.
-double error_wanted(const Model& model, double tolerance) {
+/// The largest component that is prescribed, mm.
+double largest_imposed(const Model& model) {
   double imposed = 0;
   for (const double u : model.conditions.displacement.reshaped()) {
     imposed = std::max(imposed, std::isnan(u) ? 0 : std::abs(u));
   }
+  return imposed;
+}
+
+/// The error that relaxation may leave open, mm, as far as the load says it beforehand.
+double error_wanted(double imposed, double tolerance) {
   return imposed > 0 ? std::min(tolerance, open_part * imposed) : tolerance;
 }
 
@@ -155,8 +161,10 @@ bool single_serves(const Model& model, double tolerance) {
   }
   const Points& x = model.cloud.positions;
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
+  const double imposed = largest_imposed(model);
   return bulk <= most_bulk_in_single && stiffness_contrast(model.materials) <= most_contrast_in_single &&
-         stiffest <= most_of_both_in_single * softest && error_wanted(model, tolerance) >= finest_in_single * size;
+         stiffest <= most_of_both_in_single * softest && imposed <= farthest_in_single * size &&
+         error_wanted(imposed, tolerance) >= finest_in_single * size;
 }
 
 bool cuts_go_on(const Model& model) {
