@@ -117,7 +117,7 @@ def loops(count, place, seconds):
     end = time.monotonic() + 0.1 + seconds
     started = [subprocess.Popen([sys.executable, "-S", "-E", "-c", LOOP, str(end)], preexec_fn=place.enter,
                                 stdout=subprocess.PIPE) for _ in range(count)]
-    return sum(int(process.communicate()[0]) for process in started) / seconds
+    return max(1, sum(int(process.communicate()[0]) for process in started)) / seconds
 
 
 def compete(situation):
@@ -251,7 +251,7 @@ def main():
         timed = jobs(program, scratch, options)
         for _ in range(options.repeats):
             for situation in situations(options):
-                measure(situation, timed, variants, threads, took, rates, 0.05 if options.quick else 1)
+                measure(situation, timed, variants, threads, took, rates, 0.3 if options.quick else 1)
     finally:
         shutil.rmtree(scratch)
     rows, text = table(took, rates, variants, threads)
