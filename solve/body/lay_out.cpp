@@ -7,7 +7,6 @@
 
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/fluid_force.hpp"
-#include "solve/boundary/patch_rim.hpp"
 #include "solve/force/stiffness_bound.hpp"
 #include "solve/shape/too_few_nodes.hpp"
 
@@ -109,26 +108,12 @@ PointLaws laws_with(const Body& body, const std::map<std::int32_t, Material>& ma
 
 namespace {
 
-/// Where a patch of what is prescribed ends. None in a plane, where the surface is a line, beside cuts, which hide
-/// nodes from each other, and for the simplified form, which errs the other way. held: nodes whose parameter is
-/// prescribed.
-PatchRim rim_of(const Model& model, const SolveOptions& options, const OrderedCloud& cloud,
-                const LayOutExtras& extras) {
-  if (model.plane != Plane::none || !model.cuts.empty() || model.septum || options.imposition != Imposition::exact) {
-    return {};
-  }
-  return patch_rim(cloud.positions, cloud.spacing, cloud.on_surface, cloud.conditions.displacement, extras.held,
-                   ShapeFunctions(cloud.positions, cloud.spacing, options.shape));
-}
-
-EssentialConditions essential_conditions(const SolveOptions& options, const BodyParts& parts, const PatchRim& rim) {
+EssentialConditions essential_conditions(const SolveOptions& options, const BodyParts& parts) {
   const Conditions& conditions = parts.cloud.conditions;
-  const ShapeRows rows = rows_of_conditions(parts.nodal_rows, rim);
-  const Points prescribed = prescribed_of_conditions(conditions.displacement, rim);
   if (conditions.measured) {
-    return {prescribed, rows, parts.cloud.original, *conditions.measured, parts.inner_rows};
+    return {conditions.displacement, parts.nodal_rows, parts.cloud.original, *conditions.measured, parts.inner_rows};
   }
-  return {prescribed, rows, parts.cloud.original, options.imposition};
+  return {conditions.displacement, parts.nodal_rows, parts.cloud.original, options.imposition};
 }
 
 PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::int32_t>& order) {
@@ -188,7 +173,6 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
   PointBlocks blocks = point_blocks(parts.points, parts.point_rows, parts.materials.row_of_point, cloud.size(),
                                     parts.patches, options.precision);
   check_supported(blocks, cloud);
-  const PatchRim rim = rim_of(model, options, cloud, extras);
   Body body{
       .original = cloud.original,
       .positions = in_original_order(cloud.positions, cloud.original),
@@ -200,7 +184,7 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
       .laws = point_laws(parts.materials, model.plane, options.dynamics),
       .prony = in_time ? parts.materials.prony : std::vector<std::vector<PronyTerm>>(),
       .mass = {},
-      .essential = essential_conditions(options, parts, rim),
+      .essential = essential_conditions(options, parts),
       .contact = {},
       .face_contact = {},
       .septum_contact = {},

@@ -20,9 +20,6 @@ namespace brainshift::solve {
 namespace {
 
 constexpr double widest_default_margin = 5.0;
-/// In spacings: a node stands for half a spacing about it, and is loaded where a good part of that lies in the opening.
-/// The nodes at the rim then lie on it in the mean.
-constexpr double half_in = 0.35;
 
 void check_load(const CraniotomyLoad& load) {
   if (load.positions.rows() == 0 || load.positions.rows() != load.displacement.rows()) {
@@ -122,7 +119,7 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const Eigen::RowVector3d place = candidates.row(static_cast<Eigen::Index>(n));
     const double beside = distance_to_hull(hull, place.head<2>());
-    if (beside > margin + half_in * cloud.spacing[static_cast<std::size_t>(nodes[n])]) {
+    if (beside > margin) {
       continue;
     }
     const Eigen::VectorXd height_and_displacement = extended(in_plane, known, place.head<2>());

@@ -7,7 +7,6 @@
 
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/body/ordered_cloud.hpp"
-#include "solve/boundary/patch_rim.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/run/coarse.hpp"
 #include "solve/run/prepare.hpp"
@@ -42,22 +41,13 @@ std::vector<std::int32_t> free_nodes(const std::vector<std::uint8_t>& on_surface
   return nodes;
 }
 
-/// As a run from the beginning holds it. on_surface: one a node of the body's cloud.
-void hold(const Points& prescribed, std::span<const std::uint8_t> on_surface, const ShapeOptions& options, Body& body) {
-  const Points ordered = prescribed(body.original, Eigen::all), positions = body.positions(body.original, Eigen::all);
-  std::vector<double> spacing;
-  std::vector<std::uint8_t> outer;
-  for (const std::int32_t a : body.original) {
-    spacing.push_back(body.spacing[static_cast<std::size_t>(a)]);
-    outer.push_back(on_surface[static_cast<std::size_t>(a)]);
-  }
-  const PatchRim rim = patch_rim(positions, spacing, outer, ordered, {}, ShapeFunctions(positions, spacing, options));
-  body.essential = {prescribed_of_conditions(ordered, rim), rows_of_conditions(body.nodal_rows, rim), body.original};
+void hold(const Points& prescribed, Imposition imposition, Body& body) {
+  body.essential = {prescribed(body.original, Eigen::all), body.nodal_rows, body.original, imposition};
 }
 
 void set_fine_load(const Points& prescribed, KeptRun& run) {
   Body& body = run.fine.body;
-  hold(prescribed, run.on_surface, run.options.shape, body);
+  hold(prescribed, run.options.imposition, body);
   if (!body.contact) {
     return;
   }
@@ -76,12 +66,7 @@ void set_fine_load(const Points& prescribed, KeptRun& run) {
 
 void set_coarse_load(const Points& prescribed, const KeptRun& run, KeptCoarse& coarse) {
   Body& body = coarse.kept.body;
-  std::vector<std::uint8_t> on_surface;
-  for (const std::int32_t node : coarse.nodes) {
-    on_surface.push_back(run.on_surface[static_cast<std::size_t>(node)]);
-  }
-  hold(prescribed(coarse.nodes, Eigen::all), on_surface,
-       {.basis = Basis::linear, .derivatives = run.options.shape.derivatives}, body);
+  hold(prescribed(coarse.nodes, Eigen::all), run.options.imposition, body);
   if (body.contact) {
     body.contact.emplace(std::shared_ptr(body.contact->skull()), run.fine.body.positions,
                          free_nodes(run.on_surface, prescribed), coarse.at_nodes);
