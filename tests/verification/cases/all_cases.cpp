@@ -18,6 +18,8 @@ const std::vector<NamedCase>& all_cases() {
                                                {"locking", cylinder_cases::locking},
                                                {"there_and_back", large_strain_cases::there_and_back},
                                                {"indentation", large_strain_cases::indentation},
+                                               {"disc_cylinder", disc_cases::disc_cylinder},
+                                               {"disc_slab", disc_cases::disc_slab},
                                                {"extension", extension_cases::extension},
                                                {"brain", brain_cases::brain},
                                                {"adaptive_integration", adaptive_cases::adaptive_integration},

@@ -38,6 +38,11 @@ Outcome cylinder_nearly_incompressible(bool small);
 Outcome locking(bool small);
 }  // namespace cylinder_cases
 
+namespace disc_cases {
+Outcome disc_cylinder(bool small);
+Outcome disc_slab(bool small);
+}  // namespace disc_cases
+
 namespace extension_cases {
 Outcome extension(bool small);
 }  // namespace extension_cases

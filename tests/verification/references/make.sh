@@ -16,7 +16,7 @@ fi
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 cd "$here"
-[ $# -gt 0 ] || set -- cylinder_compression cylinder_shear extension indentation cylinder_compression_nu0499 brain cut_path cut_block wet_block wet_ball septum_block bilayer
+[ $# -gt 0 ] || set -- cylinder_compression cylinder_shear extension indentation cylinder_compression_nu0499 brain cut_path cut_block wet_block wet_ball septum_block bilayer disc
 for case in "$@"; do
     nice -n 5 /usr/bin/python3 -B -m "fe.$case" "$folder" .
 done
