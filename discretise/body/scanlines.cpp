@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace brainshift::discretise {
 namespace {
@@ -46,6 +47,28 @@ void for_buckets(const Surface& surface, Eigen::Index triangle, const Eigen::Vec
   for (Eigen::Index iz = index(from[1], low[1], count_z); iz <= index(to[1], low[1], count_z); ++iz) {
     for (Eigen::Index iy = index(from[0], low[0], count_y); iy <= index(to[0], low[0], count_y); ++iy) {
       visit(iy, iz);
+    }
+  }
+}
+
+/// Of the stretches between pairs of x what lies between pairs of others (within), or does not.
+void keep_common(bool within, const std::vector<double>& others, std::vector<double>& x) {
+  std::vector<std::pair<double, bool>> ends;  // whose they are
+  for (const double end : x) {
+    ends.emplace_back(end, true);
+  }
+  for (const double end : others) {
+    ends.emplace_back(end, false);
+  }
+  std::sort(ends.begin(), ends.end());
+  bool in_body = false, in_other = false, in_both = false;
+  x.clear();
+  for (const auto& [end, of_body] : ends) {
+    (of_body ? in_body : in_other) = !(of_body ? in_body : in_other);
+    const bool now = in_body && in_other == within;
+    if (now != in_both) {
+      x.push_back(end);
+      in_both = now;
     }
   }
 }
@@ -105,7 +128,12 @@ void Scanlines::collect(double y, double z, std::vector<double>& x) const {
   std::sort(x.begin(), x.end());
 }
 
-void Scanlines::crossings(double y, double z, std::vector<double>& x) const {
+Scanlines::Scanlines(const Scanlines& body, std::shared_ptr<const Scanlines> other, bool within) : Scanlines(body) {
+  other_ = std::move(other);
+  within_ = within;
+}
+
+void Scanlines::own_crossings(double y, double z, std::vector<double>& x) const {
   collect(y, z, x);
   // Rounding next to a vertex can still lose or double a crossing; a neighbouring line then answers.
   for (int attempt = 1; attempt <= 8 && x.size() % 2 != 0; ++attempt) {
@@ -114,6 +142,16 @@ void Scanlines::crossings(double y, double z, std::vector<double>& x) const {
   if (x.size() % 2 != 0) {
     x.clear();
   }
+}
+
+void Scanlines::crossings(double y, double z, std::vector<double>& x) const {
+  own_crossings(y, z, x);
+  if (!other_ || x.empty()) {
+    return;
+  }
+  std::vector<double> others;
+  other_->crossings(y, z, others);
+  keep_common(within_, others, x);
 }
 
 bool Scanlines::inside(const Eigen::Vector3d& point) const {

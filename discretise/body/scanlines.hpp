@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "segmentation/geometry/surface.hpp"
@@ -18,6 +19,9 @@ class Scanlines {
   /// A closed surface, mm.
   explicit Scanlines(const Surface& surface);
 
+  /// The part of a body that lies within another one, or outside it.
+  Scanlines(const Scanlines& body, std::shared_ptr<const Scanlines> other, bool within);
+
   /// The x at which the line (·, y, z) enters and leaves the body, ascending: pairs of them enclose the inside.
   void crossings(double y, double z, std::vector<double>& x) const;
 
@@ -26,6 +30,7 @@ class Scanlines {
 
  private:
   void collect(double y, double z, std::vector<double>& x) const;
+  void own_crossings(double y, double z, std::vector<double>& x) const;
   std::size_t bucket(Eigen::Index iy, Eigen::Index iz) const { return static_cast<std::size_t>(iz * buckets_y_ + iy); }
 
   Surface surface_;
@@ -36,6 +41,8 @@ class Scanlines {
   Eigen::Index buckets_z_ = 1;
   std::vector<std::size_t> begin_;  ///< (buckets + 1) offsets into triangle_
   std::vector<std::int32_t> triangle_;
+  std::shared_ptr<const Scanlines> other_;  ///< that it lies within, or outside; null: the whole body
+  bool within_ = false;
 };
 
 }  // namespace brainshift::discretise

@@ -42,9 +42,8 @@ Lattice make_lattice(const Surface& surface, double edge) {
   return {low - 0.5 * excess, edge, size};
 }
 
-/// Base cells that the box of some triangle meets: the only ones that the surface may cut.
-std::vector<std::uint8_t> touched_cells(const Surface& surface, const Lattice& lattice) {
-  std::vector<std::uint8_t> touched(static_cast<std::size_t>(lattice.cells()), 0);
+/// Marks the base cells that the box of some triangle meets: the only ones that the surface may cut.
+void mark_touched(const Surface& surface, const Lattice& lattice, std::vector<std::uint8_t>& touched) {
   for (const auto& triangle : surface.triangles.rowwise()) {
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k) {
@@ -64,7 +63,6 @@ std::vector<std::uint8_t> touched_cells(const Surface& surface, const Lattice& l
       }
     }
   }
-  return touched;
 }
 
 /// A cell, its size in finest grid lines.
@@ -91,14 +89,15 @@ std::vector<Box> boxes_of(const Lattice& lattice, const std::vector<std::uint8_t
   return boxes;
 }
 
-/// What became of a box.
+/// What became of a box on one side.
 struct Outcome {
   double fraction = 0;
   std::int32_t label = 0;
   InsidePart part;
 };
 
-Outcome examine(const Box& box, const Lattice& lattice, const Scanlines& body, const TissueLookup& tissue) {
+Outcome examine(const Box& box, const Lattice& lattice, const BodySide& side) {
+  const Scanlines& body = side.body;
   const double edge = lattice.fine_edge() * static_cast<double>(box.edge);
   const Eigen::Vector3d low = lattice.corner(box.low);
   Outcome outcome;
@@ -110,7 +109,7 @@ Outcome examine(const Box& box, const Lattice& lattice, const Scanlines& body, c
     outcome.fraction = body.inside(outcome.part.centroid) ? 1.0 : 0.0;
   }
   if (outcome.fraction >= negligible_cell) {
-    outcome.label = tissue.tissue_at(outcome.part.centroid);
+    outcome.label = side.tissue.tissue_at(outcome.part.centroid);
   }
   return outcome;
 }
@@ -144,19 +143,23 @@ void add_vertices(const std::vector<Box>& boxes, const Lattice& lattice, Backgro
 
 }  // namespace
 
-CellGrid cut_hexahedra(const Surface& surface, const Scanlines& body, const SizingField& sizing,
-                       const TissueLookup& tissue, double edge) {
-  const Lattice lattice = make_lattice(surface, edge);
-  const std::vector<Box> boxes = boxes_of(lattice, touched_cells(surface, lattice), sizing);
-  std::vector<Outcome> outcomes(boxes.size());
+CellGrid cut_hexahedra(std::span<const Surface> surfaces, std::span<const BodySide> sides, const SizingField& sizing,
+                       double edge) {
+  const Lattice lattice = make_lattice(surfaces.front(), edge);
+  std::vector<std::uint8_t> touched(static_cast<std::size_t>(lattice.cells()), 0);
+  for (const Surface& surface : surfaces) {
+    mark_touched(surface, lattice, touched);
+  }
+  const std::vector<Box> boxes = boxes_of(lattice, touched, sizing);
+  std::vector<Outcome> outcomes(boxes.size() * sides.size());
 #pragma omp parallel for schedule(dynamic, 64)
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    outcomes[i] = examine(boxes[i], lattice, body, tissue);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    outcomes[i] = examine(boxes[i / sides.size()], lattice, sides[i % sides.size()]);
   }
   CellGrid grid;
   grid.cells.kind = CellKind::hexahedron;
   std::vector<Box> kept;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& outcome = outcomes[i];
     if (outcome.fraction < negligible_cell) {
       grid.dropped_cells += outcome.fraction > 0 ? 1 : 0;
@@ -164,7 +167,7 @@ CellGrid cut_hexahedra(const Surface& surface, const Scanlines& body, const Sizi
       continue;
     }
     const bool cut = outcome.fraction < whole_cell;
-    kept.push_back(boxes[i]);
+    kept.push_back(boxes[i / sides.size()]);
     grid.cells.inside_fraction.push_back(cut ? outcome.fraction : 1.0);
     grid.cells.label.push_back(outcome.label);
     grid.cells.cut_index.push_back(cut ? static_cast<std::int32_t>(grid.cells.cut_parts.size()) : -1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "discretise/cells/tetrahedra.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "discretise/cloud/delaunay.hpp"
@@ -28,9 +29,17 @@ bool mostly_inside(const TetrahedronCorners& x, const Scanlines& body) {
   return 2 * inside > looked;
 }
 
+std::int32_t tissue_of(const TetrahedronCorners& x, std::span<const BodySide> sides) {
+  const Eigen::Vector3d middle = x.colwise().mean().transpose();
+  const auto side = sides.size() == 1
+                        ? sides.begin()
+                        : std::ranges::find_if(sides, [&](const BodySide& s) { return s.body.inside(middle); });
+  return (side == sides.end() ? sides.front() : *side).tissue.tissue_at(middle);
+}
+
 }  // namespace
 
-CellGrid inside_tetrahedra(const Points& nodes, const Scanlines& body, const TissueLookup& tissue) {
+CellGrid inside_tetrahedra(const Points& nodes, const Scanlines& body, std::span<const BodySide> sides) {
   const auto tetrahedra = delaunay_tetrahedra(nodes);
   std::vector<std::int32_t> label(tetrahedra.size());
   std::vector<std::uint8_t> inside(tetrahedra.size());
@@ -40,7 +49,7 @@ CellGrid inside_tetrahedra(const Points& nodes, const Scanlines& body, const Tis
     const TetrahedronCorners x = corners_of(nodes, tetrahedra[t]);
     inside[t] = mostly_inside(x, body) ? 1 : 0;
     flat[t] = shape_quality(x) > flattest ? 0 : 1;
-    label[t] = inside[t] != 0 ? tissue.tissue_at(x.colwise().mean().transpose()) : 0;
+    label[t] = inside[t] != 0 ? tissue_of(x, sides) : 0;
   }
   CellGrid grid;
   BackgroundCells& cells = grid.cells;

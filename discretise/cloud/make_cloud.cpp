@@ -13,16 +13,24 @@
 namespace brainshift::discretise {
 namespace {
 
-/// Rows of nodes with those too near to another taken out; `on_surface` counts the first rows. Taking one out changes
-/// the spacing around it, hence the rounds.
-void thin_out(Points& nodes, std::size_t& on_surface, double fraction) {
+/// How many of the first rows of nodes lie where.
+struct Rows {
+  std::size_t on_surface;
+  std::size_t on_wall;  ///< those next
+  std::size_t fixed() const { return on_surface + on_wall; }
+};
+
+/// Rows of nodes with those too near to another taken out. Taking one out changes the spacing around it, hence the
+/// rounds.
+void thin_out(Points& nodes, Rows& rows, double fraction) {
   for (int round = 0; round < 20; ++round) {
-    const std::vector<char> keep = keep_apart(nodes, on_surface, fraction);
+    const std::vector<char> keep = keep_apart(nodes, rows.fixed(), fraction);
     Eigen::Index kept = 0;
-    std::size_t surface_kept = 0;
+    Rows rows_kept{0, 0};
     for (std::size_t node = 0; node < keep.size(); ++node) {
       if (keep[node] != 0) {
-        surface_kept += node < on_surface ? 1 : 0;
+        rows_kept.on_surface += node < rows.on_surface ? 1 : 0;
+        rows_kept.on_wall += node >= rows.on_surface && node < rows.fixed() ? 1 : 0;
         nodes.row(kept++) = nodes.row(static_cast<Eigen::Index>(node));
       }
     }
@@ -30,7 +38,7 @@ void thin_out(Points& nodes, std::size_t& on_surface, double fraction) {
       return;
     }
     nodes.conservativeResize(kept, 3);
-    on_surface = surface_kept;
+    rows = rows_kept;
   }
 }
 
@@ -50,23 +58,31 @@ NodeCloud describe(const Points& nodes, std::size_t on_surface) {
 
 }  // namespace
 
-MadeCloud make_cloud(const Surface& surface, const Scanlines& body, const NodeDemand& demand,
+MadeCloud make_cloud(const Surface& surface, const Scanlines& body, const InnerWall* wall, const NodeDemand& demand,
                      const DiscretiseOptions& options, const Progress& progress) {
   Random random(options.seed);
   report(progress, 0.15, "nodes on the surface");
   const Points on_surface =
       spread_over_surface(surface, body, demand.sizing, demand.spacing, demand.surface_nodes, random);
+  Points fixed = on_surface;
+  if (wall != nullptr) {
+    const Points on_wall =
+        spread_over_surface(wall->surface, wall->beyond, demand.sizing, demand.spacing, demand.wall_nodes, random);
+    fixed.resize(on_surface.rows() + on_wall.rows(), 3);
+    fixed << on_surface, on_wall;
+  }
   report(progress, 0.4, "nodes in the interior");
-  const Points interior = fill_interior(on_surface, body, demand.sizing, demand.spacing, demand.interior_nodes, random);
-  Points nodes(on_surface.rows() + interior.rows(), 3);
-  nodes << on_surface, interior;
+  const Points interior = fill_interior(fixed, body, demand.sizing, demand.spacing, demand.interior_nodes, random);
+  Points nodes(fixed.rows() + interior.rows(), 3);
+  nodes << fixed, interior;
 
   MadeCloud made;
-  auto surface_nodes = static_cast<std::size_t>(on_surface.rows());
+  Rows rows{static_cast<std::size_t>(on_surface.rows()), static_cast<std::size_t>(fixed.rows() - on_surface.rows())};
   const Eigen::Index before = nodes.rows();
-  thin_out(nodes, surface_nodes, options.minimum_distance);
+  thin_out(nodes, rows, options.minimum_distance);
   made.removed_nodes = static_cast<std::size_t>(before - nodes.rows());
-  made.cloud = describe(nodes, surface_nodes);
+  made.wall_nodes = rows.on_wall;
+  made.cloud = describe(nodes, rows.on_surface);
   const CloudDistances distances = cloud_distances(made.cloud.positions);
   made.cloud.spacing = distances.spacing;
   made.smallest_distance_ratio = std::numeric_limits<double>::infinity();

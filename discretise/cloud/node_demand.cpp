@@ -22,25 +22,39 @@ constexpr std::size_t default_nodes = 12000;
 constexpr std::size_t fewest_nodes = 30;
 constexpr double most_nodes = 20e6;
 
-struct Count {
-  double surface;
-  double interior;
-  double total() const { return surface + interior; }
+/// What takes nodes, after the sizing field.
+struct Room {
+  double surface;  ///< mm²
+  double wall;     ///< mm²
+  double volume;   ///< mm³
 };
 
-Count count_at(double area, double volume_inside, double spacing) {
-  const double surface = nodes_per_square * area / (spacing * spacing);
-  const double interior = nodes_per_cube * volume_inside / (spacing * spacing * spacing) - surface_share * surface;
-  return {surface, std::max(0.0, interior)};
+struct Count {
+  double surface;
+  double wall;
+  double interior;
+  double total() const { return surface + wall + interior; }
+};
+
+/// A node on a wall has a cell on both sides: it takes the place of one in the interior.
+Count count_at(const Room& room, double spacing) {
+  const double surface = nodes_per_square * room.surface / (spacing * spacing);
+  const double wall = nodes_per_square * room.wall / (spacing * spacing);
+  const double interior = nodes_per_cube * room.volume / (spacing * spacing * spacing) - surface_share * surface - wall;
+  return {surface, wall, std::max(0.0, interior)};
+}
+
+Room room_of(const Surface& surface, const Surface& wall, const Scanlines& body, const SizingField& sizing) {
+  return {surface_demand(surface, sizing), surface_demand(wall, sizing), volume_demand(surface, body, sizing)};
 }
 
 /// The spacing at which the body takes `nodes`: the count falls with it.
-double spacing_for(double area, double volume_inside, double nodes) {
-  double low = std::cbrt(volume_inside / nodes) * 0.1;
-  double high = std::cbrt(volume_inside / nodes) * 10 + std::sqrt(area / nodes) * 10;
+double spacing_for(const Room& room, double nodes) {
+  double low = std::cbrt(room.volume / nodes) * 0.1;
+  double high = std::cbrt(room.volume / nodes) * 10 + std::sqrt(room.surface / nodes) * 10;
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
-    (count_at(area, volume_inside, middle).total() > nodes ? low : high) = middle;
+    (count_at(room, middle).total() > nodes ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -52,41 +66,41 @@ void check(const NodeDemand& demand, double total) {
                                 " million nodes, more than 20 million; ask for a coarser "
                                 "spacing.");
   }
-  if (demand.surface_nodes + demand.interior_nodes < fewest_nodes) {
-    throw std::invalid_argument("a spacing of " + std::to_string(demand.spacing) +
-                                " mm is too coarse for this body: it takes " +
-                                std::to_string(demand.surface_nodes + demand.interior_nodes) + " nodes, and at least " +
-                                std::to_string(fewest_nodes) + " are needed; ask for a finer spacing.");
+  if (demand.surface_nodes + demand.wall_nodes + demand.interior_nodes < fewest_nodes) {
+    throw std::invalid_argument(
+        "a spacing of " + std::to_string(demand.spacing) + " mm is too coarse for this body: it takes " +
+        std::to_string(demand.surface_nodes + demand.wall_nodes + demand.interior_nodes) + " nodes, and at least " +
+        std::to_string(fewest_nodes) + " are needed; ask for a finer spacing.");
   }
 }
 
 }  // namespace
 
-NodeDemand node_demand(const Surface& surface, const Scanlines& body, const LabelMap* labels,
+NodeDemand node_demand(const Surface& surface, const Surface& wall, const Scanlines& body, const LabelMap* labels,
                        const DiscretiseOptions& options) {
   const auto nodes = static_cast<double>(options.nodes.value_or(default_nodes));
   NodeDemand demand;
-  double area = surface_demand(surface, demand.sizing);
-  double inside = volume_demand(surface, body, demand.sizing);
-  demand.spacing = options.spacing ? *options.spacing : spacing_for(area, inside, nodes);
+  Room room = room_of(surface, wall, body, demand.sizing);
+  demand.spacing = options.spacing ? *options.spacing : spacing_for(room, nodes);
   // The field depends on the spacing (how far a fine place reaches) and the spacing on the field.
   for (int round = 0; round < 4; ++round) {
     demand.sizing = sizing_field(surface, labels, options, demand.spacing);
     if (demand.sizing.is_uniform()) {
       break;
     }
-    area = surface_demand(surface, demand.sizing);
-    inside = volume_demand(surface, body, demand.sizing);
+    room = room_of(surface, wall, body, demand.sizing);
     if (options.spacing) {
       break;
     }
-    demand.spacing = spacing_for(area, inside, nodes);
+    demand.spacing = spacing_for(room, nodes);
   }
-  const Count count = count_at(area, inside, demand.spacing);
+  const Count count = count_at(room, demand.spacing);
   demand.surface_nodes = static_cast<std::size_t>(std::min(count.surface, most_nodes));
+  demand.wall_nodes = static_cast<std::size_t>(std::min(count.wall, most_nodes));
   demand.interior_nodes = static_cast<std::size_t>(std::min(count.interior, most_nodes));
-  if (!options.spacing && demand.surface_nodes < options.nodes.value_or(default_nodes)) {
-    demand.interior_nodes = options.nodes.value_or(default_nodes) - demand.surface_nodes;
+  const std::size_t on_surfaces = demand.surface_nodes + demand.wall_nodes;
+  if (!options.spacing && on_surfaces < options.nodes.value_or(default_nodes)) {
+    demand.interior_nodes = options.nodes.value_or(default_nodes) - on_surfaces;
   }
   check(demand, count.total());
   return demand;

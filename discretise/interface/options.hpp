@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "discretise/interface/background_cells.hpp"
-#include "segmentation/geometry/points.hpp"
+#include "segmentation/geometry/surface.hpp"
 
 namespace brainshift::discretise {
 
@@ -16,6 +16,12 @@ struct Refinement {
   Points centres;
   double radius = 20.0;
   double factor = 0.5;
+};
+
+/// Tissue that a resection will take out.
+struct ResectedTissue {
+  Surface wall;                           ///< closed, outward from it; it may reach out of the brain, mm
+  std::vector<std::int32_t> labels = {};  ///< that it has in the label map
 };
 
 /// What each may be stands in option_table.cpp.
@@ -34,6 +40,7 @@ struct DiscretiseOptions {
   double cells_per_node = 0.75;
   std::vector<std::int32_t> brain_labels = {1, 2, 3};  ///< labels of the label map that are tissue of the brain
   std::uint64_t seed = 1;
+  std::optional<ResectedTissue> resected = {};  ///< its wall parts the cells and has nodes of its own; absent: none
 };
 
 }  // namespace brainshift::discretise

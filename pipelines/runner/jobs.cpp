@@ -40,6 +40,9 @@ StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progres
     options.craniotomy = job.refinement;
     options.craniotomy->centres = read_load(*job.load, job.surface).positions;
   }
+  if (!job.wall.empty()) {
+    options.resected = discretise::ResectedTissue{read_surface(job.wall), job.resected};
+  }
   const auto result = naming(job.surface.string(), [&] {
     return discretise::discretise(brain, labels ? &*labels : nullptr, options, progress);
   });
@@ -61,6 +64,9 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
   }
   if (!job.landmarks.empty()) {
     input.landmarks = solve::read_markup_positions(job.landmarks);
+  }
+  if (!job.wall.empty()) {
+    input.cavity = registration::Cavity{read_surface(job.wall), job.resected};
   }
   const fs::path& reference = job.t1.empty() ? job.labels : job.t1;
   const registration::Registration result = naming(reference.string() + " and " + job.surface.string(), [&] {

@@ -19,15 +19,18 @@ struct SegmentJob {
   ImageInputs image;
   segmentation::SegmentOptions options;  ///< by class: brain_labels, skull_label and fluid_label come from the map
   LabelReading reading = {};
-  bool septa = false;  ///< whether falx and tentorium are drawn from the label map
+  bool septa = false;                        ///< whether falx and tentorium are drawn from the label map
+  std::vector<std::uint16_t> resected = {};  ///< tissues whose wall is drawn; none: no resection
 };
 
 struct DiscretiseJob {
   std::filesystem::path surface;
   std::filesystem::path labels;
   discretise::DiscretiseOptions options;
-  std::optional<Load> load;           ///< where the craniotomy is, for the refinement
-  discretise::Refinement refinement;  ///< without its centres; none where the factor is 1
+  std::optional<Load> load;                 ///< where the craniotomy is, for the refinement
+  discretise::Refinement refinement;        ///< without its centres; none where the factor is 1
+  std::filesystem::path wall = {};          ///< of the tissues that are resected; empty: there is none
+  std::vector<std::int32_t> resected = {};  ///< those
 };
 
 struct SolveJob {
@@ -47,7 +50,8 @@ struct SolveJob {
   std::filesystem::path septum = {};       ///< a rigid sheet when given
   std::vector<solve::Cut> cut_paths = {};  ///< of a plane problem, those that are in no file
   std::optional<solve::Rupture> rupture = {};
-  std::optional<solve::Resection> resection = {};
+  std::optional<solve::Resection> resection = {};  ///< without its wall
+  std::filesystem::path wall = {};                 ///< of the resection; empty: it goes by labels
   std::optional<UncertaintyJob> uncertainty = {};  ///< absent: not wanted
 };
 
@@ -58,6 +62,8 @@ struct RegisterJob {
   std::filesystem::path labels;
   std::filesystem::path landmarks;
   std::filesystem::path uncertainty = {};          ///< uncertainty.vtu of the solve stage; empty: there is none
+  std::filesystem::path wall = {};                 ///< of what was resected; empty: nothing
+  std::vector<std::int32_t> resected = {};         ///< its labels
   std::vector<std::filesystem::path> warp;         ///< images, surfaces and points to move with the same map
   std::vector<std::filesystem::path> warp_labels;  ///< label maps
   registration::RegisterOptions options;

@@ -114,6 +114,16 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
   if (m.resection) {
     report.measures["resection"] = {{"removed_nodes", m.resection->removed_nodes},
                                     {"removed_volume_mm3", m.resection->removed_volume}};
+    if (m.resection->wall_nodes > 0) {
+      auto& wall = report.measures["resection"];
+      wall["wall_nodes"] = m.resection->wall_nodes;
+      wall["wall_area_mm2"] = m.resection->wall_area;
+      wall["touching_nodes"] = m.resection->touch.touching_nodes;
+      wall["largest_overlap_mm"] = m.resection->touch.largest_overlap;
+      if (m.resection->volume) {
+        wall["cavity_volume_mm3"] = *m.resection->volume;
+      }
+    }
   }
   report.measures.erase(dynamics == solve::Dynamics::transient ? "error_bound_mm" : "critical_step_s");
   return report;
@@ -126,6 +136,10 @@ StageReport report_of(const registration::Registration& result) {
                   {"brain_voxels", m.brain_voxels},
                   {"moved_voxels", m.moved_voxels},
                   {"landmarks", result.landmarks.rows()}};
+  if (m.cavity_voxels > 0) {
+    report.sizes["cavity_voxels"] = m.cavity_voxels;
+    report.sizes["cavity_landmarks"] = m.cavity_landmarks;
+  }
   report.measures = {{"inverse_mean_mm", m.inverse_mean},
                      {"inverse_999_mm", m.inverse_999},
                      {"inverse_max_mm", m.inverse_max},

@@ -89,6 +89,16 @@ std::vector<std::uint16_t> tissue_labels(const Scene& scene) {
   return labels;
 }
 
+std::vector<std::uint16_t> resected_labels(const Scene& scene) {
+  return {scene.resection->labels.begin(), scene.resection->labels.end()};
+}
+
+/// The wall of what is resected, where the cells are parted by it: another discretiser knows no wall.
+fs::path wall_of(const Scene& scene, const fs::path& folder) {
+  return scene.resection && is_ours(scene, StageId::discretise) ? if_there(folder / "segment" / "resection.vtp")
+                                                                : fs::path();
+}
+
 StagePlan plan_segment(const Scene& scene) {
   SegmentJob job{scene.image, scene.segment, label_reading(scene)};
   job.options.brain_labels = tissue_labels(scene);
@@ -102,6 +112,14 @@ StagePlan plan_segment(const Scene& scene) {
     job.septa = true;
     plan.options["septa"] = true;
     plan.artefacts.emplace_back("septa.vtp");
+  }
+  if (scene.resection) {
+    job.resected = resected_labels(scene);
+    plan.options["resected"] = job.resected;
+    const bool labels = !scene.image.labels.empty() || !scene.image.brain_mask.empty();
+    if (labels && is_ours(scene, StageId::segment)) {
+      plan.artefacts.emplace_back("resection.vtp");
+    }
   }
   plan.options["brain_labels"] = job.options.brain_labels;
   plan.options["by_class"] = job.reading.by_class;
@@ -131,6 +149,12 @@ StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
   }
   plan.options["brain_labels"] = labels;
   add_artefacts(plan, folder, {"segment/brain.vtp", "segment/labels.nii.gz"});
+  job.wall = wall_of(scene, folder);
+  if (!job.wall.empty()) {
+    job.resected = scene.resection->labels;
+    plan.options["resected"] = job.resected;
+    add_artefacts(plan, folder, {"segment/resection.vtp"});
+  }
   plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
   return plan;
 }
@@ -181,17 +205,23 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
   if (scene.septa) {
     add_artefacts(plan, folder, {"segment/septa.vtp"});
   }
+  if (!job.wall.empty()) {
+    add_artefacts(plan, folder, {"segment/resection.vtp"});
+  }
   plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
   return plan;
 }
 
 StagePlan plan_register(const Scene& scene, const fs::path& folder) {
+  const fs::path wall = wall_of(scene, folder);
   const RegisterJob job{.solution = folder / "solve" / "solution.vtu",
                         .surface = folder / "segment" / "brain.vtp",
                         .t1 = scene.image.t1,
                         .labels = if_there(folder / "segment" / "labels.nii.gz"),
                         .landmarks = scene.landmarks.value_or(fs::path()),
                         .uncertainty = if_there(folder / "solve" / "uncertainty.vtu"),
+                        .wall = wall,
+                        .resected = wall.empty() ? std::vector<std::int32_t>() : scene.resection->labels,
                         .warp = {},
                         .warp_labels = {},
                         .options = scene.registration};
@@ -207,6 +237,10 @@ StagePlan plan_register(const Scene& scene, const fs::path& folder) {
   }
   add_artefacts(plan, folder,
                 {"solve/solution.vtu", "solve/uncertainty.vtu", "segment/brain.vtp", "segment/labels.nii.gz"});
+  if (!wall.empty()) {
+    plan.options["resected"] = job.resected;
+    add_artefacts(plan, folder, {"segment/resection.vtp"});
+  }
   plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
   return plan;
 }
@@ -313,7 +347,8 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
                .loading = scene.loading,
                .gravity = scene.gravity,
                .cuts = scene.cuts,
-               .resection = scene.resection};
+               .resection = scene.resection,
+               .wall = wall_of(scene, folder)};
   if (scene.contact) {
     job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;
   }

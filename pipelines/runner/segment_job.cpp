@@ -11,6 +11,7 @@
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/image/frame_note.hpp"
 #include "segmentation/septa/septa.hpp"
+#include "segmentation/surface/resection_wall.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -95,6 +96,16 @@ void write_septa(const fs::path& labels, const fs::path& file, StageReport& said
   said.measures["septa_area_mm2"] = area(septa);
 }
 
+void write_wall(const std::vector<std::uint16_t>& resected, const LabelMap& labels,
+                const segmentation::SegmentOptions& options, const fs::path& file, StageReport& said) {
+  const segmentation::MeasuredSurface wall =
+      segmentation::resection_wall(labels, options.brain_labels, resected, options.edge_length);
+  write_surface(file, wall.surface);
+  said.measures["resection_wall"] = {{"area_mm2", area(wall.surface)},
+                                     {"volume_mm3", wall.measures.volume},
+                                     {"boundary_distance_95_mm", wall.measures.boundary_distance_95}};
+}
+
 }  // namespace
 
 StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& progress) {
@@ -139,6 +150,9 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
   StageReport stage = report_of(result);
   if (job.septa) {
     write_septa(job.image.labels, out / "septa.vtp", stage);
+  }
+  if (!job.resected.empty() && result.labels) {
+    naming(file.string(), [&] { write_wall(job.resected, *result.labels, options, out / "resection.vtp", stage); });
   }
   stage.notes.insert(stage.notes.begin(), notes.begin(), notes.end());
   return stage;

@@ -192,6 +192,9 @@ SolveInput read_input(const SolveJob& job) {
   model.curve = load_curve(job.loading);
   model.rupture = job.rupture;
   model.resection = job.resection;
+  if (model.resection && !job.wall.empty()) {
+    model.resection->wall = read_surface(job.wall);
+  }
   read_cuts(job, model);
   if (!job.septum.empty()) {
     model.septum = solve::read_septum(job.septum);

@@ -120,6 +120,11 @@ void check_resection(const Scene& scene) {
   if (left.empty()) {
     fail(scene, "resection.labels", "the resection takes out every tissue (" + labels + "); leave one");
   }
+  if (scene.resection->fluid_level && !scene.gravity) {
+    fail(scene, "resection.fluid_level",
+         "the fluid in the cavity has a level, but nothing says which way gravity pulls it; name <gravity> with the "
+         "level of the fluid about the brain");
+  }
 }
 
 }  // namespace brainshift::pipelines

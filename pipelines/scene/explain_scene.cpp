@@ -184,7 +184,8 @@ void explain_physics(const Scene& scene, std::ostringstream& text) {
   }
   if (scene.resection) {
     text << "  resection: labels " << write_numbers(scene.resection->labels) << ", pressure in the cavity "
-         << write_number(scene.resection->pressure) << " Pa\n";
+         << write_number(scene.resection->pressure) << " Pa, its wall "
+         << (is_ours(scene, StageId::discretise) ? "a surface\n" : "where labels of integration points change\n");
   }
 }
 

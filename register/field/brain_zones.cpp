@@ -36,18 +36,25 @@ void check_fade(double fade, const ImageGeometry& geometry) {
   }
 }
 
-BrainZones brain_zones(const Surface& brain, const ImageGeometry& geometry, double fade) {
+BrainZones brain_zones(const Surface& brain, const ImageGeometry& geometry, double fade, const Surface* wall) {
   const double shell = shell_of(geometry);
   check_fade(fade, geometry);
   SignedDistanceOptions options;
   options.margin = fade + options.spacing;
   BrainZones zones{std::vector<Zone>(geometry.voxel_count(), Zone::beyond), SignedDistance(brain, options), shell};
+  if (wall != nullptr) {
+    zones.wall.emplace(*wall);
+  }
 #pragma omp parallel for schedule(dynamic, 1)
   for (int k = 0; k < geometry.size.z(); ++k) {
     for (int j = 0; j < geometry.size.y(); ++j) {
       for (int i = 0; i < geometry.size.x(); ++i) {
-        const double distance = zones.outside.value(geometry.to_world(Eigen::Vector3d(i, j, k)));
-        zones.zone[geometry.offset(i, j, k)] = zone_at(distance, zones.shell, fade);
+        const Eigen::Vector3d place = geometry.to_world(Eigen::Vector3d(i, j, k));
+        Zone& zone = zones.zone[geometry.offset(i, j, k)];
+        zone = zone_at(zones.outside.value(place), zones.shell, fade);
+        if (zones.wall && zone == Zone::brain && zones.wall->value(place) < 0) {
+          zone = Zone::cavity;
+        }
       }
     }
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "register/field/field_sampler.hpp"
+#include "register/field/span_cavity.hpp"
 #include "solve/output/solution_file.hpp"
 #include "solve/shape/shape_functions.hpp"
 
@@ -62,7 +63,7 @@ double mean(const std::vector<double>& values) {
 /// reach, as shape functions extrapolate out there.
 Eigen::Vector3d place_of(const BrainZones& zones, const ImageGeometry& geometry, const Voxel& voxel, double reach) {
   const Eigen::Vector3d place = geometry.to_world(voxel.index());
-  const double outside = zones.zone[voxel.offset] == Zone::brain ? 0 : zones.outside.value(place);
+  const double outside = zones.zone[voxel.offset] != Zone::shell ? 0 : zones.outside.value(place);
   return outside > reach ? Eigen::Vector3d(place - (outside - reach) * zones.outside.gradient(place)) : place;
 }
 
@@ -226,6 +227,14 @@ void fade_out(const BrainZones& zones, const std::vector<Voxel>& outside, double
   }
 }
 
+std::vector<std::size_t> offsets_of(const std::vector<Voxel>& voxels) {
+  std::vector<std::size_t> offsets;
+  for (const Voxel& voxel : voxels) {
+    offsets.push_back(voxel.offset);
+  }
+  return offsets;
+}
+
 }  // namespace
 
 double ramp(double t) {
@@ -245,8 +254,19 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
   VectorImage field{geometry, std::vector<Displacement>(geometry.voxel_count(), Displacement{0, 0, 0})};
   const double reach = std::min(zones.shell / 2, reach_in_spacings * mean(solution.spacing));
   const auto in = [&](Zone wanted) { return [&, wanted](const Voxel& v) { return zones.zone[v.offset] == wanted; }; };
-  const auto near = [&](const Voxel& v) { return in(Zone::brain)(v) || in(Zone::shell)(v); };
+  const auto hollow = [&](const Voxel& v) {
+    return zones.wall && (in(Zone::cavity)(v) || in(Zone::shell)(v)) &&
+           zones.wall->value(geometry.to_world(v.index())) < -reach;
+  };
+  const auto near = [&](const Voxel& v) {
+    return (in(Zone::brain)(v) || in(Zone::shell)(v) || in(Zone::cavity)(v)) && !hollow(v);
+  };
   evaluate(solution, zones, voxels_where(geometry, near), reach, field, progress);
+  if (zones.wall) {
+    span_cavity(
+        offsets_of(voxels_where(geometry, hollow)), [&](std::size_t voxel) { return zones.zone[voxel] >= Zone::shell; },
+        field);
+  }
   report(progress, 0.8, "fading outside the brain");
   extend(zones, voxels_where(geometry, in(Zone::fading)), reach, field);
   const std::vector<Voxel> outside = voxels_where(geometry, [&](const Voxel& v) {

@@ -11,7 +11,8 @@ namespace brainshift::registration {
 /// The displacement of every voxel of a grid, mm, LPS. In the brain u(x) = Σφ_a(x) û_a with the solver's own shape
 /// functions, and a little farther (by a voxel's diagonal or 0.3 of the nodes' spacing), so that places on the surface
 /// between voxels move as they did in the solver. Beyond, the displacement at the end of that way out from the surface,
-/// times a ramp of the distance with a continuous slope, from 1 there to 0 at the fade. Throws std::invalid_argument
+/// times a ramp of the distance with a continuous slope, from 1 there to 0 at the fade. In a cavity, farther from its
+/// wall than that way, the displacement is spanned from wall to wall, span_cavity(). Throws std::invalid_argument
 /// when the solution's shape functions do not reach a voxel of the brain.
 VectorImage forward_field(const Solution& solution, const BrainZones& zones, const ImageGeometry& geometry, double fade,
                           const Progress& progress);

@@ -13,7 +13,11 @@ const OptionTable<RegisterOptions>& register_options() {
                              {{"linear", Interpolation::linear}, {"bspline", Interpolation::bspline}},
                              "of the warped image"),
       number_option<Options>("inverse_tolerance", &Options::inverse_tolerance, above_zero, "mm",
-                             "of the inversion of the field")};
+                             "of the inversion of the field"),
+      number_option<Options>("cavity_label", &Options::cavity_label, {.low = 0, .high = 65535}, "",
+                             "in the warped labels where a resection has taken tissue out"),
+      number_option<Options>("cavity_value", &Options::cavity_value, any_number, "",
+                             "grey value of the warped image there")};
   return table;
 }
 

@@ -13,6 +13,8 @@ struct RegisterOptions {
                        ///< displacements away from the brain stay below about 0.7 of it
   Interpolation interpolation = Interpolation::linear;
   double inverse_tolerance = 0.01;  ///< of the inversion at the voxels, mm
+  std::int32_t cavity_label = 0;    ///< of the warped labels where a resection has taken tissue out
+  double cavity_value = 0;          ///< the same of the warped image
 };
 
 }  // namespace brainshift::registration

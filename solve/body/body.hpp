@@ -41,20 +41,24 @@ struct Body {
   EssentialConditions essential;
   std::optional<Contact> contact;
   std::optional<FaceContact> face_contact;
+  std::optional<FaceContact> wall_contact;  ///< of a cavity
   std::optional<SeptumContact> septum_contact;
   ExternalForce external;
 
   std::size_t nodes() const { return original.size(); }
 
-  bool may_touch() const { return contact || face_contact || septum_contact; }
+  bool may_touch() const { return contact || face_contact || wall_contact || septum_contact; }
 
-  /// Puts what is beyond the skull, another face of a cut or a septum back.
+  /// Puts what is beyond the skull, another face of a cut, the other side of a cavity or a septum back.
   void touch(NodalVectors& parameters) {
     if (contact) {
       contact->apply(parameters);
     }
     if (face_contact) {
       face_contact->apply(parameters);
+    }
+    if (wall_contact) {
+      wall_contact->apply(parameters);
     }
     if (septum_contact) {
       septum_contact->apply(parameters);

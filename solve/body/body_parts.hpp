@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "solve/body/ordered_cloud.hpp"
+#include "solve/boundary/wall_load.hpp"
 #include "solve/material/material_table.hpp"
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
 #include "solve/shape/shape_rows.hpp"
 
 namespace brainshift::solve {
+
+/// Forces on the wall of a cavity.
+struct WallLoad {
+  PlacedForces forces;
+  ShapeRows rows;  ///< at their places
+};
 
 /// What a body is laid out from. Kept where cuts go on, as each advance lays it out anew.
 struct BodyParts {
@@ -18,6 +27,7 @@ struct BodyParts {
   ShapeRows point_rows;  ///< with derivatives
   PressurePatches patches;
   MaterialTable materials;
+  std::optional<WallLoad> wall_load = {};  ///< of a cavity that something presses in
 };
 
 }  // namespace brainshift::solve

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "solve/body/check_discretisation.hpp"
+#include "solve/boundary/wall_load.hpp"
 #include "solve/interface/option_table.hpp"
 
 namespace brainshift::solve {
@@ -109,6 +110,13 @@ std::vector<std::int32_t> parts_of(std::size_t nodes, const ShapeRows& rows) {
 void check_model(const Model& model) {
   if (model.resection) {
     check_table(resection_options(), *model.resection);
+    if (model.resection->fluid_level && !(model.resection->wall && model.fluid)) {
+      throw std::invalid_argument(
+          "the fluid in a cavity has a level, but " +
+          std::string(model.fluid ? "the cavity has no wall that is a surface: give Resection::wall"
+                                  : "nothing says which way gravity pulls it: give the gravity, and the level of the "
+                                    "fluid about the brain"));
+    }
   }
   check_plane(model);
   check_cloud(model.cloud);
@@ -117,8 +125,8 @@ void check_model(const Model& model) {
 void check_held(const OrderedCloud& cloud, const Model& model) {
   const bool swells = std::any_of(model.materials.begin(), model.materials.end(),
                                   [](const auto& material) { return material.second.swelling != 0; });
-  const bool pushed =
-      swells || model.fluid || model.body_force || !model.gravity.isZero() || cloud.conditions.force.rows() > 0;
+  const bool pushed = swells || model.fluid || model.body_force || !model.gravity.isZero() ||
+                      cloud.conditions.force.rows() > 0 || (model.resection && presses_on_wall(*model.resection));
   check_held(cloud, model.plane, model.skull.has_value(), pushed);
 }
 

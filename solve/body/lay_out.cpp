@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "segmentation/geometry/surface_tree.hpp"
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/fluid_force.hpp"
 #include "solve/force/stiffness_bound.hpp"
@@ -29,12 +30,15 @@ void check_supported(const PointBlocks& blocks, const OrderedCloud& cloud) {
 NodalVectors full_force(const Model& model, const BodyParts& parts) {
   const bool gravity = !model.gravity.isZero();
   const Points& at_nodes = parts.cloud.conditions.force;
-  if (at_nodes.rows() == 0 && !gravity && !model.body_force) {
+  if (at_nodes.rows() == 0 && !gravity && !model.body_force && !parts.wall_load) {
     return {};
   }
   NodalVectors force(4 * parts.cloud.size(), 0.0);
   if (at_nodes.rows() > 0) {
-    add_nodal_force(at_nodes, parts.nodal_rows, force);
+    add_point_forces(at_nodes, parts.nodal_rows, force);
+  }
+  if (parts.wall_load) {
+    add_point_forces(parts.wall_load->forces.force, parts.wall_load->rows, force);
   }
   if (gravity) {
     constexpr double per_cubic_millimetre = 1e-9;  // kg/m³ m/s² to N/mm³
@@ -148,6 +152,21 @@ std::vector<std::int32_t> nodes_at_septum(const OrderedCloud& cloud) {
   return nodes;
 }
 
+/// Surface nodes on the wall of a cavity.
+std::vector<WallNode> nodes_at_wall(const Surface& wall, const OrderedCloud& cloud) {
+  constexpr double on_wall = 1e-3;  // of the spacing
+  const SurfaceTree tree(wall);
+  std::vector<WallNode> nodes;
+  for (const std::int32_t a : surface_nodes(cloud)) {
+    const Eigen::Vector3d x = cloud.positions.row(a);
+    const SurfacePlace foot = tree.nearest(x);
+    if ((foot.position - x).norm() <= on_wall * cloud.spacing[static_cast<std::size_t>(a)]) {
+      nodes.push_back({a, foot.normal});
+    }
+  }
+  return nodes;
+}
+
 /// In spacings of the nodes: surface nodes farther from a septum than that do not come to touch it.
 constexpr double septum_reach = 2;
 
@@ -187,6 +206,7 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
       .essential = essential_conditions(options, parts),
       .contact = {},
       .face_contact = {},
+      .wall_contact = {},
       .septum_contact = {},
       .external = external_force(model, parts, options.dynamics),
   };
@@ -202,6 +222,10 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
   }
   if (model.face_contact && !model.cuts.empty()) {
     body.face_contact.emplace(ordered(extras.faces, cloud.original), cloud.positions, cloud.spacing, parts.nodal_rows);
+  }
+  if (model.resection && model.resection->wall) {
+    body.wall_contact.emplace(nodes_at_wall(*model.resection->wall, cloud), cloud.positions, cloud.spacing,
+                              parts.nodal_rows);
   }
   if (model.septum) {
     const double spacing = *std::max_element(cloud.spacing.begin(), cloud.spacing.end());

@@ -75,9 +75,9 @@ double ExternalForce::work(double from, double to, const NodalVectors& start, co
   return work;
 }
 
-void add_nodal_force(const Points& force, const ShapeRows& nodal_rows, NodalVectors& total) {
-  for (std::size_t a = 0; a < nodal_rows.size(); ++a) {
-    spread(force.row(static_cast<Eigen::Index>(a)).transpose(), nodal_rows, a, total);
+void add_point_forces(const Points& force, const ShapeRows& rows, NodalVectors& total) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    spread(force.row(static_cast<Eigen::Index>(i)).transpose(), rows, i, total);
   }
 }
 

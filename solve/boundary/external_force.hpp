@@ -32,9 +32,9 @@ class ExternalForce {
   std::vector<NodalVectors> at_;  // at equal steps of the fraction, without that at 0, which is no force
 };
 
-/// Adds the force of a point load at a node, N, spread as virtual work has it: Vᵀ f, V the shape functions at the
-/// nodes. force (n × 3); total in µN, 4 a node.
-void add_nodal_force(const Points& force, const ShapeRows& nodal_rows, NodalVectors& total);
+/// Adds the forces of point loads, N, spread as virtual work has it: Vᵀ f, V the shape functions at their places, which
+/// may be the nodes. force (places × 3); total in µN, 4 a node.
+void add_point_forces(const Points& force, const ShapeRows& rows, NodalVectors& total);
 
 /// Adds f_a = Σ_I w φ_a(X_I) b(X_I).
 void add_body_force(const BodyForce& body_force, const IntegrationPoints& points, const ShapeRows& rows,

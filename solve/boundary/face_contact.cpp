@@ -30,12 +30,35 @@ FaceGaps face_gaps(std::span<const FacePair> pairs, const Points& positions, std
   return {std::move(places), positions(face_nodes(pairs), Eigen::all)};
 }
 
+std::vector<std::int32_t> wall_nodes(std::span<const WallNode> wall) {
+  std::vector<std::int32_t> nodes;
+  for (const WallNode& w : wall) {
+    nodes.push_back(w.node);
+  }
+  return nodes;
+}
+
+FaceGaps wall_gaps(std::span<const WallNode> wall, const Points& positions, std::span<const double> spacing) {
+  std::vector<FacePlace> places;
+  for (const WallNode& w : wall) {
+    places.push_back({positions.row(w.node), w.normal, spacing[static_cast<std::size_t>(w.node)]});
+  }
+  return {std::move(places), positions(wall_nodes(wall), Eigen::all), Faces::of_cavity};
+}
+
 }  // namespace
 
 FaceContact::FaceContact(std::span<const FacePair> pairs, const Points& positions, std::span<const double> spacing,
                          const ShapeRows& rows)
-    : shape_(shape_matrix(rows, face_nodes(pairs), positions.rows())),
-      gaps_(face_gaps(pairs, positions, spacing)),
+    : FaceContact(face_nodes(pairs), face_gaps(pairs, positions, spacing), rows, positions.rows()) {}
+
+FaceContact::FaceContact(std::span<const WallNode> wall, const Points& positions, std::span<const double> spacing,
+                         const ShapeRows& rows)
+    : FaceContact(wall_nodes(wall), wall_gaps(wall, positions, spacing), rows, positions.rows()) {}
+
+FaceContact::FaceContact(std::span<const std::int32_t> nodes, FaceGaps gaps, const ShapeRows& rows, Eigen::Index all)
+    : shape_(shape_matrix(rows, nodes, all)),
+      gaps_(std::move(gaps)),
       row_sum_(gaps_.gaps().size()),
       push_(row_sum_.size()),
       force_(row_sum_.size(), 3),

@@ -20,7 +20,14 @@ struct FacePair {
   Eigen::Vector3d normal;  ///< of the cut, a unit vector
 };
 
-/// Frictionless contact, with finite sliding and separation, between the faces of cuts. After a step each face node
+/// A node on the wall of a cavity.
+struct WallNode {
+  std::int32_t node;
+  Eigen::Vector3d normal;  ///< of the wall, into the tissue, a unit vector
+};
+
+/// Frictionless contact, with finite sliding and separation, between the faces of cuts, or of the wall
+/// of a cavity with itself. After a step each face node
 /// that overlaps the opposite face, and the nodes of that face about it, are parted by equal and opposite pushes along
 /// the normal:
 ///   û ← û + M⁻¹ Vᵀ Gᵀ λ,  λ ≥ 0,  gap + G W Gᵀ λ ≥ 0,  W = V M⁻¹ Vᵀ,
@@ -30,6 +37,8 @@ class FaceContact {
  public:
   /// positions (n × 3), mm, and spacing, mm, of all nodes; rows: shape functions at their positions.
   FaceContact(std::span<const FacePair> pairs, const Points& positions, std::span<const double> spacing,
+              const ShapeRows& rows);
+  FaceContact(std::span<const WallNode> wall, const Points& positions, std::span<const double> spacing,
               const ShapeRows& rows);
 
   /// Sets the nodal masses (one a node) that weigh the pushes.
@@ -45,6 +54,8 @@ class FaceContact {
   Measures measure(const NodalVectors& parameters) const;
 
  private:
+  FaceContact(std::span<const std::int32_t> nodes, FaceGaps gaps, const ShapeRows& rows, Eigen::Index all);
+
   using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
   Points places(const NodalVectors& parameters) const;

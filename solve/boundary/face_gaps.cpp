@@ -3,17 +3,24 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "segmentation/geometry/point_tree.hpp"
 
 namespace brainshift::solve {
 
 namespace {
 
-// both in spacings
+// in spacings
 constexpr double neighbourhood = 2.2;    // of a place on its cut
 constexpr double opposite_within = 1.2;  // of a node to the opposite face: more than half the widest hole between nodes
+
+constexpr double look_ahead = 0.5;  // beyond that, for nodes of a cavity's wall: how far they come before the next look
+constexpr std::size_t looked_at = 32;  // nearest nodes
 
 double bell(double squared) {
   return squared < 1 ? (1 - squared) * (1 - squared) : 0;
@@ -34,8 +41,10 @@ bool are_neighbours(const FacePlace& p, const FacePlace& q) {
 
 }  // namespace
 
-FaceGaps::FaceGaps(std::vector<FacePlace> places, Points undeformed)
-    : places_(std::move(places)),
+FaceGaps::FaceGaps(std::vector<FacePlace> places, Points undeformed, Faces kind)
+    : kind_(kind),
+      sides_(kind == Faces::of_cuts ? 2 : 1),
+      places_(std::move(places)),
       begin_{0},
       undeformed_(std::move(undeformed)),
       normal_(undeformed_.rows(), 3),
@@ -46,6 +55,9 @@ FaceGaps::FaceGaps(std::vector<FacePlace> places, Points undeformed)
   }
   move(undeformed_);
   undeformed_gap_.swap(gap_);  // which was 0
+  if (kind_ == Faces::of_cavity) {
+    undeformed_gap_ = undeformed_gap_.cwiseMin(0);
+  }
 }
 
 /// The weights are those of least squares. Along a direction in which there are no neighbours the face does not turn.
@@ -75,14 +87,14 @@ std::span<const FaceGaps::Neighbour> FaceGaps::neighbours(Eigen::Index place) co
 
 /// Nanson's: along cof(F) N, with the gradient F along the face.
 Eigen::Vector3d FaceGaps::outward_normal(Eigen::Index face) const {
-  const Eigen::Index side = face % 2;
+  const Eigen::Index side = face % sides_;
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
-  for (const Neighbour& n : neighbours(face / 2)) {
-    const Eigen::Index other = 2 * n.place + side;
+  for (const Neighbour& n : neighbours(face / sides_)) {
+    const Eigen::Index other = sides_ * n.place + side;
     f += (now_.row(other) - undeformed_.row(other) - now_.row(face) + undeformed_.row(face)).transpose() *
          n.weight.transpose();
   }
-  const Eigen::Vector3d& n = at(face / 2).normal;
+  const Eigen::Vector3d& n = at(face / sides_).normal;
   const Eigen::Vector3d turned =
       n[0] * f.col(1).cross(f.col(2)) + n[1] * f.col(2).cross(f.col(0)) + n[2] * f.col(0).cross(f.col(1));
   return (side == 0 ? -1 : 1) * turned.normalized();
@@ -107,23 +119,63 @@ Eigen::Index FaceGaps::nearest_place(Eigen::Index face) const {
   return nearest;
 }
 
+/// Undeformed, each in front of the other's face. Two walls with a sheet of tissue between them are not.
+bool FaceGaps::met_through_cavity(Eigen::Index face, Eigen::Index other) const {
+  const Eigen::Vector3d apart = undeformed_.row(other) - undeformed_.row(face);
+  return apart.dot(at(face).normal) < 0 && apart.dot(at(other).normal) > 0;
+}
+
+/// Two nodes that come towards each other each go half the way.
+bool FaceGaps::has_come_near() const {
+  for (Eigen::Index f = 0; f < now_.rows(); ++f) {
+    if ((now_.row(f) - looked_at_.row(f)).norm() > look_ahead / 2 * spacing(f)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void FaceGaps::look_for_opposite() {
+  looked_at_ = now_;
+  opposite_.assign(static_cast<std::size_t>(now_.rows()), {});
+  const PointTree tree(looked_at_);
+#pragma omp parallel for schedule(static)
+  for (Eigen::Index f = 0; f < now_.rows(); ++f) {
+    std::array<std::size_t, looked_at> index{};
+    std::array<double, looked_at> squared{};
+    const std::size_t found = tree.nearest(now_.row(f).data(), looked_at, index.data(), squared.data());
+    for (std::size_t k = 0; k < found; ++k) {
+      const auto other = static_cast<Eigen::Index>(index[k]);
+      if (std::sqrt(squared[k]) < (opposite_within + look_ahead) * spacing(other) && met_through_cavity(f, other)) {
+        opposite_[static_cast<std::size_t>(f)].push_back(other);
+      }
+    }
+    std::ranges::sort(opposite_[static_cast<std::size_t>(f)]);
+  }
+}
+
 /// Calls visit(opposite, weight, direction) for the nodes within opposite_within.
 template <class Visit>
 void FaceGaps::visit_opposite(Eigen::Index face, const Visit& visit) const {
   const Eigen::Vector3d inward = -normal_.row(face);
-  const auto look = [&](Eigen::Index place) {
-    const Eigen::Index other = 2 * place + 1 - face % 2;
+  const auto look = [&](Eigen::Index other) {
     const Eigen::Vector3d outward = normal_.row(other);
-    const double r = opposite_within * at(place).spacing;
+    const double r = opposite_within * spacing(other);
     const double w = bell((now_.row(face) - now_.row(other)).squaredNorm() / (r * r));
     if (w > 0 && outward.dot(inward) > 0) {
       visit(other, w, (outward + inward).normalized());
     }
   };
-  const Eigen::Index nearest = nearest_place(face);
-  look(nearest);
+  if (kind_ == Faces::of_cavity) {
+    for (const Eigen::Index other : opposite_[static_cast<std::size_t>(face)]) {
+      look(other);
+    }
+    return;
+  }
+  const Eigen::Index nearest = nearest_place(face), side = 1 - face % 2;
+  look(2 * nearest + side);
   for (const Neighbour& n : neighbours(nearest)) {
-    look(n.place);
+    look(2 * n.place + side);
   }
 }
 
@@ -138,6 +190,9 @@ double FaceGaps::mean_gap(Eigen::Index face) const {
 
 void FaceGaps::move(Points now) {
   now_ = std::move(now);
+  if (kind_ == Faces::of_cavity && (looked_at_.rows() == 0 || has_come_near())) {
+    look_for_opposite();
+  }
 #pragma omp parallel for schedule(static)
   for (Eigen::Index f = 0; f < gap_.size(); ++f) {
     normal_.row(f) = outward_normal(f);

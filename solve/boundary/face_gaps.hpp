@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,21 +17,26 @@ struct FacePlace {
   double spacing;          ///< of the nodes there, mm
 };
 
-/// How far the two faces of cuts are apart as they move. Face node 2i lies above place i, 2i + 1 below it. Its gap is
-/// that to the opposite face: a mean over the nodes b there that are within reach of where it is now, of (x − x_b)·n, n
-/// between the outward normal at b and the inward one at x, which vanishes to third order where curved faces touch;
-/// less what it was undeformed.
+/// Which faces may meet: the two sides of cuts, or any parts of the wall of a cavity.
+enum class Faces : std::uint8_t { of_cuts, of_cavity };
+
+/// How far faces are apart as they move. Of cuts face node 2i lies above place i, 2i + 1 below it; of a cavity face
+/// node i lies at place i, whose normal points into the tissue. Its gap is that to the opposite face: a mean over the
+/// nodes b there that are within reach of where it is now, of (x − x_b)·n, n between the outward normal at b and the
+/// inward one at x, which vanishes to third order where curved faces touch; less what it was undeformed, of a cavity
+/// only where that was an overlap. In a cavity nodes are opposite that face each other, and did so undeformed, through
+/// the cavity and not through tissue. They are looked for anew when some node may have come within reach.
 class FaceGaps {
  public:
-  /// undeformed (2 places × 3): the face nodes, mm.
-  FaceGaps(std::vector<FacePlace> places, Points undeformed);
+  /// undeformed: the face nodes, mm, two a place of cuts, one of a cavity.
+  FaceGaps(std::vector<FacePlace> places, Points undeformed, Faces kind = Faces::of_cuts);
 
-  /// Takes the face nodes to where they are now (2 places × 3), mm.
+  /// Takes the face nodes to where they are now, mm.
   void move(Points now);
 
   const Points& undeformed() const { return undeformed_; }
   const Eigen::VectorXd& gaps() const { return gap_; }  ///< mm; negative: overlap; infinite: nothing is opposite
-  double spacing(Eigen::Index face) const { return at(face / 2).spacing; }
+  double spacing(Eigen::Index face) const { return at(face / sides_).spacing; }
 
   /// A node of the opposite face, its share of the mean, and the direction that parts the two, out of it.
   struct Link {
@@ -51,15 +57,22 @@ class FaceGaps {
   void append_neighbours(const FacePlace& place);
   Eigen::Vector3d outward_normal(Eigen::Index face) const;
   Eigen::Index nearest_place(Eigen::Index face) const;
+  bool met_through_cavity(Eigen::Index face, Eigen::Index other) const;
+  bool has_come_near() const;
+  void look_for_opposite();
   double mean_gap(Eigen::Index face) const;
   template <class Visit>
   void visit_opposite(Eigen::Index face, const Visit& visit) const;
 
+  Faces kind_;
+  Eigen::Index sides_;  ///< face nodes a place
   std::vector<FacePlace> places_;
   std::vector<Neighbour> neighbours_;  ///< of each place in turn
   std::vector<std::size_t> begin_;
   Points undeformed_, now_, normal_;  ///< of the face nodes
   Eigen::VectorXd undeformed_gap_, gap_;
+  Points looked_at_ = Points(0, 3);  ///< of a cavity: where the face nodes were when others were looked for
+  std::vector<std::vector<Eigen::Index>> opposite_;  ///< that were found, of each face node
 };
 
 }  // namespace brainshift::solve

@@ -54,7 +54,7 @@ void free_beside_bonded(const OrderedCloud& cloud, std::span<const std::int32_t>
 }  // namespace
 
 Surface known_boundary(const Model& model) {
-  if (model.resection) {
+  if (model.resection && !(model.resection->wall && model.boundary)) {
     return {};
   }
   return model.boundary ? *model.boundary : cell_boundary(model.cells);
@@ -66,6 +66,9 @@ std::optional<SurfaceNormals> boundary_normals(const Surface& boundary, const Cu
     return std::nullopt;
   }
   const std::vector<std::int32_t> nodes = surface_nodes(cloud);
+  if (nodes.empty()) {
+    return std::nullopt;
+  }
   std::vector<double> spacing;
   for (const std::int32_t a : nodes) {
     spacing.push_back(cloud.spacing[static_cast<std::size_t>(a)]);

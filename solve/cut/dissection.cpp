@@ -185,6 +185,9 @@ ChangedBody Dissection::advance(const CutFacets& fresh, const Body& body) {
   const auto match = std::make_shared<Matching>(touched, parts.cloud.size());
   update_nodes(touched, shape, *match, parts);
   const std::size_t touched_points = update_points(advance, shape, *match, parts);
+  if (parts.wall_load) {
+    parts.wall_load->rows = shape.evaluate(parts.wall_load->forces.places, false);
+  }
   match->factorise();
   const std::vector<std::int32_t> place = inverse(parts.patches.order);
   if (parts.patches.size() < parts.points.size()) {

@@ -54,11 +54,11 @@ std::vector<Edge> branching_edges(const Triangles& facets) {
   return branching;
 }
 
-class Faces {
+class CutFaces {
  public:
   /// septum: whether nodes stand along the fronts.
-  Faces(const CutFacets& cut, const InsideBody& inside, const NodeCloud& cloud, const std::vector<FacePair>& pairs,
-        bool septum)
+  CutFaces(const CutFacets& cut, const InsideBody& inside, const NodeCloud& cloud, const std::vector<FacePair>& pairs,
+           bool septum)
       : cut_(cut),
         inside_(inside),
         cloud_(cloud),
@@ -359,12 +359,12 @@ std::size_t add_at(const std::vector<Place>& places, NodeCloud& cloud, Condition
 
 std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeCloud& cloud, Conditions& conditions,
                            std::vector<FacePair>& pairs) {
-  return add_at(Faces(cut, inside, cloud, pairs, false).places(), cloud, conditions, pairs);
+  return add_at(CutFaces(cut, inside, cloud, pairs, false).places(), cloud, conditions, pairs);
 }
 
 std::size_t add_septum_nodes(const CutFacets& septum, const InsideBody& inside, NodeCloud& cloud,
                              Conditions& conditions, std::vector<FacePair>& pairs) {
-  std::vector<Place> places = Faces(septum, inside, cloud, pairs, true).places();
+  std::vector<Place> places = CutFaces(septum, inside, cloud, pairs, true).places();
   const Visibility visibility(septum);
   std::erase_if(places, [&](const Place& p) {  // in a crease both nodes may come to lie on one side
     const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;

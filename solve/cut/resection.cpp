@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "segmentation/geometry/point_tree.hpp"
@@ -73,19 +72,6 @@ Nodes choose_nodes(const NodeCloud& cloud, const Points& left, const Points& rem
   return nodes;
 }
 
-void check_free(const Model& model, const std::vector<std::int32_t>& gone) {
-  for (const std::int32_t a : gone) {
-    const bool prescribed = model.conditions.is_prescribed(a);
-    if (prescribed || model.conditions.is_pushed(a)) {
-      std::ostringstream text;
-      text << "node " << a << " at (" << model.cloud.positions.row(a).format({4, Eigen::DontAlignCols, ", ", ", "})
-           << ") mm has a " << (prescribed ? "prescribed displacement" : "force")
-           << ", but lies in the tissue that is taken out; leave it free";
-      throw std::invalid_argument(text.str());
-    }
-  }
-}
-
 /// Those with points that go and none that stays are gone.
 BackgroundCells cells_left(const BackgroundCells& cells, const IntegrationPoints& points,
                            std::span<const std::uint8_t> removed) {
@@ -119,6 +105,9 @@ void add_pressure(const Points& force, const std::vector<std::int32_t>& stay, co
 
 Resected resect(const Model& model, const SolveOptions& options) {
   const Resection& resection = *model.resection;
+  if (resection.wall) {
+    return resect_within_wall(model);
+  }
   const bool adaptive = options.integration_tolerance > 0;
   const IntegrationPoints points = integration_points(
       model.cells, points_per_cell(adaptive ? std::nullopt : options.points_per_cell, model.cells.kind, false),
@@ -151,6 +140,9 @@ Resected resect(const Model& model, const SolveOptions& options) {
 }
 
 void leave_out(const Resection& resection, AdaptivePoints& placed) {
+  if (resection.wall) {
+    return;
+  }
   const std::vector<std::int32_t> left = indices_of(removed_points(placed.points, resection), 0);
   IntegrationPoints points{.positions = placed.points.positions(left, Eigen::all),
                            .volume = {},
@@ -169,10 +161,15 @@ void leave_out(const Resection& resection, AdaptivePoints& placed) {
 
 std::vector<std::int32_t> tissues_of(const Model& model) {
   std::vector<std::int32_t> tissues;
+  const auto is_taken = [&](std::int32_t label) {
+    return model.resection && std::ranges::find(model.resection->labels, label) != model.resection->labels.end();
+  };
   for (const auto& [label, material] : model.materials) {
-    tissues.push_back(label);
+    if (!is_taken(label)) {
+      tissues.push_back(label);
+    }
   }
-  if (model.resection) {
+  if (model.resection && !model.resection->wall) {
     tissues.insert(tissues.end(), model.resection->labels.begin(), model.resection->labels.end());
   }
   return tissues;

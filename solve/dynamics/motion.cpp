@@ -76,6 +76,9 @@ void Motion::weigh(std::span<const double> mass, double alpha) {
   if (body.face_contact) {
     body.face_contact->weigh(mass);
   }
+  if (body.wall_contact) {
+    body.wall_contact->weigh(mass);
+  }
   if (body.septum_contact) {
     body.septum_contact->weigh(mass);
   }

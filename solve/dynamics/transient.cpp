@@ -20,7 +20,7 @@ constexpr double least_ratio = 0.8;  // of J to that one step before: stiffness 
 /// Where all that takes energy is counted: not contact, relaxing materials (the laws' energy is the instantaneous one)
 /// or lumped conditions. Else the work is what became of it to a thousandth.
 bool balances(const Body& body, const SolveOptions& options) {
-  return !body.contact && !body.face_contact && !body.septum_contact && body.prony.empty() &&
+  return !body.contact && !body.face_contact && !body.wall_contact && !body.septum_contact && body.prony.empty() &&
          options.imposition == Imposition::exact;
 }
 

@@ -202,8 +202,9 @@ class Ensemble {
 
 bool may_go_together(const Body& body, const SolveOptions& options) {
   return options.dynamics == Dynamics::relaxation && options.imposition == Imposition::exact && options.region == 0 &&
-         options.snapshot_every == 0 && body.cut.empty() && !body.face_contact && !body.septum_contact &&
-         body.laws.swelling.empty() && body.laws.prony.empty() && !body.laws.plane_stress && !body.laws.in_time;
+         options.snapshot_every == 0 && body.cut.empty() && !body.face_contact && !body.wall_contact &&
+         !body.septum_contact && body.laws.swelling.empty() && body.laws.prony.empty() && !body.laws.plane_stress &&
+         !body.laws.in_time;
 }
 
 std::vector<MemberResult> relax_together(const Body& body, std::span<const Member> loads, const LoadCurve& curve,

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,12 @@ struct Rupture {
 struct Resection {
   std::vector<std::int32_t> labels;
   double pressure = 0;  ///< in the cavity, on its undeformed wall, Pa
+  /// mm along gravity: the cavity's own fluid fills it from there down; absent: it is open to the fluid about the
+  /// brain, if there is one.
+  std::optional<double> fluid_level = {};
+  /// Closed, outward from the tissue that goes, mm; it may reach out of the body. The cells are parted by it and nodes
+  /// lie on it. Absent: the wall is where the labels of integration points change, a staircase.
+  std::optional<Surface> wall = {};
 };
 
 }  // namespace brainshift::solve

@@ -105,7 +105,10 @@ const OptionTable<Resection>& resection_options() {
   static const OptionTable<Resection> table = {
       required(labels_option<Resection>("labels", &Resection::labels, "of the tissues that are taken out")),
       number_option<Resection>("pressure", &Resection::pressure, any_number, "Pa",
-                               "in the cavity, on its undeformed wall")};
+                               "in the cavity, on its undeformed wall"),
+      number_option<Resection>("fluid_level", &Resection::fluid_level, any_number, "mm along gravity",
+                               "of fluid that the cavity has for itself; needs <gravity fluid_level> or drained. "
+                               "Without it the cavity is open to the fluid about the brain")};
   return table;
 }
 

@@ -78,6 +78,11 @@ struct SeptumMeasures {
 struct ResectionMeasures {
   std::size_t removed_nodes = 0;
   double removed_volume = 0;  ///< of the integration points of its tissue, mm³
+  // where its wall is a surface
+  std::size_t wall_nodes = 0;         ///< 0: it is none
+  double wall_area = 0;               ///< undeformed, mm²
+  std::optional<double> volume = {};  ///< of the cavity at the end, mm³; absent where it lies open
+  FaceMeasures touch = {};            ///< of the wall with itself
 };
 
 /// A weight that was tried for a load with noise, as a linear body would answer it.

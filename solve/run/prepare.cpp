@@ -167,6 +167,17 @@ bool single_serves(const Model& model, double tolerance) {
          error_wanted(imposed, tolerance) >= finest_in_single * size;
 }
 
+/// Of a cavity with a wall that something presses in.
+std::optional<WallLoad> wall_load(const Model& model, const ShapeFunctions& shape) {
+  constexpr double piece = 0.5;  // of the spacing
+  if (!model.resection || !presses_on_wall(*model.resection)) {
+    return std::nullopt;
+  }
+  WallLoad load{forces_on_wall(*model.resection->wall, piece * mean_spacing(model.cloud), cavity_pressure(model)), {}};
+  load.rows = shape.evaluate(load.forces.places, false);
+  return load;
+}
+
 bool cuts_go_on(const Model& model) {
   return last_time(model.cuts) > 0 || model.rupture;
 }
@@ -205,6 +216,7 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   if (parts.cloud.conditions.measured) {
     parts.inner_rows = inner_rows(shape, parts.cloud.conditions.measured->inner);
   }
+  parts.wall_load = wall_load(model, shape);
   const std::optional<BackgroundCells> completed = with_missing_octants(model.cells, model.boundary, model.cloud);
   AdaptivePoints placed = place_points(model, completed ? *completed : model.cells, shape, options);
   if (model.resection) {

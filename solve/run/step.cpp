@@ -10,6 +10,7 @@
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/transient.hpp"
 #include "solve/output/cut_surface.hpp"
+#include "solve/output/field_difference.hpp"
 #include "solve/output/stress_strain.hpp"
 #include "solve/shape/nodal_displacement.hpp"
 
@@ -64,6 +65,21 @@ SeptumMeasures measure_septum(const CutBody& cut, const SteppingResult& stepped)
           .face_nodes = 2 * cut.septum_pairs,
           .touching_nodes = touch.touching,
           .largest_penetration = touch.largest_penetration};
+}
+
+double deformed_volume(const Surface& wall, const Solution& solution) {
+  Surface moved = wall;
+  moved.vertices += displacement_at(solution, wall.vertices);
+  return volume(moved);
+}
+
+void measure_wall(const Surface& wall, const SteppingResult& stepped, const Solution& solution,
+                  ResectionMeasures& measures) {
+  const FaceContact::Measures touch = stepped.body.wall_contact->measure(stepped.parameters);
+  measures.touch = {touch.touching, touch.largest_overlap};
+  if (measures.volume) {  // the wall closes around the cavity
+    measures.volume = deformed_volume(wall, solution);
+  }
 }
 
 /// The displacement field of the last good state.
@@ -146,6 +162,9 @@ SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepare
       result.measures.septum = measure_septum(cut, stepped);
     }
     draw_faces(cut.inside, result);
+  }
+  if (stepped.body.wall_contact) {
+    measure_wall(*model.resection->wall, stepped, result.solution, *result.measures.resection);
   }
   if (model.rupture) {
     result.stress_strain = stress_strain(model, options.dynamics, result.history);

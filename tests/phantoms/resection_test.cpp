@@ -16,9 +16,9 @@ TEST(ResectedHead, IsSolvedAndRegistered) {
   const pipelines::PhantomOptions head{.size = 44, .spacing = 4.0};
   pipelines::write_phantom(head, scratch / "head");
   const std::string scene = (scratch / "head/scene.xml").string(), folder = (scratch / "run").string();
-  const ProgramResult result =
-      run_shell("brainshift run " + scene + " --quiet --out " + folder +
-                " --set resection.labels=3 --set discretise.tumour_factor=0.4 --set solve.gravity='0 4 0'");
+  const ProgramResult result = run_shell("brainshift run " + scene + " --quiet --out " + folder +
+                                         " --set resection.labels=3 --set register.cavity_label=24 --set "
+                                         "discretise.tumour_factor=0.4 --set solve.gravity='0 4 0'");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto stages = nlohmann::json::parse(contents_of(folder + "/run.json"))["stages"];
   const auto& resection = stages["solve"]["measures"]["resection"];
@@ -28,7 +28,15 @@ TEST(ResectedHead, IsSolvedAndRegistered) {
   const LabelMap labels = pipelines::sample_labels(pipelines::make_phantom(head));
   const double volume = static_cast<double>(std::ranges::count(labels.voxels, 3)) * labels.geometry.voxel_volume();
   EXPECT_NEAR(resection["removed_volume_mm3"], volume, 0.05 * volume);
+  EXPECT_GT(resection["wall_nodes"], 10);
+  EXPECT_GT(resection["cavity_volume_mm3"], 0);
+  EXPECT_LT(resection["cavity_volume_mm3"], resection["removed_volume_mm3"]) << "the cortex above it sinks";
   EXPECT_EQ(stages["register"]["status"], "done");
+  EXPECT_EQ(stages["register"]["measures"]["folded_voxels"], 0);
+  EXPECT_GT(stages["register"]["sizes"]["cavity_voxels"], 0);
+  const LabelMap warped = read_label_map(folder + "/register/warped_labels.nii.gz");
+  EXPECT_EQ(std::ranges::count(warped.voxels, 3), 0) << "tissue is drawn in the cavity";
+  EXPECT_GT(std::ranges::count(warped.voxels, 24), 0);
 }
 
 }  // namespace brainshift::resection_test

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "tests/unit/segmentation/shapes.hpp"
@@ -35,6 +36,26 @@ TEST(Scanlines, PassThroughABoxTwiceWhereTheyMeetADiagonalExactly) {
     EXPECT_EQ(crossings(body, along, along).size(), 2U) << along;
     EXPECT_EQ(crossings(body, along, 4 - along).size(), 2U) << along;
   }
+}
+
+TEST(Scanlines, PassThroughAPartOfABody) {
+  const Scanlines body(box({0, 0, 0}, {10, 10, 10}));
+  const auto hole = std::make_shared<const Scanlines>(box({4, 2, 2}, {6, 12, 8}));
+  const Scanlines within(body, hole, true), outside(body, hole, false);
+  EXPECT_EQ(crossings(outside, 1, 5), crossings(body, 1, 5));
+  EXPECT_TRUE(crossings(within, 1, 5).empty());
+  const std::vector<double> around = crossings(outside, 5.1, 5.3), through = crossings(within, 5.1, 5.3);
+  ASSERT_EQ(around.size(), 4U);
+  ASSERT_EQ(through.size(), 2U);
+  EXPECT_NEAR(around[1], 4, 1e-12);
+  EXPECT_NEAR(around[2], 6, 1e-12);
+  EXPECT_NEAR(through[0], 4, 1e-12);
+  EXPECT_NEAR(through[1], 6, 1e-12);
+  EXPECT_TRUE(crossings(within, 11, 5).empty()) << "outside the body";
+  EXPECT_TRUE(within.inside({5, 5, 5}));
+  EXPECT_FALSE(outside.inside({5, 5, 5}));
+  EXPECT_TRUE(outside.inside({3, 5, 5}));
+  EXPECT_FALSE(within.inside({5, 11, 5}));
 }
 
 TEST(Scanlines, HaveAnEvenNumberOfCrossingsThroughVerticesAndEdges) {

@@ -105,4 +105,49 @@ TEST(Hexahedra, HaveTheCentroidOfAHalfBallAtThreeEighthsOfItsRadius) {
   EXPECT_NEAR(moment, exact, 2e-3 * exact);
 }
 
+TEST(Hexahedra, AreInTwoWhereAWallPartsThem) {
+  const Surface surface = ball(40, centre, 5), wall = test::sphere(centre + Eigen::Vector3d(0, 0, 30), 22, 4);
+  const LabelMap labels = test::ball_labels(centre + Eigen::Vector3d(0, 0, 30), 22, 75);  // 3 within
+  DiscretiseOptions options;
+  options.nodes = 2000;
+  options.brain_labels = {1, 3};
+  options.resected = ResectedTissue{wall, {3}};
+  const Discretisation result = discretise(surface, &labels, options);
+  const Inside in_ball(surface), in_wall(wall);
+  const BackgroundCells& cells = result.cells;
+  double within = 0;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    if (cells.cut_index[cell] < 0) {
+      continue;
+    }
+    const InsideOctants& part = cells.cut_parts[static_cast<std::size_t>(cells.cut_index[cell])];
+    for (int octant = 0; octant < 8; ++octant) {
+      if (part.volume[octant] > 0) {
+        EXPECT_TRUE(in_ball(part.centroid[octant]));
+        EXPECT_EQ(in_wall(part.centroid[octant]), cells.label[cell] == 3);
+      }
+    }
+  }
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    const double edge =
+        cells.vertices(cells.connectivity[8 * cell + 1], 0) - cells.vertices(cells.connectivity[8 * cell], 0);
+    within += cells.label[cell] == 3 ? cells.inside_fraction[cell] * edge * edge * edge : 0;
+  }
+  EXPECT_NEAR(result.measures.cells_inside_volume, volume(surface), 2e-3 * volume(surface));
+  // Of two balls at a distance d: π (R + r − d)² (d² + 2d(R + r) − 3(R − r)²) / 12d.
+  const double d = 30, sum = 40 + 22, difference = 40 - 22;
+  const double lens =
+      std::numbers::pi * std::pow(sum - d, 2) * (d * d + 2 * d * sum - 3 * difference * difference) / (12 * d);
+  EXPECT_NEAR(within, lens, 0.005 * lens);
+  std::size_t on_wall = 0;
+  for (std::size_t a = 0; a < result.cloud.size(); ++a) {
+    const Eigen::Vector3d x = result.cloud.positions.row(static_cast<Eigen::Index>(a));
+    const double off = (x - centre - Eigen::Vector3d(0, 0, 30)).norm() - 22;
+    on_wall += result.cloud.on_surface[a] == 0 && std::abs(off) < 0.1 && !in_wall(x.data()) ? 1 : 0;
+  }
+  EXPECT_NEAR(static_cast<double>(on_wall), static_cast<double>(result.measures.wall_nodes),
+              0.03 * static_cast<double>(on_wall));
+  EXPECT_GT(on_wall, 100U);
+}
+
 }  // namespace brainshift::discretise::hexahedra_test

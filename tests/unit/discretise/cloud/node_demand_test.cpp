@@ -20,7 +20,7 @@ constexpr double radius = 50;
 NodeDemand demand_of(const DiscretiseOptions& options, const LabelMap* labels = nullptr) {
   static const Surface surface = test::ball(radius, centre, 4);
   static const Scanlines body(surface);
-  return node_demand(surface, body, labels, options);
+  return node_demand(surface, {}, body, labels, options);
 }
 
 double total(const NodeDemand& demand) {

@@ -18,9 +18,9 @@ std::string fault(const DiscretiseOptions& options) {
 // A new member of the struct does not compile here. It goes into the table, or among those that the scene fills in.
 TEST(DiscretiseOptions, AreAllInTheTable) {
   [[maybe_unused]] const auto& [spacing, nodes, minimum_distance, craniotomy, tumour_factor, tumour_label,
-                                tissue_boundary_factor, cells, cells_per_node, brain_labels, seed] =
+                                tissue_boundary_factor, cells, cells_per_node, brain_labels, seed, resected] =
       DiscretiseOptions{};
-  EXPECT_EQ(discretise_options().size() + 2, 11U) << "beside the craniotomy and the labels";
+  EXPECT_EQ(discretise_options().size() + 3, 12U) << "beside the craniotomy, the labels and what is taken out";
   [[maybe_unused]] const auto& [centres, radius, factor] = Refinement{};
   EXPECT_EQ(refinement_options().size() + 1, 3U) << "beside the centres";
 }

@@ -61,7 +61,9 @@ TEST_F(Stamps, ChangeForTheStagesThatDependOnAnOptionAlone) {
   EXPECT_EQ(changed_by([&] { scene_.cuts.emplace().files.push_back({write("cut.vtp", "cut"), {}}); }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.cuts->contact = true; }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.cuts->files[0].timing.start = 0.5; }), "--v-");
-  EXPECT_EQ(changed_by([&] { scene_.resection = solve::Resection{{1}, 0}; }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.resection = solve::Resection{.labels = {1}}; }), "s-v-");
+  EXPECT_EQ(changed_by([&] { scene_.resection->pressure = 9; }), "--v-");
+  EXPECT_EQ(changed_by([&] { write("run/segment/resection.vtp", "wall"); }), "-dvr");
   EXPECT_EQ(changed_by([&] { scene_.registration.fade = 3; }), "---r");
   EXPECT_EQ(changed_by([&] { scene_.tissues.push_back({3, "", "", {}}); }), "sdv-");
 }

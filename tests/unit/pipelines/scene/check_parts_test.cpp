@@ -52,6 +52,8 @@ TEST_F(SceneFile, CheckRefusesCutsAndResectionsThatCannotBe) {
   expect_parts(fault(scene(""), {"cuts.contact=yes"}), {"names no cut"});
   expect_parts(fault(scene("<resection labels=\"2\"/>")), {"scene.xml:2", "label 2", "no tissue", "1 3"});
   expect_parts(fault(scene("<resection labels=\"1 3\"/>")), {"scene.xml:2", "every tissue"});
+  expect_parts(fault(scene("<resection labels=\"3\" fluid_level=\"4\"/>")),
+               {"scene.xml:2", "which way gravity pulls it"});
   expect_parts(fault(scene("<resection labels=\"\"/>")), {"scene.xml:2", "names no label", "1 3"});
   expect_parts(fault(scene(cut), {"solve.region=1"}), {"--set", "region", "cuts"});
   expect_parts(fault(scene("<resection labels=\"3\"/>"), {"solve.region=1"}), {"--set", "region", "resection"});

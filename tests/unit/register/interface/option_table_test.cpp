@@ -17,8 +17,8 @@ std::string fault(const RegisterOptions& options) {
 
 // A new member of the struct does not compile here: it goes into the table.
 TEST(RegisterOptions, AreAllInTheTable) {
-  [[maybe_unused]] const auto& [fade, interpolation, inverse_tolerance] = RegisterOptions{};
-  EXPECT_EQ(register_options().size(), 3U);
+  [[maybe_unused]] const auto& [fade, interpolation, inverse_tolerance, cavity_label, cavity_value] = RegisterOptions{};
+  EXPECT_EQ(register_options().size(), 5U);
 }
 
 TEST(RegisterOptions, AreAllowedAsTheyAreByDefaultAndWithinTheirRanges) {
@@ -36,12 +36,18 @@ TEST(RegisterOptions, OutOfRangeAreRefusedWithTheirUnit) {
 
 TEST(RegisterOptions, AreReadIntoTheMembersOfTheirNames) {
   RegisterOptions options;
-  for (const auto& [name, text] : {std::pair("fade", "3"), {"interpolation", "bspline"}, {"inverse_tolerance", "2"}}) {
+  for (const auto& [name, text] : {std::pair("fade", "3"),
+                                   {"interpolation", "bspline"},
+                                   {"inverse_tolerance", "2"},
+                                   {"cavity_label", "24"},
+                                   {"cavity_value", "-5"}}) {
     ASSERT_TRUE(set_option(*find_option(register_options(), name), options, text)) << name;
   }
   EXPECT_EQ(options.fade, 3);
   EXPECT_EQ(options.interpolation, Interpolation::bspline);
   EXPECT_EQ(options.inverse_tolerance, 2);
+  EXPECT_EQ(options.cavity_label, 24);
+  EXPECT_EQ(options.cavity_value, -5);
 }
 
 }  // namespace brainshift::registration::option_table_test

@@ -54,7 +54,7 @@ TEST_P(ForceOnNodes, AtANodeKeepsForceAndMoment) {
     Points force = Points::Zero(scene.cloud.positions.rows(), 3);
     force.row(node) = push;
     NodalVectors total = scene.zero();
-    add_nodal_force(force, scene.shape.evaluate(scene.cloud.positions, false), total);
+    add_point_forces(force, scene.shape.evaluate(scene.cloud.positions, false), total);
     const Eigen::Vector3d x = scene.cloud.positions.row(node);
     EXPECT_LE((newton * resultant(total) - push).norm(), 1e-12);
     EXPECT_LE((scene.moment(total) - x.cross(push)).norm(), 1e-12 * side);
@@ -98,9 +98,9 @@ TEST_P(ForceOnNodes, AddsToWhatIsThere) {
   NodalVectors once = scene.zero();
   const ShapeRows rows = scene.shape.evaluate(scene.cloud.positions, false);
   const Points force = Points::Constant(scene.cloud.positions.rows(), 3, 0.5);
-  add_nodal_force(force, rows, once);
+  add_point_forces(force, rows, once);
   NodalVectors twice = once;
-  add_nodal_force(force, rows, twice);
+  add_point_forces(force, rows, twice);
   for (std::size_t i = 0; i < once.size(); ++i) {
     EXPECT_NEAR(twice[i], 2 * once[i], 1e-6);  // µN
   }

@@ -69,6 +69,8 @@ TEST(ResectionOptions, NeedLabelsThatTissuesMayHaveAndAnyPressure) {
   EXPECT_EQ(fault_of({.labels = {1, 65535}, .pressure = -50}), "");
   expect_parts(fault_of({.labels = {0}}), {"labels is '0'", "whole numbers from 1 to 65535"});
   EXPECT_EQ(fault_of({.labels = {3}, .pressure = INFINITY}), "pressure is 'inf', but must be a number (Pa)");
+  EXPECT_EQ(fault_of({.labels = {3}, .fluid_level = -80}), "");
+  expect_parts(fault_of({.labels = {3}, .fluid_level = INFINITY}), {"fluid_level is 'inf'", "mm along gravity"});
   EXPECT_TRUE(find_option(resection_options(), "labels")->required);
 }
 
