@@ -2,6 +2,7 @@
 #include "discretise/body/check_surface.hpp"
 
 #include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/repair.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
 #include <stdexcept>
@@ -44,10 +45,11 @@ std::size_t border_edges(const CgalMesh& mesh) {
 
 void check_encloses_body(const Surface& surface, const std::string& what) {
   check_numbers(surface, what);
-  const std::optional<CgalMesh> mesh = to_mesh(surface);
+  std::optional<CgalMesh> mesh = to_mesh(surface);
   if (!mesh) {
     refuse(what, "is not a 2-manifold with triangles that agree in orientation; repair it (the segment stage can).");
   }
+  pmp::remove_isolated_vertices(*mesh);  // CGAL reads beyond its memory where the outermost vertex has no triangle
   if (const std::size_t open = border_edges(*mesh); open > 0) {
     refuse(what, "is open: " + std::to_string(open) +
                      " edges have a triangle on one side only; close it (the segment stage "

@@ -110,7 +110,7 @@ class Faults(WithFolder):
         self.refused("three dimensions", ValueError, brainshift.ScalarImage, np.ones((4, 4)), eye)
         self.refused("no row of vertices", ValueError, brainshift.Surface, np.eye(3), [[0, 1, 3]])
         self.refused("as many rows", ValueError, brainshift.Load, np.ones((3, 3)), np.ones((2, 3)))
-        self.refused("label 2 is named", ValueError, brainshift.segment, brainshift.LabelMap(ones, eye))
+        self.refused("label 2 counts as brain", ValueError, brainshift.segment, brainshift.LabelMap(ones, eye))
         self.refused("no-scene.xml", ValueError, brainshift.run, self.folder / "no-scene.xml", self.folder / "out")
         self.refused("edge_length is '0'", ValueError, brainshift.segment, brainshift.LabelMap(ones, eye), edge_length=0)
         self.refused("there is no option 'edge'; there are: edge_length", TypeError, brainshift.segment,

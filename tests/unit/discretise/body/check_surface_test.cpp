@@ -30,6 +30,10 @@ TEST(CheckSurface, LetsPassWhatEnclosesABody) {
   EXPECT_EQ(fault(body), "");
   EXPECT_EQ(fault(test::sphere({900, -700, 60}, 40, 3)), "");
   EXPECT_EQ(fault(joined(body, box({20, 0, 0}, {30, 10, 10}))), "") << "two bodies";
+  Surface unused = body;
+  unused.vertices.conservativeResize(9, 3);
+  unused.vertices.row(8) << 50, 0, 0;
+  EXPECT_EQ(fault(unused), "") << "a vertex without a triangle";
 }
 
 TEST(CheckSurface, RefusesNumbersThatAreNone) {

@@ -63,7 +63,7 @@ TEST(Relaxation, EndsWhereEveryNodeIsHeld) {
   const SolveResult result = solve(model, options);
   EXPECT_EQ(result.failure, "");
   EXPECT_LT(difference_from(result.solution, stretch), 1e-9);
-  EXPECT_LT(result.measures.steps, 200);
+  EXPECT_LT(result.measures.steps, 400) << "as long as a standstill lasts that is none of rest";
 }
 
 }  // namespace brainshift::solve::relaxation_test
