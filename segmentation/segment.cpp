@@ -18,6 +18,7 @@
 #include "segmentation/surface/checked_surface.hpp"
 #include "segmentation/surface/extract.hpp"
 #include "segmentation/tissue/classify.hpp"
+#include "segmentation/tissue/ventricles.hpp"
 
 namespace brainshift::segmentation {
 namespace {
@@ -228,6 +229,19 @@ Segmentation segment_labels(const SegmentInput& input, const SegmentOptions& opt
   return result;
 }
 
+// Ventricles are softer than tissue and lose their fluid: what is not found of them resists as tissue.
+void note_ventricles(Segmentation& result, double brain_volume) {
+  constexpr std::uint16_t ventricles[] = {default_label::ventricles};
+  const double found = volume(mask_of(*result.labels, ventricles));
+  if (found < few_ventricles * brain_volume) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1) << "warning: only " << found / 1000
+         << " ml of ventricles were told apart in the T1, where adults have 10 to 60; the others count as parenchyma. "
+            "Look at the labels in the report, or give a label map";
+    result.notes.push_back(text.str());
+  }
+}
+
 Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options, const Progress& progress) {
   LabelMap mask = *input.brain_mask;
   if (input.tumour_mask) {
@@ -241,6 +255,7 @@ Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options
   result.labels = std::move(classified.labels);
   result.memberships = std::move(classified.memberships);
   note_body(result, body, tissue, false);
+  note_ventricles(result, result.body->volume);
   if (input.tumour_mask) {
     add_tumour(*result.labels, *input.tumour_mask);
   }

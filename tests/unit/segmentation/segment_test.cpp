@@ -40,6 +40,23 @@ TEST(Segment, AT1WithAMaskGivesTheTissuesThatWereDrawn) {
   }
 }
 
+TEST(Segment, VentriclesThatAT1DoesNotShowAreWarnedOf) {
+  Head drawn = head(oblique());
+  SegmentInput input;
+  input.brain_mask = drawn.mask;
+  input.t1 = drawn.t1;
+  EXPECT_TRUE(segment(input, two_labels()).notes.empty());
+  for (std::size_t i = 0; i < drawn.labels.voxels.size(); ++i) {
+    if (drawn.labels.voxels[i] == default_label::ventricles) {
+      drawn.t1.voxels[i] += 70;  // as bright as white matter
+    }
+  }
+  input.t1 = drawn.t1;
+  const Segmentation result = segment(input, two_labels());
+  ASSERT_EQ(result.notes.size(), 1U);
+  EXPECT_NE(result.notes.front().find("warning: only 0.0 ml of ventricles"), std::string::npos) << result.notes.front();
+}
+
 TEST(Segment, EverySurfaceIsSoundAndKeepsItsLabelsVolume) {
   const Head drawn = head(oblique());
   SegmentInput input;

@@ -51,6 +51,24 @@ TEST(Ventricles, AWideCleftThatReachesUpToTheSurfaceIsNone) {
   EXPECT_EQ(count(find_ventricles(within_brain(in_cleft), brain, ventricle_depth)), 0U);
 }
 
+TEST(Ventricles, ABodyThatHangsOnAWideCleftComesLoose) {
+  const auto hanging = [](const Eigen::Vector3d& x) { return x.norm() <= 6.5; };
+  const auto in_neck = [](const Eigen::Vector3d& x) { return x.x() > 0 && x.tail<2>().norm() < 2.2; };
+  const auto in_cleft = [](const Eigen::Vector3d& x) { return x.x() > 10 && std::abs(x.y()) < 6; };
+  const Mask found =
+      find_ventricles(within_brain([&](const Eigen::Vector3d& x) { return hanging(x) || in_neck(x) || in_cleft(x); }),
+                      brain, ventricle_depth);
+  const auto share_of = [&](const Mask& part) {
+    std::size_t both = 0;
+    for (std::size_t i = 0; i < part.voxels.size(); ++i) {
+      both += found.voxels[i] != 0 && part.voxels[i] != 0 ? 1 : 0;
+    }
+    return static_cast<double>(both) / static_cast<double>(count(part));
+  };
+  EXPECT_GT(share_of(within_brain(hanging)), 0.95);
+  EXPECT_LT(share_of(within_brain(in_cleft)), 0.02);
+}
+
 TEST(Ventricles, TheDepthAskedForDecides) {
   const auto in_body = [](const Eigen::Vector3d& x) { return (x - Eigen::Vector3d(12, 0, 0)).norm() <= 5; };
   const Mask csf = within_brain(in_body);
