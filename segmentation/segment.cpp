@@ -198,6 +198,14 @@ void note_body(Segmentation& result, const BrainBody& body, const Mask& tissue, 
          << " ml, where adults have 1000 to 1800; is a part missing, or are the image's lengths wrong?";
     result.notes.push_back(text.str());
   }
+  if (body.cut_area > 0) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1) << "warning: the image's border cuts the brain off over "
+         << body.cut_area / 100
+         << " cm2; the cut counts as its surface, and as skull where none is given. What moves near it is not to be "
+            "trusted";
+    result.notes.push_back(text.str());
+  }
   constexpr double worth_saying = 1000;  // mm³
   if (body.loose_volume > worth_saying) {
     std::ostringstream text;
@@ -229,15 +237,23 @@ Segmentation segment_labels(const SegmentInput& input, const SegmentOptions& opt
   return result;
 }
 
-// Ventricles are softer than tissue and lose their fluid: what is not found of them resists as tissue.
+// Ventricles are softer than tissue: what is not found of them resists as tissue, and the other way round.
 void note_ventricles(Segmentation& result, double brain_volume) {
   constexpr std::uint16_t ventricles[] = {default_label::ventricles};
+  constexpr double many_ventricles = 0.2;  // of the brain's volume; beyond most hydrocephalus
   const double found = volume(mask_of(*result.labels, ventricles));
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1);
   if (found < few_ventricles * brain_volume) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << "warning: only " << found / 1000
+    text << "warning: only " << found / 1000
          << " ml of ventricles were told apart in the T1, where adults have 10 to 60; the others count as parenchyma. "
             "Look at the labels in the report, or give a label map";
+  } else if (found > many_ventricles * brain_volume) {
+    text << "warning: " << found / 1000
+         << " ml count as ventricles, where adults have 10 to 60; is the image a T1, in which fluid is dark? "
+            "Look at the labels in the report, or give a label map";
+  }
+  if (!text.str().empty()) {
     result.notes.push_back(text.str());
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -13,16 +14,10 @@ namespace {
 void check_size(const Mask& brain) {
   const Eigen::Vector3d& spacing = brain.geometry.spacing;
   Eigen::Array3i low = brain.geometry.size, high = Eigen::Array3i::Zero();
-  for (int k = 0; k < brain.geometry.size.z(); ++k) {
-    for (int j = 0; j < brain.geometry.size.y(); ++j) {
-      for (int i = 0; i < brain.geometry.size.x(); ++i) {
-        if (brain.at(i, j, k) != 0) {
-          low = low.min(Eigen::Array3i(i, j, k));
-          high = high.max(Eigen::Array3i(i, j, k) + 1);
-        }
-      }
-    }
-  }
+  for_each_inside(brain, [&](const Eigen::Array3i& voxel) {
+    low = low.min(voxel);
+    high = high.max(voxel + 1);
+  });
   std::ostringstream advice;
   advice << "are the image's lengths in metres, centimetres or micrometres? Voxels of " << spacing.x() << " x "
          << spacing.y() << " x " << spacing.z() << " mm are what its header says; correct it";
@@ -87,6 +82,32 @@ Mask within(const LabelMap& labels, std::uint16_t skull, const Mask& brain) {
   return reached(std::move(open), brain);
 }
 
+// The area of the body's faces on the image's border, mm². A field of view cuts off a stem or a vertex; a mask that
+// lies on more of the border is of something else, or inside out.
+double checked_cut(const Mask& body) {
+  constexpr double largest_share = 0.2;
+  const ImageGeometry& geometry = body.geometry;
+  double cut = 0, whole = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double face = geometry.voxel_volume() / geometry.spacing[axis];
+    const Eigen::Array3i step = Eigen::Vector3i::Unit(axis).array();
+    const auto inside = [&](const Eigen::Array3i& voxel) {
+      return (voxel >= 0).all() && (voxel < geometry.size).all() && body.at(voxel.x(), voxel.y(), voxel.z()) != 0;
+    };
+    for_each_inside(body, [&](const Eigen::Array3i& voxel) {
+      whole += face * ((inside(voxel - step) ? 0 : 1) + (inside(voxel + step) ? 0 : 1));
+      cut += face * ((voxel[axis] == 0 ? 1 : 0) + (voxel[axis] == geometry.size[axis] - 1 ? 1 : 0));
+    });
+  }
+  if (cut > largest_share * whole) {
+    std::ostringstream text;
+    text << "the image's border cuts the brain off over " << std::lround(100 * cut / whole)
+         << " % of its surface; is the mask or the label inside out? If not, take an image that shows the brain whole";
+    throw std::invalid_argument(text.str());
+  }
+  return cut;
+}
+
 }  // namespace
 
 void check_across(double across, const std::string& advice) {
@@ -107,10 +128,7 @@ BrainBody brain_body(const Mask& tissue, double closing) {
   BrainBody body;
   body.mask = holes_filled(largest_component(closing > 0 ? closed(tissue, closing) : tissue));
   check_size(body.mask);
-  if (touches_border(body.mask)) {
-    throw std::invalid_argument(
-        "the brain touches the image's border, so its surface cannot be closed; pad the images by a few voxels of 0");
-  }
+  body.cut_area = checked_cut(body.mask);
   count_loose(tissue, body);
   return body;
 }

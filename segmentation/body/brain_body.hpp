@@ -14,11 +14,12 @@ struct BrainBody {
   Mask mask;
   double loose_volume = 0;  ///< of tissue that hangs together with none of it and was dropped, mm³
   std::size_t loose_pieces = 0;
+  double cut_area = 0;  ///< of its surface on the image's border, where the field of view cuts it off, mm²
 };
 
 /// The largest piece of the tissue, its sulci closed where they are narrower than twice the radius (mm; 0: not closed),
-/// holes filled. Throws std::invalid_argument when there is none, it is not of a brain's size, or the image cuts it
-/// off.
+/// holes filled. Throws std::invalid_argument when there is none, it is not of a brain's size, or a fifth of its
+/// surface lies on the image's border.
 BrainBody brain_body(const Mask& tissue, double closing);
 
 /// Throws std::invalid_argument, with the advice, unless a brain can be so many mm across.

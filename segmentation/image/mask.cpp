@@ -13,20 +13,6 @@ struct Box {
   Eigen::Array3i upper;  // inclusive
 };
 
-template <class Visit>
-void for_each_inside(const Mask& mask, const Visit& visit) {
-  const Eigen::Array3i size = mask.geometry.size;
-  for (int k = 0; k < size.z(); ++k) {
-    for (int j = 0; j < size.y(); ++j) {
-      for (int i = 0; i < size.x(); ++i) {
-        if (mask.at(i, j, k) != 0) {
-          visit(Eigen::Array3i(i, j, k));
-        }
-      }
-    }
-  }
-}
-
 Box bounding_box(const Mask& mask) {
   Box box{mask.geometry.size, Eigen::Array3i::Constant(-1)};
   for_each_inside(mask, [&](const Eigen::Array3i& voxel) {

@@ -17,6 +17,21 @@ Mask mask_of(const LabelMap& labels, std::span<const std::uint16_t> wanted);
 /// The voxels that are not zero.
 Mask mask_of(const LabelMap& labels);
 
+/// Calls visit(voxel), an Eigen::Array3i, for each voxel inside, in the order of storage.
+template <class Visit>
+void for_each_inside(const Mask& mask, const Visit& visit) {
+  const Eigen::Array3i size = mask.geometry.size;
+  for (int k = 0; k < size.z(); ++k) {
+    for (int j = 0; j < size.y(); ++j) {
+      for (int i = 0; i < size.x(); ++i) {
+        if (mask.at(i, j, k) != 0) {
+          visit(Eigen::Array3i(i, j, k));
+        }
+      }
+    }
+  }
+}
+
 std::size_t count(const Mask& mask);
 
 /// Volume of the voxels inside, mm³.

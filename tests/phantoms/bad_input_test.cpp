@@ -68,8 +68,8 @@ TEST_F(BadInput, VoxelsThatAreNoNumbers) {
   expect_refused(run_scene("bad.xml"), {"nan.nii.gz"});
 }
 
-TEST_F(BadInput, ABrainThatTouchesTheImageBorder) {
-  write_image(at("border.nii.gz"), ball_labels(8));
+TEST_F(BadInput, ABrainHalfBeyondTheImagesBorder) {
+  write_image(at("border.nii.gz"), ball_labels(14));
   expect_refused("brainshift segment --quiet --brain-labels 1 --edge-length 12 --labels " + at("border.nii.gz") +
                      " --out " + at("out"),
                  {"border"});

@@ -57,6 +57,20 @@ TEST(Segment, VentriclesThatAT1DoesNotShowAreWarnedOf) {
   EXPECT_NE(result.notes.front().find("warning: only 0.0 ml of ventricles"), std::string::npos) << result.notes.front();
 }
 
+TEST(Segment, ABrainThatTheFieldOfViewCutsOffIsClosedThereAndWarnedOf) {
+  const Head drawn = head(oblique());
+  SegmentInput input;
+  input.labels = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, 0.0, 20.0), brain_radius);
+  SegmentOptions options = two_labels();
+  options.brain_labels = {1};
+  const Segmentation result = segment(input, options);
+  EXPECT_TRUE(result.measures.at("brain").closed);
+  EXPECT_NEAR(result.measures.at("brain").volume, volume(mask_of(*input.labels)),
+              0.01 * volume(mask_of(*input.labels)));
+  ASSERT_FALSE(result.notes.empty());
+  EXPECT_NE(result.notes.front().find("border cuts the brain off over 2"), std::string::npos) << result.notes.front();
+}
+
 TEST(Segment, EverySurfaceIsSoundAndKeepsItsLabelsVolume) {
   const Head drawn = head(oblique());
   SegmentInput input;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::brain_body_test {
@@ -48,6 +50,18 @@ TEST(BrainBody, LoosePiecesAreDroppedAndTheirVolumeToldExceptOnesThatClosingJoin
   EXPECT_NEAR(open.loose_volume, 3, 1e-9);
   const BrainBody shut = brain_body(tissue, 4);
   EXPECT_EQ(shut.loose_pieces, 2U);
+}
+
+TEST(BrainBody, WhatTheFieldOfViewCutsOffIsMeasuredAndRefusedWhereItIsMuch) {
+  EXPECT_EQ(brain_body(mask_of(ball(grid, middle, 25)), 0).cut_area, 0);
+  // The grid's first layer cuts the ball 20 mm from its middle: a disc of radius 15 mm.
+  const Eigen::Vector3d place = grid.to_world(Eigen::Vector3d(20, 40, 40));
+  EXPECT_NEAR(brain_body(mask_of(ball(grid, place, 25)), 0).cut_area, 225 * std::numbers::pi, 20);
+  Mask outside = mask_of(ball(grid, middle, 25));
+  for (std::uint8_t& voxel : outside.voxels) {
+    voxel = voxel == 0 ? 1 : 0;
+  }
+  EXPECT_THROW(brain_body(outside, 0), std::invalid_argument);
 }
 
 // Tissue within 20 mm, fluid to 26 mm and in a canal downward.

@@ -31,8 +31,8 @@ TEST(Segment, InputThatDoesNotFitIsRefusedInASentence) {
   EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(empty, two_labels()); }, {"empty"}));
 
   SegmentInput cut = empty;
-  cut.brain_mask = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, 0.0, 20.0), brain_radius);
-  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(cut, two_labels()); }, {"border", "pad"}));
+  cut.brain_mask = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, 0.0, 34.0), brain_radius);
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(cut, two_labels()); }, {"border", "inside out"}));
 
   SegmentInput broken;
   broken.t1 = drawn.t1;
