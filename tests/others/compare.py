@@ -133,17 +133,30 @@ def by_workbench(head):
         "wb_command", "-volume-warpfield-resample", image, head.folder / "resampling_world.nii.gz", image, "TRILINEAR", out))
 
 
+def write_fcsv(path, ras):
+    with open(path, "w") as file:
+        file.write("# Markups fiducial file version = 4.6\n# CoordinateSystem = RAS\n")
+        file.write("# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label\n")
+        file.writelines("%d,%.6f,%.6f,%.6f,0,0,0,1,1,1,0,p\n" % (i, *p) for i, p in enumerate(ras))
+
+
+def read_fcsv(path):
+    """Places in RAS."""
+    text = Path(path).read_text()
+    places = np.array([[float(word) for word in line.split(",")[1:4]] for line in text.splitlines() if line[:1] != "#"])
+    return places * TO_RAS if "CoordinateSystem = LPS" in text else places
+
+
 def by_plastimatch(head):
-    """Its .fcsv is in RAS, whatever the file says. Points it moves by the displacement of the nearest voxel."""
-    with open(head.folder / "in.fcsv", "w") as file:
-        file.write("# Markups fiducial file version = 4.6\n# CoordinateSystem = RAS\n# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label\n")
-        file.writelines("%d,%.6f,%.6f,%.6f,0,0,0,1,1,1,0,p\n" % (i, *p) for i, p in enumerate(head.points * TO_RAS))
-    quietly("plastimatch", "convert", "--input", head.folder / "in.fcsv", "--xf", head.forward_file, "--output-pointset",
-            head.folder / "out.fcsv")
-    lines = [line.split(",") for line in open(head.folder / "out.fcsv") if not line.startswith("#")]
-    moved = np.array([[float(word) for word in line[1:4]] for line in lines]) * TO_RAS
-    nearest = head.points + head.forward[tuple(np.rint(head.to_index(head.points)).astype(int).T)]
-    yield f"points (not ours, {points_apart(head, moved)[1]:.1f})", (len(moved), np.abs(moved - nearest).max())
+    """Its .fcsv is in RAS, whatever the file says. Points it moves by the displacement of the nearest voxel, so it is
+    asked at voxels; between them it is off by as much as the field changes in half a voxel."""
+    voxels = nibabel.affines.apply_affine(head.t1.affine, np.unique(np.rint(head.to_index(head.points)), axis=0))
+    write_fcsv(head.folder / "voxels.fcsv", voxels)
+    head.warp("voxels.fcsv")
+    quietly("plastimatch", "convert", "--input", head.folder / "voxels.fcsv", "--xf", head.forward_file, "--output-pointset",
+            head.folder / "theirs.fcsv")
+    theirs, ours = (read_fcsv(head.folder / name) for name in ("theirs.fcsv", "warped_voxels.fcsv"))
+    yield "points at voxels", (len(theirs), np.abs(theirs - ours).max())
     yield "image", head.ramps_apart(lambda image, out: quietly(
         "plastimatch", "convert", "--input", image, "--xf", head.resampling_file, "--interpolation", "linear", "--output-img", out))
 
