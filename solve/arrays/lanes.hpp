@@ -19,7 +19,8 @@
 #define BRAINSHIFT_CLONES
 #endif
 
-#if defined(__AVX512F__)
+#if defined(BRAINSHIFT_BASIC_WIDTH)  // by the build
+#elif defined(__AVX512F__)
 #define BRAINSHIFT_BASIC_WIDTH 8
 #elif defined(__AVX__)
 #define BRAINSHIFT_BASIC_WIDTH 4
@@ -42,6 +43,21 @@ constexpr int lanes = 8;
 /// is not what a compiler for narrower ones does by itself. To be kept; loops reckon with as many as a register holds.
 using Lane = double __attribute__((vector_size(8 * lanes), aligned(8 * lanes)));
 using Mask = std::int64_t __attribute__((vector_size(8 * lanes), aligned(8 * lanes)));
+
+/// A register in memory, aligned as one of its numbers. Not by way of memcpy, of which Clang makes a call where it
+/// checks addresses.
+template <class Register, class Number>
+struct [[gnu::packed, gnu::aligned(alignof(Number)), gnu::may_alias]] InMemory {
+  Register of;
+};
+template <class Number, class Register>
+BRAINSHIFT_INLINE void from_memory(const Number* from, Register& to) {
+  to = reinterpret_cast<const InMemory<Register, Number>*>(from)->of;
+}
+template <class Register, class Number>
+BRAINSHIFT_INLINE void to_memory(const Register& from, Number* to) {
+  reinterpret_cast<InMemory<Register, Number>*>(to)->of = from;
+}
 
 BRAINSHIFT_INLINE bool any(const Mask& mask) {
   std::int64_t some = 0;

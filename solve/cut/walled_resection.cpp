@@ -9,6 +9,7 @@
 
 #include "discretise/body/scanlines.hpp"
 #include "segmentation/geometry/finer.hpp"
+#include "segmentation/geometry/joined.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/cut/cut_body.hpp"
@@ -90,13 +91,6 @@ Surface triangles_where(const Surface& surface, const Scanlines& body, bool insi
 Surface turned_over(Surface surface) {
   surface.triangles.col(1).swap(surface.triangles.col(2));
   return surface;
-}
-
-Surface joined(const Surface& a, const Surface& b) {
-  Surface both{Points(a.vertices.rows() + b.vertices.rows(), 3), Triangles(a.triangles.rows() + b.triangles.rows(), 3)};
-  both.vertices << a.vertices, b.vertices;
-  both.triangles << a.triangles, b.triangles.array() + static_cast<std::int32_t>(a.vertices.rows());
-  return both;
 }
 
 double volume_of(const BackgroundCells& cells) {

@@ -8,26 +8,27 @@ namespace brainshift::solve {
 namespace {
 
 namespace each_basic {
-constexpr std::size_t width = 16;  // bytes of a register
+#define BRAINSHIFT_WIDTH BRAINSHIFT_BASIC_WIDTH
 #include "solve/ensemble/each_kernels_body.hpp"
+#undef BRAINSHIFT_WIDTH
 }  // namespace each_basic
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define BRAINSHIFT_EACH_LEVELS
-
+#ifdef BRAINSHIFT_LEVELS
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 namespace each_avx2 {
-constexpr std::size_t width = 32;
+#define BRAINSHIFT_WIDTH 4
 #include "solve/ensemble/each_kernels_body.hpp"
+#undef BRAINSHIFT_WIDTH
 }  // namespace each_avx2
 #pragma GCC pop_options
 
 #pragma GCC push_options
 #pragma GCC target("avx2,fma,avx512f,avx512vl,avx512bw,avx512dq")
 namespace each_avx512 {
-constexpr std::size_t width = 64;
+#define BRAINSHIFT_WIDTH 8
 #include "solve/ensemble/each_kernels_body.hpp"
+#undef BRAINSHIFT_WIDTH
 }  // namespace each_avx512
 #pragma GCC pop_options
 #endif
@@ -41,7 +42,7 @@ constexpr std::size_t width = 64;
   }
 
 constexpr EachKernels each_level[] = {
-#ifdef BRAINSHIFT_EACH_LEVELS
+#ifdef BRAINSHIFT_LEVELS
     BRAINSHIFT_EACH_KERNELS(each_avx512, "AVX-512"),
     BRAINSHIFT_EACH_KERNELS(each_avx2, "AVX2"),
 #endif

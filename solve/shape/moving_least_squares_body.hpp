@@ -8,13 +8,13 @@ typedef double Register __attribute__((vector_size(8 * width)));
 typedef std::int64_t Truth __attribute__((vector_size(8 * width)));
 
 BRAINSHIFT_INLINE void load(const Lane& lane, int first, Register& part) {
-  __builtin_memcpy(&part, reinterpret_cast<const double*>(&lane) + first, sizeof part);
+  from_memory(reinterpret_cast<const double*>(&lane) + first, part);
 }
 BRAINSHIFT_INLINE void store(const Register& part, int first, Lane& lane) {
-  __builtin_memcpy(reinterpret_cast<double*>(&lane) + first, &part, sizeof part);
+  to_memory(part, reinterpret_cast<double*>(&lane) + first);
 }
 BRAINSHIFT_INLINE void store(const Truth& part, int first, Mask& mask) {
-  __builtin_memcpy(reinterpret_cast<std::int64_t*>(&mask) + first, &part, sizeof part);
+  to_memory(part, reinterpret_cast<std::int64_t*>(&mask) + first);
 }
 
 /// The monomials at ξ: 1 x y z √2xy √2xz √2yz x² y² z² (Wittek et al., eq. 2), in the plane 1 x y √2xy x² y². With the

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "segmentation/geometry/joined.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 
@@ -16,14 +17,6 @@ const Surface body = box({0, 0, 0}, {10, 20, 30});
 
 std::string fault(const Surface& surface) {
   return test::refusal([&] { check_encloses_body(surface); });
-}
-
-/// Two surfaces as one.
-Surface joined(const Surface& a, const Surface& b) {
-  Surface both{Points(a.vertices.rows() + b.vertices.rows(), 3), Triangles(a.triangles.rows() + b.triangles.rows(), 3)};
-  both.vertices << a.vertices, b.vertices;
-  both.triangles << a.triangles, b.triangles.array() + static_cast<std::int32_t>(a.vertices.rows());
-  return both;
 }
 
 TEST(CheckSurface, LetsPassWhatEnclosesABody) {

@@ -5,13 +5,13 @@
 
 #include "solve/boundary/essential_conditions.hpp"
 #include "solve/shape/shape_functions.hpp"
-#include "tests/unit/solve/box_surface.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/unit/solve/weighted_box.hpp"
 
 namespace brainshift::solve::contact_test {
 
-using test::box_surface;
+using test::box;
 using test::irregular_box;
 using test::random_points;
 
@@ -20,7 +20,7 @@ constexpr double side = 40;
 class ContactWithABox : public testing::Test {
  protected:
   WeightedBox cloud;
-  SignedDistance skull{box_surface(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(side + 2))};
+  SignedDistance skull{box(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(side + 2))};
   std::vector<std::int32_t> surface_nodes() const {
     std::vector<std::int32_t> nodes;
     for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
@@ -81,8 +81,8 @@ TEST_F(ContactWithABox, CountsTheWorkOfItsPushes) {
 TEST_F(ContactWithABox, SaysWhenANodeIsTooFarOutToBePushedBack) {
   SignedDistanceOptions near;
   near.far = false;
-  const Surface box = box_surface(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(side + 2));
-  Contact contact(SignedDistance(box, near), cloud.nodes.positions, surface_nodes(), cloud.rows);
+  const Surface surface = box(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(side + 2));
+  Contact contact(SignedDistance(surface, near), cloud.nodes.positions, surface_nodes(), cloud.rows);
   EXPECT_FALSE(contact.measure(shifted({2 + 0.9 * near.band(), 0, 0})).lost);
   EXPECT_TRUE(contact.measure(shifted({2 + 1.5 * near.band(), 0, 0})).lost);
   EXPECT_FALSE(Contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows)
@@ -91,7 +91,7 @@ TEST_F(ContactWithABox, SaysWhenANodeIsTooFarOutToBePushedBack) {
 }
 
 TEST_F(ContactWithABox, AllowsNodesToStayWhereTheyStarted) {
-  const SignedDistance tight(box_surface(Eigen::Vector3d::Constant(0.3), Eigen::Vector3d::Constant(side - 0.3)));
+  const SignedDistance tight(box(Eigen::Vector3d::Constant(0.3), Eigen::Vector3d::Constant(side - 0.3)));
   Contact contact(tight, cloud.nodes.positions, surface_nodes(), cloud.rows);
   contact.weigh(cloud.mass);
   NodalVectors u = shifted(Eigen::Vector3d::Zero());

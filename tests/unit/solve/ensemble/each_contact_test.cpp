@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-#include "tests/unit/solve/box_surface.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/weighted_box.hpp"
 
 namespace brainshift::solve::each_contact_test {
@@ -14,7 +14,7 @@ TEST(EachContact, PushesEachMemberAsItWouldBePushedAlone) {
   const WeightedBox cloud;
   std::vector<std::int32_t> nodes(cloud.nodes.size());
   std::iota(nodes.begin(), nodes.end(), 0);
-  const SignedDistance skull(test::box_surface(Eigen::Vector3d::Constant(-1), Eigen::Vector3d::Constant(41)));
+  const SignedDistance skull(test::box(Eigen::Vector3d::Constant(-1), Eigen::Vector3d::Constant(41)));
   Contact contact(skull, cloud.nodes.positions, nodes, cloud.rows);
   EachContact each(contact);
   Chosen chosen;

@@ -3,14 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/solve/box_surface.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift::solve::each_distance_test {
 
 /// Inside, at the surface, and beyond the grid, which reaches 25 mm past the surface.
 TEST(DistanceOfEach, IsThatAtEachPlace) {
-  const SignedDistance distance(test::box_surface(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(20)));
+  const SignedDistance distance(test::box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(20)));
   for (const double reach : {20.0, 24.0, 140.0}) {
     const Points places = test::random_points(static_cast<int>(members), reach);
     VectorOfEach<double> each;

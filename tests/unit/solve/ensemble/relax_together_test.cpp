@@ -8,7 +8,7 @@
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/interface/constants.hpp"
 #include "solve/run/prepare.hpp"
-#include "tests/unit/solve/box_surface.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve::relax_together_test {
@@ -26,7 +26,7 @@ struct Pressed {
         model.conditions.displacement.row(a) << 0, 0, z < 1e-9 ? 0 : -6;
       }
     }
-    model.skull = test::box_surface(Eigen::Vector3d::Constant(-1), Eigen::Vector3d::Constant(model_side + 1));
+    model.skull = test::box(Eigen::Vector3d::Constant(-1), Eigen::Vector3d::Constant(model_side + 1));
     model.gravity = {0, 3, 0};
     options.shape.basis = Basis::linear;
     options.load_steps = 20;

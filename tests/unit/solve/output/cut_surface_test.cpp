@@ -21,7 +21,7 @@ namespace brainshift::solve::cut_surface_test {
 
 /// A cube that is pulled open across a sheet over half of it.
 Model cube() {
-  Model model = uniaxial(1.1, 9);
+  Model model = uniaxial(1.1, 7);
   Cut sheet;
   sheet.name = "sheet";
   sheet.vertices.resize(4, 3);

@@ -5,7 +5,7 @@
 
 #include "solve/run/coarse.hpp"
 #include "solve/run/whole_body.hpp"
-#include "tests/unit/solve/box_surface.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve::together_test {
@@ -19,7 +19,7 @@ Model drained_block() {
       model.conditions.displacement.row(a) << 0, 0, z < 1e-9 ? 0 : -3;
     }
   }
-  model.skull = test::box_surface(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(62));
+  model.skull = test::box(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(62));
   model.fluid = DrainedFluid{.gravity = {0, 9.8, 0}, .gravity_of_image = {0, 9.8, 0}, .level = 30, .density = 1007};
   return model;
 }

@@ -38,6 +38,7 @@ TEST(CoarseStart, EndsWhereTheStartFromRestEndsInFewerSteps) {
 TEST(CoarseStart, IsFromRestWhereTheWayThereIsWanted) {
   const Model model = pressed_bar();
   SolveOptions options;
+  options.shape.basis = Basis::linear;
   options.start = Start::coarse;
   options.snapshot_every = 100;
   options.max_steps = 50;  // it need not come to rest
@@ -50,6 +51,7 @@ TEST(CoarseStart, IsFromRestWhereTheLoadDoesNotEndInFull) {
   Model model = pressed_bar();
   model.curve = LoadCurve({0, 1}, {0, 0.5}, LoadCurve::Join::smooth);
   SolveOptions options;
+  options.shape.basis = Basis::linear;
   options.max_steps = 50;
   const SolveResult from_rest = solve_whole_body(model, options, {});
   options.start = Start::coarse;
@@ -68,6 +70,7 @@ TEST(CoarseStart, IsFromRestWhereTheCoarseCloudIsNotHeld) {
   }
   model.gravity = {0, 0, 0.01};
   SolveOptions options;
+  options.shape.basis = Basis::linear;
   options.max_steps = 40;  // it need not come to rest
   const SolveResult from_rest = solve_whole_body(model, options, {});
   options.start = Start::coarse;
