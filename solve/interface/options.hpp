@@ -58,7 +58,7 @@ struct SolveOptions {
   /// Relaxation: stop when the bound of the remaining error is below this, mm, and below 1/50 of the displacement.
   double tolerance = 0.01;
   int load_steps = 400;  ///< relaxation: steps over the load's curve; more where a body may tear
-  /// Relaxation of a whole body. A coarse start is one from rest all the same for a body that is cut, torn or
+  /// Relaxation of a whole body in space. A coarse start is one from rest all the same for a body that is cut, torn or
   /// resected, where snapshots are wanted or the load's curve does not end at 1, and where the coarse cloud cannot be
   /// solved or its solution does not hold.
   Start start = Start::rest;
