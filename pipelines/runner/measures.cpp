@@ -70,6 +70,7 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                      {"smallest_jacobian", m.smallest_jacobian},
                      {"largest_stretch", m.largest_stretch},
                      {"compressed_share", m.compressed_share},
+                     {"pressed_share", m.pressed_share},
                      {"seconds_setup", m.seconds_setup},
                      {"seconds_stepping", m.seconds_stepping}};
   if (m.measured) {

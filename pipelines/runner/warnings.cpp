@@ -123,9 +123,11 @@ Warnings warnings_of_weight(const solve::Model& model) {
       "from the truth than no gravity; for a head take <gravity> with a level of the fluid"};
 }
 
+namespace {
+
 /// Measured on a cube between frictionless plates under MMLS: 1.25 points a node are exact down to 0.8 of its height
 /// and wholly wrong at 0.7, although the steps end; 1.9 are exact at 0.6.
-Warnings warnings_of(const solve::SolveMeasures& measures) {
+Warnings warnings_of_points(const solve::SolveMeasures& measures) {
   constexpr double enough = 1.6, little_compression = 0.8;
   const double points_per_node = static_cast<double>(measures.integration_points) / static_cast<double>(measures.nodes);
   if (points_per_node >= enough || measures.smallest_jacobian >= little_compression) {
@@ -135,6 +137,40 @@ Warnings warnings_of(const solve::SolveMeasures& measures) {
           with_digits(measures.smallest_jacobian) +
           " of its volume: motions that no point sees may have grown; take smaller cells or more points a cell, two "
           "points a node"};
+}
+
+Warnings warnings_of_pressure(const solve::SolveMeasures& measures) {
+  if (measures.pressed_share < solve::much_pressed) {
+    return {};
+  }
+  return {with_digits(100 * measures.pressed_share) + " % of a tissue's volume are under a pressure of more than " +
+          with_digits(solve::most_pressure) +
+          " shear moduli, which the answer does not withstand: it may be all wrong; is a change of volume prescribed "
+          "that the tissue does not allow? Take a smaller load, a smaller Poisson ratio, or more nodes"};
+}
+
+Warnings warnings_of_few_nodes(const solve::SolveMeasures& measures) {
+  std::string parts;
+  for (const solve::ThinPart& part : measures.thin) {
+    parts += (parts.empty() ? "" : ", ") + part.what + " " + with_digits(part.spacings);
+  }
+  if (parts.empty()) {
+    return {};
+  }
+  return {
+      "of so few nodes nothing says how far off the answer is for want of nodes, and it may be far off: spacings "
+      "across, where four are needed, " +
+      parts + "; take more nodes"};
+}
+
+}  // namespace
+
+Warnings warnings_of(const solve::SolveMeasures& measures) {
+  Warnings warnings = warnings_of_points(measures);
+  for (const Warnings& more : {warnings_of_pressure(measures), warnings_of_few_nodes(measures)}) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  }
+  return warnings;
 }
 
 Warnings warnings_of(const std::optional<solve::Outlier>& outlier) {

@@ -31,7 +31,7 @@ Warnings warnings_of(const solve::Model& model, const Points& displacement);
 /// Of a head that is weighed as if it did not float.
 Warnings warnings_of_weight(const solve::Model& model);
 
-/// Of strong compression with few integration points.
+/// Of strong compression with few integration points, of high pressure, and of parts that few nodes hardly resolve.
 Warnings warnings_of(const solve::SolveMeasures& measures);
 
 /// Of what was measured where it contradicts itself.

@@ -8,6 +8,7 @@
 
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/quadrature/cell_boundary.hpp"
+#include "solve/quadrature/outline.hpp"
 
 namespace brainshift::solve {
 
@@ -57,7 +58,14 @@ Surface known_boundary(const Model& model) {
   if (model.resection && !(model.resection->wall && model.boundary)) {
     return {};
   }
-  return model.boundary ? *model.boundary : cell_boundary(model.cells);
+  if (model.boundary) {
+    return *model.boundary;
+  }
+  Surface boundary = cell_boundary(model.cells);
+  if (boundary.triangles.rows() == 0 && is_planar(model.cells.kind)) {
+    boundary = strips(model.cloud.positions, outline(model.cloud, model.cells));
+  }
+  return boundary;
 }
 
 std::optional<SurfaceNormals> boundary_normals(const Surface& boundary, const CutFacets& cut, const OrderedCloud& cloud,

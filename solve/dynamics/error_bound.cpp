@@ -22,7 +22,7 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded, double roun
   rates_.push_back(damping_rate);
   bounds_.push_back(std::numeric_limits<double>::infinity());
   loaded_ = loaded ? loaded_ + 1 : 0;
-  if (loaded && moved_.size() > recent_windows) {
+  if (loaded_ > recent_windows) {  // a rate while the load comes is the load's
     const double earlier = *(moved_.end() - 1 - recent_windows);
     const double measured = moved > rounding ? std::pow(moved / earlier, 1.0 / (recent_windows * window_)) : 0.0;
     const double rate = std::max(measured, largest_recent(rates_));

@@ -30,7 +30,8 @@ class Motion {
   /// Notes the first point that turned inside out.
   bool squeezed();
 
-  /// Goes on from û under the full load, at rest, with as much work done as the body holds. After weigh().
+  /// Goes on from û under the full load, at rest. Energies count from the second look() on, with as much work done
+  /// as the body holds then. After weigh().
   void start_from(const NodalVectors& parameters, const PointLaws& laws);
 
   /// v ← P⁻¹ v: the masses as a step sees them are `mass`, and P⁻¹ where there are rigid modes.
@@ -98,6 +99,7 @@ class Motion {
   double lost_work_ = 0;      // in damping and contact, from the middle of the step before to that of the last
   double external_work_ = 0;
   double dissipated_ = 0;
+  int looks_before_books_ = 0;   // until energies count
   double largest_energy_ = 0;    // mJ
   double largest_work_ = 0;      // mJ
   double rounding_energy_;       // mJ; energies below it are not compared

@@ -193,11 +193,12 @@ class Relaxation {
   double rounding_of_places() const { return rounding_of_step(farthest_, Precision::double_precision); }
 
   void fail_at_standstill() {
+    motion_.result.rounded = points().precision() == Precision::single_precision;
     std::ostringstream text;
     text << "not converged: since step " << motion_.result.steps - 20 * window_
          << " the body moves by no more than rounding, with an error bound of " << bound_.value() << " mm where "
          << tolerance() << " mm are wanted; take a larger tolerance"
-         << (points().precision() == Precision::single_precision ? " or double precision" : "");
+         << (motion_.result.rounded ? " or double precision" : "");
     motion_.result.failure = text.str();
   }
 

@@ -32,6 +32,7 @@ struct PointState {
   double smallest_jacobian = 1;
   double largest_stretch = 1;
   double compressed_share = 0;  ///< of the volume, with a principal stretch below crease_stretch
+  double pressed_share = 0;     ///< of the volume, under a pressure of more than most_pressure
 };
 PointState point_state(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch);
 

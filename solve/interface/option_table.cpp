@@ -70,7 +70,7 @@ OptionTable<SolveOptions> stepping_options() {
       number_option<Options>(
           "load_steps", &Options::load_steps, {.low = 1}, "",
           "relaxation: steps over the load's curve. A body that turns unstable is tried again with five times as many, "
-          "then with linear shape functions, too"),
+          "then with linear shape functions, then in double precision"),
       choice_option<Options>("start", &Options::start, {{"coarse", Start::coarse}, {"rest", Start::rest}},
                              "of relaxation: under the full load, as a coarse cloud's solution lies, or undeformed, "
                              "with a history of the load; also where a body is cut or snapshots are wanted"),

@@ -107,6 +107,19 @@ struct MeasuredFit {
   Eigen::MatrixXd covariance;
 };
 
+/// Over the shear modulus: pressures of patches above it may move points to where they should not go. Measured on
+/// blocks all of whose surface is prescribed, two hundred nodes: at 5 exact, at 10 wrong by a fifth of what is imposed.
+inline constexpr double most_pressure = 6;
+
+/// A share of the volume above it that is more than a rim: bonded slabs a ninth as thick as wide have a hundredth.
+inline constexpr double much_pressed = 0.1;
+
+/// Something that the nodes hardly resolve.
+struct ThinPart {
+  std::string what;  ///< "the moved patch", "tissue 2"
+  double spacings;   ///< of the nodes, that it is across
+};
+
 struct SolveMeasures {
   std::size_t nodes = 0;
   std::size_t integration_points = 0;
@@ -130,6 +143,8 @@ struct SolveMeasures {
   double smallest_jacobian = 0;              ///< least det F over integration points
   double largest_stretch = 0;                ///< largest principal stretch
   double compressed_share = 0;               ///< of the volume, pressed so far that its free faces may crease
+  double pressed_share = 0;                  ///< of the volume, patches under a pressure above most_pressure
+  std::vector<ThinPart> thin;                ///< of few nodes, where there is no estimate of the error
   std::optional<double> estimated_error_95;  ///< 95 % of the nodes' estimates, mm, see estimated_error()
   std::optional<CutMeasures> cut;            ///< absent: nothing was cut
   std::optional<SeptumMeasures> septum;
@@ -151,6 +166,7 @@ struct SolveResult {
   SolveMeasures measures;
   std::string failure;    ///< empty when converged; else one sentence: what went wrong, where and when (exit 3)
   bool unstable = false;  ///< failed because it blew up, not for want of steps
+  bool rounded = false;   ///< failed because single precision moves the body no nearer to its rest
 };
 
 }  // namespace brainshift::solve

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "segmentation/geometry/point_tree.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
 #include "solve/quadrature/gauss_points.hpp"
+#include "solve/quadrature/outline.hpp"
 #include "solve/shape/support_search.hpp"
 
 namespace brainshift::solve {
@@ -55,7 +57,8 @@ std::vector<LatticePlace> lattice_of(const Corners& corners) {
 /// What lies inside the body, as far as it is known.
 class KnownInside {
  public:
-  KnownInside(const std::optional<Surface>& boundary, const NodeCloud& cloud) : cloud_(cloud) {
+  KnownInside(const std::optional<Surface>& boundary, const NodeCloud& cloud, const BackgroundCells& cells)
+      : cloud_(cloud) {
     if (boundary) {
       discretise::check_encloses_body(*boundary);
       surface_.emplace(*boundary);
@@ -67,6 +70,7 @@ class KnownInside {
         nodes_.push_back(a);
       }
     }
+    outline_ = is_planar(cells.kind) ? outline(cloud, cells) : outline_;
     places_ = cloud.positions(nodes_, Eigen::all);
     tree_.emplace(places_);
     search_.emplace(cloud.positions, cloud.spacing);
@@ -75,21 +79,21 @@ class KnownInside {
   /// Takes away what of a cell's places is outside; at least one stays.
   void keep_inside(const Corners& corners, double fraction, std::vector<LatticePlace>& places) const {
     const Eigen::Vector3d middle = corners.colwise().mean();
-    if (!lines_) {
+    if (!is_known()) {
       const Eigen::Vector3d out = outward(middle);
       std::ranges::stable_sort(places, {}, [&](const LatticePlace& place) { return out.dot(place.position); });
       places.resize(static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(places.size()))));
       return;
     }
-    std::erase_if(places, [&](const LatticePlace& place) { return !lines_->inside(place.position); });
+    std::erase_if(places, [&](const LatticePlace& place) { return !has(place.position); });
     if (places.empty()) {
-      places.push_back({surface_->nearest(middle).position, 0});
+      places.push_back({nearest(middle), 0});
     }
   }
 
   /// x, or of a concave part that it is the middle of the place nearest to it.
   Eigen::Vector3d inside(const Eigen::Vector3d& x, const std::vector<LatticePlace>& part) const {
-    if (!lines_ || lines_->inside(x)) {
+    if (!is_known() || has(x)) {
       return x;
     }
     return std::ranges::min(part, {}, [&](const LatticePlace& place) { return (place.position - x).squaredNorm(); })
@@ -97,6 +101,15 @@ class KnownInside {
   }
 
  private:
+  bool is_known() const { return lines_ || !outline_.empty(); }
+  bool has(const Eigen::Vector3d& x) const {
+    return lines_ ? lines_->inside(x) : is_within(cloud_.positions, outline_, x);
+  }
+  Eigen::Vector3d nearest(const Eigen::Vector3d& x) const {
+    return surface_ ? surface_->nearest(x).position
+                    : Eigen::Vector3d(places_.row(static_cast<Eigen::Index>(tree_->nearest(x.data()).first)));
+  }
+
   Eigen::Vector3d outward(const Eigen::Vector3d& x) const {
     constexpr double within = 2;  // spacings
     const Eigen::Index node = nodes_[tree_->nearest(x.data()).first];
@@ -109,8 +122,9 @@ class KnownInside {
   const NodeCloud& cloud_;
   std::optional<SurfaceTree> surface_;
   std::optional<discretise::Scanlines> lines_;
-  std::vector<Eigen::Index> nodes_;  // on the surface
-  Points places_;                    // of these
+  std::vector<std::array<std::int32_t, 2>> outline_;  // in the plane
+  std::vector<Eigen::Index> nodes_;                   // on the surface
+  Points places_;                                     // of these
   std::optional<PointTree> tree_;
   std::optional<SupportSearch> search_;
 };
@@ -168,7 +182,7 @@ std::optional<BackgroundCells> with_missing_octants(const BackgroundCells& given
   if (missing.empty() || !(by_surface || by_nodes)) {
     return std::nullopt;
   }
-  const KnownInside body(by_surface ? boundary : std::nullopt, cloud);
+  const KnownInside body(by_surface ? boundary : std::nullopt, cloud, given);
   BackgroundCells cells = given;
   cells.cut_index.resize(cells.size(), -1);
   const std::size_t first = cells.cut_parts.size();

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
+#include "solve/cut/boundary_normals.hpp"
+#include "solve/quadrature/missing_octants.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "solve/shape/shape_functions.hpp"
@@ -75,9 +78,17 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
   for (double& spacing : coarse.model.cloud.spacing) {
     spacing *= coarser;
   }
+  if (is_planar(model.cells.kind)) {  // the coarse surface nodes tell less of the body's outline
+    if (Surface boundary = known_boundary(model); boundary.triangles.rows() > 0) {
+      coarse.model.boundary = std::move(boundary);
+    }
+    if (std::optional<BackgroundCells> cells = with_missing_octants(model.cells, model.boundary, model.cloud)) {
+      coarse.model.cells = std::move(*cells);
+    }
+  }
   coarse.options.region = 0;
   coarse.options.points_per_cell = 1;
-  coarse.options.shape = {.basis = Basis::linear, .derivatives = given.shape.derivatives};
+  coarse.options.shape = {.basis = Basis::linear, .derivatives = given.shape.derivatives, .planar = given.shape.planar};
   coarse.options.snapshot_every = 0;
   coarse.options.tolerance = std::max(given.tolerance, looser * given.region);
   coarse.prepared = prepare(coarse.model, coarse.options, {}, coarse.measures, progress, keep_parts);

@@ -29,7 +29,7 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
                        const Progress& progress, bool keep_parts = false);
 
 /// A cloud with fewer coarse nodes is not solved on them.
-inline constexpr std::size_t fewest_coarse_nodes = 60;
+inline constexpr std::size_t fewest_coarse_nodes = 24;
 
 /// A displacement of the coarse solution at all nodes, with what is prescribed exactly as it is prescribed.
 Points as_prescribed(Points displacement, const Conditions& conditions);

@@ -101,7 +101,9 @@ SolveResult result_of(SteppingResult& stepped, const SolveOptions& options, Solv
   result.measures = std::move(measures);
   result.failure = stepped.failure;
   result.unstable = stepped.unstable;
+  result.rounded = stepped.rounded;
   measure(stepped, result.measures, result.failure);
+  result.measures.pressed_share = options.volumetric == Volumetric::mean_dilatation ? stepped.state.pressed_share : 0;
   if (stepped.fault) {
     result.failure += ' ';
     result.failure += describe(*stepped.fault, stepped.body);

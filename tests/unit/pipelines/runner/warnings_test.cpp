@@ -118,6 +118,26 @@ TEST(Warnings, TellOfFewPointsInAPressedBody) {
   EXPECT_TRUE(warnings_of(measures).empty());
 }
 
+TEST(Warnings, TellOfVolumeUnderHighPressure) {
+  solve::SolveMeasures measures;
+  measures.nodes = 1000;
+  measures.integration_points = 8000;
+  measures.pressed_share = 0.02;
+  EXPECT_TRUE(warnings_of(measures).empty());
+  measures.pressed_share = 0.41;
+  ASSERT_EQ(warnings_of(measures).size(), 1U);
+  expect_parts(warnings_of(measures).front(), {"41 % of a tissue's volume", "6 shear moduli", "change of volume"});
+}
+
+TEST(Warnings, TellOfPartsThatFewNodesHardlyResolve) {
+  solve::SolveMeasures measures;
+  measures.nodes = 300;
+  measures.integration_points = 800;
+  measures.thin = {{"the moved patch", 2.13}, {"tissue 3", 1.5}};
+  ASSERT_EQ(warnings_of(measures).size(), 1U);
+  expect_parts(warnings_of(measures).front(), {"how far off", "the moved patch 2.1, tissue 3 1.5", "more nodes"});
+}
+
 TEST(Warnings, TellOfAFieldThatFolds) {
   registration::RegisterMeasures measures;
   EXPECT_TRUE(warnings_of(measures).empty());

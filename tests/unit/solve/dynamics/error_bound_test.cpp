@@ -46,7 +46,12 @@ TEST(ErrorBound, DoesNotCountUntilTheWholeLoadIsOn) {
   for (int k = 0; k < 30; ++k) {
     bound.add(std::pow(0.9, k * window), 0.5, false);
   }
-  EXPECT_TRUE(std::isinf(bound.value()));
+  for (int k = 0; k < 7; ++k) {
+    bound.add(std::pow(0.9, k * window), 0.5, true);
+    EXPECT_TRUE(std::isinf(bound.value())) << "rates of which the first step was the load's";
+  }
+  bound.add(std::pow(0.9, 7 * window), 0.5, true);
+  EXPECT_TRUE(std::isfinite(bound.value()));
 }
 
 TEST(ErrorBound, StandsStillWhereRoundingKeepsTheStepsAlike) {

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/run/thin_parts.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "segmentation/geometry/point_tree.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr double enough = 4;  // spacings
+
+double mean_spacing_at(const NodeCloud& cloud, const std::vector<Eigen::Index>& nodes) {
+  double sum = 0;
+  for (const Eigen::Index a : nodes) {
+    sum += cloud.spacing[static_cast<std::size_t>(a)];
+  }
+  return sum / static_cast<double>(nodes.size());
+}
+
+/// Of the surface nodes that are moved, along the narrow side of their patch. Of n nodes in a row, evenly, the variance
+/// is (n² − 1) / 12 of the squared spacing.
+std::optional<double> patch_across(const Model& model) {
+  std::vector<Eigen::Index> moved;
+  for (Eigen::Index a = 0; a < model.conditions.displacement.rows(); ++a) {
+    const auto u = model.conditions.displacement.row(a).array();
+    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0 && (u.abs() > 0).any()) {
+      moved.push_back(a);
+    }
+  }
+  if (moved.empty()) {
+    return std::nullopt;
+  }
+  Points places = model.cloud.positions(moved, Eigen::all);
+  places.rowwise() -= places.colwise().mean().eval();
+  const Eigen::Matrix3d spread = places.transpose() * places / static_cast<double>(moved.size());
+  const Eigen::Vector3d variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
+  const double spacing = mean_spacing_at(model.cloud, moved);
+  const double narrow = model.plane == Plane::none ? variance[1] : variance[2];
+  return std::sqrt(12 * std::max(0.0, narrow) / (spacing * spacing) + 1) - 1;
+}
+
+/// Twice the farthest that a point of a tissue lies from other tissue and from the surface.
+double across(const PlacedPoints& points, std::int32_t tissue, const Points& surface) {
+  std::vector<Eigen::Index> inside, outside;
+  for (Eigen::Index p = 0; p < points.position.rows(); ++p) {
+    (points.tissue[static_cast<std::size_t>(p)] == tissue ? inside : outside).push_back(p);
+  }
+  Points around(surface.rows() + static_cast<Eigen::Index>(outside.size()), 3);
+  around << surface, points.position(outside, Eigen::all);
+  if (around.rows() == 0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const PointTree tree(around);
+  double farthest = 0;
+  for (const Eigen::Index p : inside) {
+    farthest = std::max(farthest, tree.nearest(Eigen::RowVector3d(points.position.row(p)).data()).second);
+  }
+  return 2 * std::sqrt(farthest);
+}
+
+}  // namespace
+
+std::vector<ThinPart> thin_parts(const Model& model, const PlacedPoints& points) {
+  std::vector<ThinPart> thin;
+  if (const std::optional<double> patch = patch_across(model); patch && *patch < enough) {
+    thin.push_back({"the moved patch", *patch});
+  }
+  std::vector<Eigen::Index> all, on_surface;
+  for (std::size_t a = 0; a < model.cloud.size(); ++a) {
+    all.push_back(static_cast<Eigen::Index>(a));
+    if (model.cloud.on_surface[a] != 0) {
+      on_surface.push_back(static_cast<Eigen::Index>(a));
+    }
+  }
+  const Points surface = model.cloud.positions(on_surface, Eigen::all);
+  const double spacing = mean_spacing_at(model.cloud, all);
+  for (const std::int32_t tissue : std::set<std::int32_t>(points.tissue.begin(), points.tissue.end())) {
+    if (const double spacings = across(points, tissue, surface) / spacing; spacings < enough) {
+      thin.push_back({"tissue " + std::to_string(tissue), spacings});
+    }
+  }
+  return thin;
+}
+
+}  // namespace brainshift::solve
