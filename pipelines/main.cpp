@@ -124,6 +124,7 @@ int run_program(int argc, char** argv) {
   add_register_command(program, settings);
   add_warp_command(program, settings);
   add_update_command(program, settings);
+  add_live_command(program, settings);
   add_report_command(program, settings);
   add_phantom_command(program, settings);
   add_scene_command(program, settings);

@@ -31,6 +31,7 @@ void add_solve_command(CLI::App& program, const Settings& settings);
 void add_register_command(CLI::App& program, const Settings& settings);
 void add_warp_command(CLI::App& program, const Settings& settings);
 void add_update_command(CLI::App& program, const Settings& settings);
+void add_live_command(CLI::App& program, const Settings& settings);
 void add_report_command(CLI::App& program, const Settings& settings);
 void add_phantom_command(CLI::App& program, const Settings& settings);
 void add_scene_command(CLI::App& program, const Settings& settings);

@@ -87,14 +87,14 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
     : run_(fs::absolute(run).lexically_normal()), file_(run_ / "update" / "kept.bin") {
   const nlohmann::ordered_json record = record_of(run_);
   const StageRecord solved = finished_solve(run_);
-  const Scene scene = scene_of(record);
-  refuse_what_cannot(run_, scene);
+  scene_ = scene_of(record);
+  refuse_what_cannot(run_, scene_);
   InputStates states;
-  if (stamp(plan_stage(StageId::solve, scene, run_, interruption), states) != solved.stamp) {
+  if (stamp(plan_stage(StageId::solve, scene_, run_, interruption), states) != solved.stamp) {
     refuse(run_, "the scene or a file of the run has changed since it was solved; run the scene again");
   }
   key_ = sha256_of_text(solved.stamp + sha256_of_file(run_ / "solve" / "solution.vtu"));
-  const SolveJob job = solve_job(scene, run_);
+  const SolveJob job = solve_job(scene_, run_);
   opening_ = job.load->opening;
   report(progress, 0, "reading");
   if (auto kept = solve::read_kept(file_, key_, job.materials, job.options)) {
@@ -120,24 +120,45 @@ void UpdatedRun::make_kept(const SolveJob& job, const Progress& progress) {
   }
 }
 
-StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const Progress& progress) {
-  const solve::CraniotomyLoad load = solve::read_craniotomy_csv(file);
+solve::CraniotomyLoad UpdatedRun::read(const fs::path& file) {
+  solve::CraniotomyLoad load = solve::read_craniotomy_csv(file);
   if (load.sigma.rows() > 0) {
     refuse(file,
            "it has standard deviations, but the run's load was met exactly; leave the columns sigma out, or run "
            "a scene with this load");
   }
-  const NodeCloud cloud{
-      .positions = kept_.fine.body.positions, .spacing = kept_.fine.body.spacing, .on_surface = kept_.on_surface};
-  const solve::SolveResult result = naming(file.string(), [&] {
-    return solve::update(kept_, solve::prescribed_on_surface_nodes(cloud, load, opening_), progress);
+  return load;
+}
+
+NodeCloud UpdatedRun::cloud() const {
+  return {.positions = kept_.fine.body.positions, .spacing = kept_.fine.body.spacing, .on_surface = kept_.on_surface};
+}
+
+Points UpdatedRun::parameters() const {
+  const std::vector<std::int32_t>& original = kept_.fine.body.original;
+  Points parameters(static_cast<Eigen::Index>(original.size()), 3);
+  for (std::size_t a = 0; a < original.size(); ++a) {
+    parameters.row(original[a]) = solve::at(kept_.fine.parameters, a).head<3>();
+  }
+  return parameters;
+}
+
+solve::SolveResult UpdatedRun::solve(const solve::CraniotomyLoad& load, const fs::path& file,
+                                     const Progress& progress) {
+  return naming(file.string(), [&] {
+    return solve::update(kept_, solve::prescribed_on_surface_nodes(cloud(), load, opening_), progress);
   });
+}
+
+StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const Progress& progress) {
+  const solve::CraniotomyLoad load = read(file);
+  const solve::SolveResult result = solve(load, file, progress);
   solve::write_solve(out, result);
   solve::write_craniotomy_csv(out / "load.csv", load);
   StageReport said = report_of(result, solve::Dynamics::relaxation);
   said.notes = std::move(notes_);
   warn(warnings_of(result.measures), said);
-  warn(warnings_of(load, cloud, kept_.prescribed), said);
+  warn(warnings_of(load, cloud(), kept_.prescribed), said);
   return said;
 }
 

@@ -6,7 +6,9 @@
 
 #include "pipelines/runner/interruption.hpp"
 #include "pipelines/runner/jobs.hpp"
+#include "pipelines/scene/scene.hpp"
 #include "segmentation/progress/progress.hpp"
+#include "solve/load/craniotomy_load.hpp"
 #include "solve/update/kept_run.hpp"
 
 namespace brainshift::pipelines {
@@ -19,6 +21,19 @@ class UpdatedRun {
   /// scene or files have changed since, or one that cannot be updated.
   UpdatedRun(const std::filesystem::path& run, Interruption& interruption, const Progress& progress = {});
 
+  /// Displacements of a CSV. Throws std::invalid_argument, naming the file, where they cannot be a run's new ones.
+  static solve::CraniotomyLoad read(const std::filesystem::path& file);
+
+  /// Answers them. file: that they are from, for what is at fault. After a throw or a failure the run must be made
+  /// anew.
+  solve::SolveResult solve(const solve::CraniotomyLoad& load, const std::filesystem::path& file,
+                           const Progress& progress);
+
+  /// û of the last answer, in the order of the cloud, (n × 3) mm.
+  Points parameters() const;
+
+  const Scene& scene() const { return scene_; }
+
   /// Answers the displacements of a CSV and writes solution.vtu, history.csv and load.csv into an existing folder.
   /// Throws std::invalid_argument, naming the file, where it is at fault.
   StageReport answer(const std::filesystem::path& load, const std::filesystem::path& out, const Progress& progress);
@@ -26,7 +41,10 @@ class UpdatedRun {
  private:
   void make_kept(const SolveJob& job, const Progress& progress);
 
+  NodeCloud cloud() const;
+
   std::filesystem::path run_, file_;
+  Scene scene_;
   std::string key_;
   solve::OpeningOptions opening_;
   solve::KeptRun kept_;

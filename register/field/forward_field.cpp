@@ -68,10 +68,8 @@ Eigen::Vector3d place_of(const BrainZones& zones, const ImageGeometry& geometry,
 }
 
 /// The solver's field at the voxels of brain and shell.
-void evaluate(const Solution& solution, const BrainZones& zones, const std::vector<Voxel>& voxels, double reach,
-              VectorImage& field, const Progress& progress) {
-  const solve::ShapeFunctions shape = shape_functions(solution);
-  const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
+void evaluate(const DisplacementAt& displacement_at, const BrainZones& zones, const std::vector<Voxel>& voxels,
+              double reach, VectorImage& field, const Progress& progress) {
   for (std::size_t begin = 0; begin < voxels.size(); begin += chunk) {
     report(progress, 0.8 * static_cast<double>(begin) / static_cast<double>(voxels.size()),
            "displacement at the voxels");
@@ -81,7 +79,7 @@ void evaluate(const Solution& solution, const BrainZones& zones, const std::vect
     for (std::size_t v = begin; v < end; ++v) {
       places.row(static_cast<Eigen::Index>(v - begin)) = place_of(zones, field.geometry, voxels[v], reach);
     }
-    const Points displacement = shape.interpolate(places, parameters);
+    const Points displacement = displacement_at(places);
 #pragma omp parallel for schedule(static)
     for (std::size_t v = begin; v < end; ++v) {
       field.voxels[voxels[v].offset] = stored(displacement.row(static_cast<Eigen::Index>(v - begin)));
@@ -251,8 +249,16 @@ double ramp(double t) {
 
 VectorImage forward_field(const Solution& solution, const BrainZones& zones, const ImageGeometry& geometry, double fade,
                           const Progress& progress) {
+  const solve::ShapeFunctions shape = shape_functions(solution);
+  const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
+  return forward_field([&](const Points& places) { return shape.interpolate(places, parameters); },
+                       mean(solution.spacing), zones, geometry, fade, progress);
+}
+
+VectorImage forward_field(const DisplacementAt& displacement_at, double spacing, const BrainZones& zones,
+                          const ImageGeometry& geometry, double fade, const Progress& progress) {
   VectorImage field{geometry, std::vector<Displacement>(geometry.voxel_count(), Displacement{0, 0, 0})};
-  const double reach = std::min(zones.shell / 2, reach_in_spacings * mean(solution.spacing));
+  const double reach = std::min(zones.shell / 2, reach_in_spacings * spacing);
   const auto in = [&](Zone wanted) { return [&, wanted](const Voxel& v) { return zones.zone[v.offset] == wanted; }; };
   const auto hollow = [&](const Voxel& v) {
     return zones.wall && (in(Zone::cavity)(v) || in(Zone::shell)(v)) &&
@@ -261,7 +267,7 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
   const auto near = [&](const Voxel& v) {
     return (in(Zone::brain)(v) || in(Zone::shell)(v) || in(Zone::cavity)(v)) && !hollow(v);
   };
-  evaluate(solution, zones, voxels_where(geometry, near), reach, field, progress);
+  evaluate(displacement_at, zones, voxels_where(geometry, near), reach, field, progress);
   if (zones.wall) {
     span_cavity(
         offsets_of(voxels_where(geometry, hollow)), [&](std::size_t voxel) { return zones.zone[voxel] >= Zone::shell; },

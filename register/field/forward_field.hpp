@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include "register/field/brain_zones.hpp"
+#include "segmentation/geometry/points.hpp"
 #include "segmentation/image/image.hpp"
 #include "segmentation/progress/progress.hpp"
 #include "solve/interface/solution.hpp"
@@ -16,6 +19,14 @@ namespace brainshift::registration {
 /// when the solution's shape functions do not reach a voxel of the brain.
 VectorImage forward_field(const Solution& solution, const BrainZones& zones, const ImageGeometry& geometry, double fade,
                           const Progress& progress);
+
+/// The solver's displacement at places, (m × 3) mm.
+using DisplacementAt = std::function<Points(const Points& places)>;
+
+/// The same of a displacement that is asked for at all places in the brain and near it, part by part: for the same
+/// zones and grid at the same places in the same order. spacing: mean of the nodes', mm.
+VectorImage forward_field(const DisplacementAt& displacement_at, double spacing, const BrainZones& zones,
+                          const ImageGeometry& geometry, double fade, const Progress& progress);
 
 /// Falls from 1 at 0 to 0 at 1, with zero slope at both ends and at most 1.25 between: the gentlest way out, as a
 /// field that pushes outward by u folds where the ramp is steeper than 1/u.

@@ -32,10 +32,12 @@ struct Way {
 
 class Ensemble {
  public:
-  Ensemble(const Body& body, std::span<const Member> loads, const LoadCurve& curve, const SolveOptions& options)
+  Ensemble(const Body& body, std::span<const Member> loads, const LoadCurve& curve, const SolveOptions& options,
+           bool patient)
       : body_(body),
         curve_(curve),
         options_(options),
+        patient_(patient),
         motion_(body, loads),
         pace_(options.load_steps, false),
         results_(loads.size()) {
@@ -143,7 +145,8 @@ class Ensemble {
   void end_if_due(std::size_t m) {
     Way& way = way_[m];
     const double wanted = wanted_bound(options_.tolerance, way.farthest);
-    if (motion_.time >= 1 && way.bound.value() > far_from_rest * wanted && Quickening::wanted(way.lowest)) {
+    if (!patient_ && motion_.time >= 1 && way.bound.value() > far_from_rest * wanted &&
+        Quickening::wanted(way.lowest)) {
       end(m, MemberResult::End::left);
     } else if (motion_.time >= 1 && way.bound.value() <= wanted) {
       end(m, MemberResult::End::rest);
@@ -190,6 +193,7 @@ class Ensemble {
   const Body& body_;
   const LoadCurve& curve_;
   const SolveOptions& options_;
+  bool patient_;
   EachMotion motion_;
   EachNumbers mass_;
   std::array<Way, members> way_;
@@ -208,8 +212,8 @@ bool may_go_together(const Body& body, const SolveOptions& options) {
 }
 
 std::vector<MemberResult> relax_together(const Body& body, std::span<const Member> loads, const LoadCurve& curve,
-                                         const SolveOptions& options, const Progress& progress) {
-  return Ensemble(body, loads, curve, options).run(progress);
+                                         const SolveOptions& options, const Progress& progress, bool patient) {
+  return Ensemble(body, loads, curve, options, patient).run(progress);
 }
 
 }  // namespace brainshift::solve

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view format = "brainshift kept run 1\n";
+constexpr std::string_view format = "brainshift kept run 2\n";
 
 /// Tells damage; eight bytes at a time.
 std::uint64_t checksum(std::span<const char> bytes) {
@@ -100,13 +100,9 @@ void kept_run(Archive& archive, Run& run) {
   archive.points(run.prescribed);
   archive.points(run.displacement);
   kept_body(archive, run.fine);
-}
-
-template <class Archive, class Coarse>
-void kept_coarse(Archive& archive, Coarse& coarse) {
-  archive.many(coarse.nodes);
-  kept_body(archive, coarse.kept);
-  rows(archive, coarse.at_nodes);
+  archive.many(run.responses.nodes);
+  archive.many(run.responses.waves);
+  archive.many(run.responses.parameters);
 }
 
 void write_forces(ArchiveWriter& writer, const Body& body) {
@@ -185,11 +181,6 @@ void write_kept(const fs::path& file, const KeptRun& kept, const std::string& ke
   kept_run(writer, kept);
   write_forces(writer, kept.fine.body);
   write_skull(writer, kept.fine.body.contact);
-  writer.plain(static_cast<std::uint8_t>(kept.coarse.has_value()));
-  if (kept.coarse) {
-    kept_coarse(writer, *kept.coarse);
-    write_forces(writer, kept.coarse->kept.body);
-  }
   const std::uint64_t sum = checksum(bytes), size = bytes.size();
   fs::path unfinished = file;
   unfinished += ".partial";
@@ -222,15 +213,7 @@ std::optional<KeptRun> read_kept(const fs::path& file, const std::string& key,
     run.options = options;
     run.options.precision = run.fine.body.points.precision();
     read_forces(reader, run.fine.body);
-    const std::shared_ptr<const SignedDistance> skull = read_skull(reader);
-    add_what_is_not_kept(run.fine, materials, skull);
-    std::uint8_t has_coarse = 0;
-    reader.plain(has_coarse);
-    if (has_coarse != 0) {
-      kept_coarse(reader, run.coarse.emplace());
-      read_forces(reader, run.coarse->kept.body);
-      add_what_is_not_kept(run.coarse->kept, materials, skull);
-    }
+    add_what_is_not_kept(run.fine, materials, read_skull(reader));
     return reader.at_end() ? std::optional(std::move(run)) : std::nullopt;
   } catch (const std::length_error&) {
     return std::nullopt;

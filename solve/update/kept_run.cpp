@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/update/kept_run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -8,7 +9,6 @@
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/dynamics/relaxation.hpp"
-#include "solve/run/coarse.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "solve/shape/nodal_displacement.hpp"
@@ -17,6 +17,12 @@
 namespace brainshift::solve {
 
 namespace {
+
+constexpr double closer_at_rest = 0.1;  // of the tolerance: what is open here every answer begins with
+
+/// A_0 of what responses leave open: it is local. Lower takes more steps; at a higher one the bound of the
+/// error does not hold for what is not.
+constexpr double local_eigenvalue = 0.002;
 
 NodalVectors in_body_order(const Points& values, const std::vector<std::int32_t>& original) {
   NodalVectors ordered(4 * original.size(), 0.0);
@@ -64,22 +70,6 @@ void set_fine_load(const Points& prescribed, KeptRun& run) {
   body.contact.emplace(std::shared_ptr(body.contact->skull()), ordered, nodes, body.nodal_rows);
 }
 
-void set_coarse_load(const Points& prescribed, const KeptRun& run, KeptCoarse& coarse) {
-  Body& body = coarse.kept.body;
-  hold(prescribed(coarse.nodes, Eigen::all), run.options.imposition, body);
-  if (body.contact) {
-    body.contact.emplace(std::shared_ptr(body.contact->skull()), run.fine.body.positions,
-                         free_nodes(run.on_surface, prescribed), coarse.at_nodes);
-  }
-}
-
-/// The displacement of the coarse cloud at all nodes of the whole one, mm.
-Points interpolated(const KeptCoarse& coarse) {
-  std::vector<std::int32_t> same(coarse.at_nodes.size());
-  std::iota(same.begin(), same.end(), 0);
-  return nodal_displacement(coarse.at_nodes, coarse.kept.parameters, same);
-}
-
 /// Takes over where a body has come to rest.
 void take(SteppingResult& stepped, KeptBody& kept) {
   kept.body = std::move(stepped.body);
@@ -87,25 +77,9 @@ void take(SteppingResult& stepped, KeptBody& kept) {
   kept.settled = std::move(stepped.settled);
 }
 
-/// What the new load moves the nodes by, as the coarse cloud answers it; what is prescribed is met.
-Points coarse_change(const Points& prescribed, KeptRun& run) {
+/// What the new load moves the loaded nodes by; 0 elsewhere.
+Points change_of(const Points& prescribed, const KeptRun& run) {
   Points change = Points::Zero(prescribed.rows(), 3);
-  if (run.coarse) {
-    KeptCoarse& coarse = *run.coarse;
-    const Points before = interpolated(coarse);
-    set_coarse_load(prescribed, run, coarse);
-    const Course course{.curve = {}, .start = coarse.kept.parameters, .settled = coarse.kept.settled};
-    SolveOptions options = run.options;
-    options.snapshot_every = 0;
-    SteppingResult stepped = relax(std::move(coarse.kept.body), course, options, {});
-    const bool rests = stepped.failure.empty();
-    take(stepped, coarse.kept);
-    if (rests) {
-      change = interpolated(coarse) - before;
-    } else {
-      run.coarse.reset();  // slower from here on, and as exact
-    }
-  }
   for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
     if (!std::isnan(prescribed.data()[i])) {
       change.data()[i] = prescribed.data()[i] - run.displacement.data()[i];
@@ -114,22 +88,9 @@ Points coarse_change(const Points& prescribed, KeptRun& run) {
   return change;
 }
 
-/// û + δ with Σφδ near the change: some sweeps of δ ← δ + change − Σφδ.
-NodalVectors moved_by(const Points& change, const KeptBody& kept) {
-  constexpr int sweeps = 4;
-  const std::vector<std::int32_t>& original = kept.body.original;
-  const NodalVectors wanted = in_body_order(change, original);
-  NodalVectors delta = wanted;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const NodalVectors has = in_body_order(nodal_displacement(kept.body.nodal_rows, delta, original), original);
-    for (std::size_t i = 0; i < delta.size(); ++i) {
-      delta[i] += wanted[i] - has[i];
-    }
-  }
-  for (std::size_t i = 0; i < delta.size(); ++i) {
-    delta[i] += kept.parameters[i];
-  }
-  return delta;
+bool knows_responses(const KeptRun& run) {
+  const std::vector<float>& parameters = run.responses.parameters;
+  return std::any_of(parameters.begin(), parameters.end(), [](float change) { return change != 0; });
 }
 
 void check_same_opening(const Points& before, const Points& now) {
@@ -158,29 +119,6 @@ SolveMeasures sizes_of(const KeptRun& run, const Points& prescribed) {
     measures.loaded_nodes += is_loaded(prescribed, a) ? 1 : 0;
   }
   return measures;
-}
-
-std::optional<KeptCoarse> keep_coarse(const Model& model, const SolveOptions& options) {
-  std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
-  if (nodes.size() < fewest_coarse_nodes) {
-    return std::nullopt;
-  }
-  try {
-    CoarseBody coarse = coarse_body(nodes, model, options, {});
-    SteppingResult stepped = relax(std::move(coarse.prepared.body), {.curve = model.curve}, coarse.options, {});
-    if (!stepped.failure.empty()) {
-      return std::nullopt;
-    }
-    const NodeCloud ordered = subset(coarse.model.cloud, stepped.body.original);
-    const ShapeFunctions shape(ordered.positions, ordered.spacing, coarse.options.shape);
-    KeptCoarse kept{.nodes = std::move(nodes), .kept = {}, .at_nodes = shape.evaluate(model.cloud.positions, false)};
-    take(stepped, kept.kept);
-    return kept;
-  } catch (const std::logic_error&) {
-    return std::nullopt;  // what the whole cloud holds in place, the coarse one may not
-  } catch (const std::runtime_error&) {
-    return std::nullopt;
-  }
 }
 
 }  // namespace
@@ -215,7 +153,9 @@ KeptRun keep(const Model& model, const SolveOptions& given, const Points& displa
   const ShapeFunctions shape(model.cloud.positions, model.cloud.spacing, options.shape);
   const Points parameters = parameters_from_displacement(shape, model.cloud.positions, displacement);
   const Course course{.curve = model.curve, .start = in_body_order(parameters, prepared.body.original)};
-  SteppingResult stepped = relax(std::move(prepared.body), course, options, progress);
+  SolveOptions closer = options;
+  closer.tolerance *= closer_at_rest;
+  SteppingResult stepped = relax(std::move(prepared.body), course, closer, progress);
   if (!stepped.failure.empty()) {
     throw std::invalid_argument("the run does not come to rest once more: " + stepped.failure);
   }
@@ -224,19 +164,22 @@ KeptRun keep(const Model& model, const SolveOptions& given, const Points& displa
               .prescribed = model.conditions.displacement,
               .displacement = nodal_displacement(stepped.body.nodal_rows, stepped.parameters, stepped.body.original),
               .fine = {},
-              .coarse = keep_coarse(model, options)};
+              .responses = {}};
   take(stepped, run.fine);
+  run.responses = responses_of(run.fine, run.prescribed, options, progress);
   return run;
 }
 
 SolveResult update(KeptRun& run, const Points& prescribed, const Progress& progress) {
   check_same_opening(run.prescribed, prescribed);
   SolveMeasures measures = sizes_of(run, prescribed);
-  const Stopwatch begin;
-  const Points change = coarse_change(prescribed, run);
-  measures.seconds_coarse = begin.seconds();
   const Stopwatch stepping;
-  const Course course{.curve = {}, .start = moved_by(change, run.fine), .settled = run.fine.settled};
+  Course course;
+  course.start = answered(run.fine, run.responses, change_of(prescribed, run));
+  course.settled = run.fine.settled;
+  if (knows_responses(run)) {
+    course.settled->lowest = std::max(course.settled->lowest, local_eigenvalue);
+  }
   set_fine_load(prescribed, run);
   SteppingResult stepped = relax(std::move(run.fine.body), course, run.options, progress);
   SolveResult result = result_of(stepped, run.options, measures);

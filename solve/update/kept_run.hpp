@@ -9,35 +9,22 @@
 #include <vector>
 
 #include "segmentation/progress/progress.hpp"
-#include "solve/dynamics/stepping.hpp"
 #include "solve/interface/model.hpp"
 #include "solve/interface/options.hpp"
 #include "solve/interface/result.hpp"
+#include "solve/update/responses.hpp"
 
 namespace brainshift::solve {
 
-/// A body at rest that waits for another load.
-struct KeptBody {
-  Body body;
-  NodalVectors parameters;  ///< û at rest, mm
-  Settled settled;
-};
-
-/// The coarse cloud of a kept run: what another load changes is solved on it first.
-struct KeptCoarse {
-  std::vector<std::int32_t> nodes;  ///< of the whole cloud
-  KeptBody kept;
-  ShapeRows at_nodes;  ///< shape functions of the coarse cloud at all nodes of the whole one
-};
-
-/// A solved run with all that is expensive to make: bodies, shape functions, fictitious masses, the state of rest.
+/// A solved run with all that is expensive to make: shape functions, fictitious masses, the state of rest,
+/// responses to changes.
 struct KeptRun {
   SolveOptions options;                  ///< that the model was solved with
   std::vector<std::uint8_t> on_surface;  ///< one a node
-  Points prescribed;                     ///< (n × 3) mm, NaN: free; of the load that the bodies are at rest under
+  Points prescribed;                     ///< (n × 3) mm, NaN: free; of the load that the body is at rest under
   Points displacement;                   ///< (n × 3) mm, at rest
-  KeptBody fine;
-  std::optional<KeptCoarse> coarse;  ///< absent: the cloud has too few nodes, or they could not be solved
+  KeptBody fine;                         ///< at rest
+  Responses responses;
 };
 
 /// Why a model cannot be kept, as half a sentence ("it has cuts"); empty: it can.

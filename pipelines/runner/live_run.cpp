@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/live_run.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "pipelines/runner/own_folder.hpp"
+#include "pipelines/runner/stage_folder.hpp"
+#include "register/field/moving_part.hpp"
+#include "register/field/resampling_field.hpp"
+#include "register/files/transform_files.hpp"
+#include "register/files/write_transform.hpp"
+#include "register/warp/warp.hpp"
+#include "segmentation/files/make_folder.hpp"
+#include "segmentation/files/refuse.hpp"
+#include "segmentation/files/surface_file.hpp"
+#include "solve/output/solution_file.hpp"
+
+namespace brainshift::pipelines {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double grid_spacing = 2.5;  // mm
+
+/// The highest number of an answer; what a killed program left unfinished goes.
+int last_number(const fs::path& live) {
+  int last = 0;
+  for (const auto& entry : fs::directory_iterator(live)) {
+    if (entry.path().extension() == ".partial" && is_own_folder(entry.path())) {
+      remove_own_folder(entry.path());
+    } else {
+      last = std::max(last, std::atoi(entry.path().filename().c_str()));
+    }
+  }
+  return last;
+}
+
+/// With leading zeros, so that names are in the order of the answers.
+std::string name_of(int number) {
+  constexpr std::size_t digits = 6;
+  const std::string text = std::to_string(number);
+  return std::string(digits - std::min(digits, text.size()), '0') + text;
+}
+
+}  // namespace
+
+LiveRun::LiveRun(const fs::path& run, bool with_image, Interruption& interruption, const Progress& progress)
+    : run_(fs::absolute(run).lexically_normal()), live_(run_ / "live"), interruption_(interruption) {
+  updated_.emplace(run_, interruption_, progress);
+  const Scene& scene = updated_->scene();
+  options_ = scene.registration;
+  const fs::path image = !scene.image.t1.empty() ? scene.image.t1 : run_ / "segment" / "labels.nii.gz";
+  if (with_image && scene.image.t1.empty()) {
+    refuse(run_, "there is no image to warp: its scene names no T1; leave --image out");
+  }
+  if (!fs::exists(image)) {
+    refuse(run_, "there is no grid for a field: its scene names neither an image nor labels; use 'brainshift update'");
+  }
+  ScalarImage t1 = read_image(image);
+  field_.emplace(read_solution(run_ / "solve" / "solution.vtu"), read_surface(run_ / "segment" / "brain.vtp"),
+                 registration::covering_grid(t1.geometry, grid_spacing), options_.fade);
+  if (with_image) {
+    t1_ = std::move(t1);
+  }
+  make_folder(live_);
+  number_ = last_number(live_);
+}
+
+UpdatedRun& LiveRun::updated() {
+  return updated_ ? *updated_ : updated_.emplace(run_, interruption_);
+}
+
+LiveRun::Answer LiveRun::answer(const fs::path& file) {
+  const solve::CraniotomyLoad load = UpdatedRun::read(file);
+  solve::SolveResult result;
+  try {
+    result = updated().solve(load, file, {});
+  } catch (...) {
+    updated_.reset();
+    throw;
+  }
+  if (!result.failure.empty()) {
+    updated_.reset();
+    throw std::runtime_error(file.string() + ": " + result.failure);
+  }
+  const VectorImage forward = field_->forward(updated().parameters());
+  resampling_ = registration::resampling_field(forward, options_.inverse_tolerance).field;
+  const fs::path place = live_ / name_of(number_ + 1);
+  StageFolder folder(place, interruption_);
+  const auto inside = [&](const char* name) { return folder.path() / (std::string(name) + ".h5"); };
+  registration::write_transform(inside(registration::image_transform), registration::moving_part(resampling_));
+  registration::write_transform(inside(registration::point_transform), registration::moving_part(forward));
+  solve::write_craniotomy_csv(folder.path() / "load.csv", load);
+  folder.replace();
+  ++number_;
+  return {place, result.measures.largest_displacement, result.measures.error_bound};
+}
+
+void LiveRun::warp_image() {
+  StageFolder folder(live_ / name_of(number_), interruption_);
+  write_image(folder.path() / "warped.nii.gz",
+              registration::warp(*t1_, resampling_, options_.interpolation, t1_->geometry));
+  folder.merge();
+}
+
+}  // namespace brainshift::pipelines

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "pipelines/runner/interruption.hpp"
+#include "pipelines/runner/update_run.hpp"
+#include "register/field/repeated_field.hpp"
+#include "segmentation/image/image.hpp"
+
+namespace brainshift::pipelines {
+
+/// A finished run in memory that answers one load after another with transforms, each in a folder of its own,
+/// RUN/live/NUMBER, that appears when it is whole. Numbers go on from those that are there.
+class LiveRun {
+ public:
+  /// with_image: the T1 is warped, too. Throws as UpdatedRun does, and where there is no T1 to warp.
+  LiveRun(const std::filesystem::path& run, bool with_image, Interruption& interruption, const Progress& progress);
+
+  struct Answer {
+    std::filesystem::path folder;
+    double largest_displacement = 0;  ///< mm
+    double error_bound = 0;           ///< mm
+  };
+
+  /// Throws std::invalid_argument, naming the file, where it is at fault, and std::runtime_error where the load could
+  /// not be answered. The run is then read again before the next answer.
+  Answer answer(const std::filesystem::path& load);
+
+  /// Adds warped.nii.gz to the last answer. Only with an image.
+  void warp_image();
+
+ private:
+  UpdatedRun& updated();
+
+  std::filesystem::path run_, live_;
+  Interruption& interruption_;
+  std::optional<UpdatedRun> updated_;
+  std::optional<registration::RepeatedField> field_;
+  std::optional<ScalarImage> t1_;
+  registration::RegisterOptions options_;
+  int number_ = 0;          ///< of the last answer
+  VectorImage resampling_;  ///< of the last answer
+};
+
+}  // namespace brainshift::pipelines

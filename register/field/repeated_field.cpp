@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "register/field/repeated_field.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "register/field/forward_field.hpp"
+#include "solve/output/solution_file.hpp"
+#include "solve/shape/shape_functions.hpp"
+
+namespace brainshift::registration {
+
+namespace {
+
+Points product(const solve::ShapeRows& rows, const Points& values) {
+  Points sums(static_cast<Eigen::Index>(rows.size()), 3);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const solve::ShapeRow row = rows[i];
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (std::size_t k = 0; k < row.node.size(); ++k) {
+      sum += row.value[k] * values.row(row.node[k]);
+    }
+    sums.row(static_cast<Eigen::Index>(i)) = sum;
+  }
+  return sums;
+}
+
+}  // namespace
+
+RepeatedField::RepeatedField(const Solution& solution, const Surface& brain, const ImageGeometry& grid, double fade)
+    : grid_(grid),
+      fade_(fade),
+      spacing_(std::accumulate(solution.spacing.begin(), solution.spacing.end(), 0.0) /
+               static_cast<double>(solution.spacing.size())),
+      zones_(brain_zones(brain, grid, fade)) {
+  const solve::ShapeFunctions shape = shape_functions(solution);
+  const auto keep_rows = [&](const Points& places) -> Points {
+    rows_.push_back(shape.evaluate(places, false));
+    return Points::Zero(places.rows(), 3);
+  };
+  forward_field(keep_rows, spacing_, zones_, grid_, fade_, {});
+}
+
+VectorImage RepeatedField::forward(const Points& parameters) const {
+  std::size_t part = 0;
+  return forward_field([&](const Points&) { return product(rows_[part++], parameters); }, spacing_, zones_, grid_,
+                       fade_, {});
+}
+
+ImageGeometry covering_grid(const ImageGeometry& image, double spacing) {
+  const Eigen::Array3d extent = image.spacing.array() * image.size.cast<double>();
+  ImageGeometry grid = image;
+  grid.spacing.setConstant(spacing);
+  grid.size = (extent / spacing).ceil().cast<int>().max(1);
+  grid.origin += image.direction * (grid.spacing - image.spacing) / 2;  // the same outermost corner
+  return grid;
+}
+
+}  // namespace brainshift::registration

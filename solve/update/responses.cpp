@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/update/responses.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "solve/ensemble/each.hpp"
+#include "solve/ensemble/relax_together.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr std::size_t most_waves = 10;  // a direction; with more the step count hardly falls
+constexpr double wave_width = 2.5;      // spacings: of the bells whose principal sums the waves are
+constexpr double amplitude = 0.2;       // mm, at the node where a wave is largest: for the first order
+constexpr double closer = 0.02;         // stop, over the tolerance: a response is multiplied by up to 1 mm / amplitude
+constexpr int most_steps = 1500;        // that a response is worth
+
+std::vector<std::int32_t> loaded_nodes(const Points& prescribed) {
+  std::vector<std::int32_t> nodes;
+  for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
+    if (!prescribed.row(a).array().isNaN().all()) {
+      nodes.push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  return nodes;
+}
+
+/// The longest first.
+Eigen::MatrixXd waves_over(const std::vector<std::int32_t>& nodes, const Body& body) {
+  const Points places = body.positions(nodes, Eigen::all);
+  const auto count = static_cast<Eigen::Index>(nodes.size());
+  double width = 0;
+  for (const std::int32_t node : nodes) {
+    width += wave_width * body.spacing[static_cast<std::size_t>(node)] / static_cast<double>(count);
+  }
+  Eigen::MatrixXd bells(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    bells.col(i) =
+        (-(places.rowwise() - places.row(i)).rowwise().squaredNorm().array() / (2 * width * width)).exp().matrix();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(bells);
+  return principal.eigenvectors().rowwise().reverse().leftCols(std::min(count, static_cast<Eigen::Index>(most_waves)));
+}
+
+/// One wave along one axis.
+struct Column {
+  std::size_t wave, axis;
+  double size;  ///< mm that the wave is multiplied by
+};
+
+Member loaded_by(const Column& column, const Responses& responses, const KeptBody& kept, const Points& prescribed) {
+  Points changed = prescribed;
+  for (std::size_t i = 0; i < responses.nodes.size(); ++i) {
+    changed(responses.nodes[i], static_cast<Eigen::Index>(column.axis)) +=
+        column.size * responses.waves[column.wave * responses.nodes.size() + i];
+  }
+  return {.laws = kept.body.laws,
+          .external = kept.body.external,
+          .prescribed = changed(kept.body.original, Eigen::all),
+          .start = kept.parameters};
+}
+
+std::vector<Column> columns_of(const Eigen::MatrixXd& waves) {
+  std::vector<Column> columns;
+  for (Eigen::Index w = 0; w < waves.cols(); ++w) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      columns.push_back({static_cast<std::size_t>(w), axis, amplitude / waves.col(w).cwiseAbs().maxCoeff()});
+    }
+  }
+  return columns;
+}
+
+/// now: û under the column; empty where it has not come to rest.
+void note_response(const NodalVectors& now, const KeptBody& kept, const Column& column, Responses& responses) {
+  float* const response = responses.parameters.data() + (3 * column.wave + column.axis) * 3 * kept.body.nodes();
+  for (std::size_t a = 0; a < now.size() / 4; ++a) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      response[3 * a + axis] = static_cast<float>((now[4 * a + axis] - kept.parameters[4 * a + axis]) / column.size);
+    }
+  }
+}
+
+}  // namespace
+
+Responses responses_of(const KeptBody& kept, const Points& prescribed, const SolveOptions& given,
+                       const Progress& progress) {
+  Responses responses{.nodes = loaded_nodes(prescribed), .waves = {}, .parameters = {}};
+  if (responses.nodes.empty()) {
+    return responses;
+  }
+  const Eigen::MatrixXd waves = waves_over(responses.nodes, kept.body);
+  responses.waves.assign(waves.data(), waves.data() + waves.size());
+  responses.parameters.assign(responses.count() * 9 * kept.body.nodes(), 0.0F);
+  SolveOptions options = given;
+  options.tolerance *= closer;
+  options.max_steps = std::min(options.max_steps, most_steps);
+  options.snapshot_every = 0;
+  if (!may_go_together(kept.body, options)) {
+    return responses;
+  }
+  const std::vector<Column> columns = columns_of(waves);
+  for (std::size_t first = 0; first < columns.size(); first += members) {
+    report(progress, static_cast<double>(first) / static_cast<double>(columns.size()), "responses to changes");
+    const std::size_t last = std::min(first + members, columns.size());
+    std::vector<Member> loads;
+    for (std::size_t c = first; c < last; ++c) {
+      loads.push_back(loaded_by(columns[c], responses, kept, prescribed));
+    }
+    const std::vector<MemberResult> moved = relax_together(kept.body, loads, {}, options, {}, true);
+    for (std::size_t c = first; c < last; ++c) {
+      note_response(moved[c - first].parameters, kept, columns[c], responses);
+    }
+  }
+  return responses;
+}
+
+NodalVectors answered(const KeptBody& kept, const Responses& responses, const Points& change) {
+  const auto count = static_cast<Eigen::Index>(responses.count()),
+             loaded = static_cast<Eigen::Index>(responses.nodes.size());
+  const Eigen::Map<const Eigen::MatrixXd> waves(responses.waves.data(), loaded, count);
+  const Eigen::MatrixXd shares = change(responses.nodes, Eigen::all).transpose() * waves;  // (3 × waves)
+  const auto nodes = static_cast<Eigen::Index>(kept.body.nodes());
+  const Eigen::Map<const Eigen::MatrixXf> of_waves(responses.parameters.data(), 3 * nodes, 3 * count);
+  const Eigen::VectorXf sum = of_waves * Eigen::Map<const Eigen::VectorXd>(shares.data(), shares.size()).cast<float>();
+  NodalVectors parameters = kept.parameters;
+  for (Eigen::Index a = 0; a < nodes; ++a) {
+    at(parameters, static_cast<std::size_t>(a)).head<3>() += sum.segment<3>(3 * a).cast<double>();
+  }
+  return parameters;
+}
+
+}  // namespace brainshift::solve

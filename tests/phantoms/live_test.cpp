@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A finished run that answers a load file whenever it changes, through the program.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <thread>
+
+#include "solve/load/craniotomy_load.hpp"
+#include "tests/phantoms/program.hpp"
+
+namespace brainshift::live_test {
+
+namespace fs = std::filesystem;
+
+constexpr const char* transform = "from-preop_to-intraop_mode-image_xfm.h5";
+
+/// Asks until it is so, for a minute.
+template <class Condition>
+bool comes_true(const Condition& condition) {
+  for (int part = 0; part < 6000; ++part) {
+    if (condition()) {
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return condition();
+}
+
+class Live : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch = std::make_unique<ScratchFolder>("live");
+    const fs::path head = *scratch / "head";
+    const ProgramResult made = run_shell("brainshift phantom --size 40 --spacing 4.8 --out " + head.string());
+    ASSERT_EQ(made.code, 0) << made.err;
+    const ProgramResult ran = run_shell("brainshift run " + (head / "scene.xml").string() + " --until solve --out " +
+                                        run().string() + " --set discretise.nodes=900 --quiet");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    load = solve::read_craniotomy_csv(head / "craniotomy.csv");
+  }
+  static void TearDownTestSuite() { scratch.reset(); }
+  void TearDown() override {
+    if (process_ > 0) {
+      kill(process_, SIGKILL);
+    }
+  }
+
+  static fs::path run() { return *scratch / "run"; }
+  static fs::path load_file() { return *scratch / "load.csv"; }
+  static fs::path answer(int number) {
+    std::string name = std::to_string(number);
+    name.insert(0, 6 - name.size(), '0');
+    return run() / "live" / name;
+  }
+  static std::string said(const char* name) { return contents_of(*scratch / name); }
+
+  /// The whole file at once, as a careful program writes it.
+  static void give(double factor) {
+    solve::CraniotomyLoad changed = load;
+    changed.displacement *= factor;
+    solve::write_craniotomy_csv(*scratch / "next.csv", changed);
+    fs::rename(*scratch / "next.csv", load_file());
+  }
+  void start(const std::string& more = "") {
+    const fs::path number = *scratch / "process";
+    run_shell("brainshift live " + run().string() + " --load " + load_file().string() + " " + more + " > " +
+              (*scratch / "out").string() + " 2> " + (*scratch / "err").string() + " & echo $! > " + number.string());
+    std::ifstream(number) >> process_;
+    ASSERT_GT(process_, 0);
+    ASSERT_TRUE(comes_true([] { return said("out").find("watching") != std::string::npos; })) << said("err");
+  }
+  void stop(int signal) {
+    kill(process_, signal);
+    const auto process = process_;
+    ASSERT_TRUE(comes_true([process] { return kill(process, 0) != 0; }));
+    process_ = 0;
+  }
+  double resident_megabytes() const {
+    std::ifstream status("/proc/" + std::to_string(process_) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("VmRSS:")) {
+        return std::atof(line.c_str() + 6) / 1024;
+      }
+    }
+    return 0;
+  }
+
+  static std::unique_ptr<ScratchFolder> scratch;
+  static solve::CraniotomyLoad load;
+  pid_t process_ = 0;
+};
+std::unique_ptr<ScratchFolder> Live::scratch;
+solve::CraniotomyLoad Live::load;
+
+TEST_F(Live, AnswersEachChangePassesOverWhatIsBrokenAndGoesOnAfterAKill) {
+  give(1.05);
+  start("--image");
+  ASSERT_TRUE(comes_true([] { return fs::exists(answer(1) / "warped.nii.gz"); })) << said("err");
+  EXPECT_TRUE(fs::exists(answer(1) / transform));
+  EXPECT_NE(said("out").find("error bound"), std::string::npos) << said("out");
+
+  write_text(load_file(), "# frame: LPS\nx,y,z,ux,uy,uz\n1,2,");
+  ASSERT_TRUE(comes_true([] { return said("err").find("passed over") != std::string::npos; }));
+  give(0.95);
+  ASSERT_TRUE(comes_true([] { return fs::exists(answer(2) / "warped.nii.gz"); })) << said("err");
+  EXPECT_NE(contents_of(answer(1) / transform), contents_of(answer(2) / transform));
+
+  give(1.02);  // killed at any time of the answer, or before it
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  stop(SIGKILL);
+  start();
+  give(1.01);
+  ASSERT_TRUE(comes_true([] { return said("out").find("error bound") != std::string::npos; })) << said("err");
+  stop(SIGTERM);
+  EXPECT_TRUE(half_written(run()).empty());
+  for (int number = 1; fs::exists(answer(number)); ++number) {
+    EXPECT_TRUE(fs::exists(answer(number) / transform)) << number;
+    EXPECT_TRUE(fs::exists(answer(number) / "load.csv")) << number;
+  }
+  EXPECT_TRUE(fs::exists(answer(3)));
+}
+
+TEST_F(Live, MemoryDoesNotGrow) {
+  constexpr int updates = 200;
+  fs::remove_all(run() / "live");
+  give(1);
+  start();
+  double early = 0;
+  for (int number = 1; number <= updates; ++number) {
+    ASSERT_TRUE(comes_true([number] { return fs::exists(answer(number)); })) << said("err");
+    if (number == updates / 10) {
+      early = resident_megabytes();
+    }
+    if (number < updates) {
+      give(1 + 0.05 * std::sin(number));
+    }
+  }
+  EXPECT_GT(early, 0);
+  EXPECT_LT(resident_megabytes(), 1.05 * early);
+  stop(SIGTERM);
+}
+
+}  // namespace brainshift::live_test
