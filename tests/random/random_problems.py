@@ -114,9 +114,9 @@ def judge(seed, arguments):
     moved = max(math.hypot(*u[:n]) for u in displacement)
     row["moved"] = moved
     bound = float(row["bound"])
-    part, steps = (20, 100) if problem.small else (50, 400)
+    part = 20 if problem.small else 50
     tight = Run(arguments.program, [*given, "--precision", "double", "--tolerance", max(bound / part, 1e-7), "--start",
-                                    "rest", "--load-steps", steps], folder / "tight", 4 * arguments.seconds)
+                                    "rest"], folder / "tight", 4 * arguments.seconds)
     if tight.exit not in (0, 3):
         faults.append("tight")
     if tight.exit == 0:
