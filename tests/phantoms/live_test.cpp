@@ -69,7 +69,7 @@ class Live : public testing::Test {
   }
   void start(const std::string& more = "") {
     const fs::path number = *scratch / "process";
-    run_shell("brainshift live " + run().string() + " --load " + load_file().string() + " " + more + " > " +
+    run_shell(BRAINSHIFT_PROGRAM " live " + run().string() + " --load " + load_file().string() + " " + more + " > " +
               (*scratch / "out").string() + " 2> " + (*scratch / "err").string() + " & echo $! > " + number.string());
     std::ifstream(number) >> process_;
     ASSERT_GT(process_, 0);
