@@ -16,7 +16,8 @@ constexpr std::size_t most_waves = 10;  // a direction; with more the step count
 constexpr double wave_width = 2.5;      // spacings: of the bells whose principal sums the waves are
 constexpr double amplitude = 0.2;       // mm, at the node where a wave is largest: for the first order
 constexpr double closer = 0.02;         // stop, over the tolerance: a response is multiplied by up to 1 mm / amplitude
-constexpr int most_steps = 1500;        // that a response is worth
+constexpr std::size_t most_nodes = 1500;  // waves over n nodes take n³ operations
+constexpr int most_steps = 1500;          // that a response is worth
 
 std::vector<std::int32_t> loaded_nodes(const Points& prescribed) {
   std::vector<std::int32_t> nodes;
@@ -88,8 +89,8 @@ void note_response(const NodalVectors& now, const KeptBody& kept, const Column& 
 Responses responses_of(const KeptBody& kept, const Points& prescribed, const SolveOptions& given,
                        const Progress& progress) {
   Responses responses{.nodes = loaded_nodes(prescribed), .waves = {}, .parameters = {}};
-  if (responses.nodes.empty()) {
-    return responses;
+  if (responses.nodes.empty() || responses.nodes.size() > most_nodes) {
+    return {};
   }
   const Eigen::MatrixXd waves = waves_over(responses.nodes, kept.body);
   responses.waves.assign(waves.data(), waves.data() + waves.size());
