@@ -76,6 +76,8 @@ class Live : public testing::Test {
   }
   void start(const std::string& more = "") {
     const fs::path number = *scratch / "process";
+    fs::remove(*scratch / "out");  // of the process before
+    fs::remove(*scratch / "err");
     run_shell(BRAINSHIFT_PROGRAM " live " + run().string() + " --load " + load_file().string() + " " + more + " > " +
               (*scratch / "out").string() + " 2> " + (*scratch / "err").string() + " & echo $! > " + number.string());
     std::ifstream(number) >> process_;
