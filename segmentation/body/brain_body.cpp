@@ -13,15 +13,10 @@ namespace {
 
 void check_size(const Mask& brain) {
   const Eigen::Vector3d& spacing = brain.geometry.spacing;
-  Eigen::Array3i low = brain.geometry.size, high = Eigen::Array3i::Zero();
-  for_each_inside(brain, [&](const Eigen::Array3i& voxel) {
-    low = low.min(voxel);
-    high = high.max(voxel + 1);
-  });
   std::ostringstream advice;
   advice << "are the image's lengths in metres, centimetres or micrometres? Voxels of " << spacing.x() << " x "
          << spacing.y() << " x " << spacing.z() << " mm are what its header says; correct it";
-  check_across(((high - low).cast<double>() * spacing.array()).maxCoeff(), advice.str());
+  check_across((cropped(brain, 0).geometry.size.cast<double>() * spacing.array()).maxCoeff(), advice.str());
 }
 
 // What of the tissue lies outside the body.

@@ -18,8 +18,8 @@ struct KeptBody {
 };
 
 /// How a body at rest answers small changes of what is prescribed: to long waves over the loaded nodes. What answers to
-/// short ones lies near them and relaxes in a few steps. All zero where it is not known: a start from it is farther
-/// off.
+/// short ones lies near them and relaxes in a few steps. All zero where it is not known, and none where more than 1500
+/// nodes are loaded: a start from them is farther off.
 struct Responses {
   std::vector<std::int32_t> nodes;  ///< loaded, of the cloud
   std::vector<double> waves;        ///< (waves × nodes), orthonormal
