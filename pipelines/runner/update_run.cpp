@@ -13,6 +13,7 @@
 #include "pipelines/scene/parse_scene.hpp"
 #include "segmentation/files/make_folder.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "solve/body/nodal_order.hpp"
 #include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
@@ -135,12 +136,7 @@ NodeCloud UpdatedRun::cloud() const {
 }
 
 Points UpdatedRun::parameters() const {
-  const std::vector<std::int32_t>& original = kept_.fine.body.original;
-  Points parameters(static_cast<Eigen::Index>(original.size()), 3);
-  for (std::size_t a = 0; a < original.size(); ++a) {
-    parameters.row(original[a]) = solve::at(kept_.fine.parameters, a).head<3>();
-  }
-  return parameters;
+  return solve::in_cloud_order(kept_.fine.parameters, kept_.fine.body.original);
 }
 
 solve::SolveResult UpdatedRun::solve(const solve::CraniotomyLoad& load, const fs::path& file,

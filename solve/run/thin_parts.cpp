@@ -10,6 +10,8 @@
 #include <string>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/body/ordered_cloud.hpp"
+#include "solve/cut/cut_body.hpp"
 
 namespace brainshift::solve {
 
@@ -17,9 +19,9 @@ namespace {
 
 constexpr double enough = 4;  // spacings
 
-double mean_spacing_at(const NodeCloud& cloud, const std::vector<Eigen::Index>& nodes) {
+double mean_spacing_at(const NodeCloud& cloud, const std::vector<std::int32_t>& nodes) {
   double sum = 0;
-  for (const Eigen::Index a : nodes) {
+  for (const std::int32_t a : nodes) {
     sum += cloud.spacing[static_cast<std::size_t>(a)];
   }
   return sum / static_cast<double>(nodes.size());
@@ -28,11 +30,11 @@ double mean_spacing_at(const NodeCloud& cloud, const std::vector<Eigen::Index>& 
 /// Of the surface nodes that are moved, along the narrow side of their patch. Of n nodes in a row, evenly, the variance
 /// is (n² − 1) / 12 of the squared spacing.
 std::optional<double> patch_across(const Model& model) {
-  std::vector<Eigen::Index> moved;
+  std::vector<std::int32_t> moved;
   for (Eigen::Index a = 0; a < model.conditions.displacement.rows(); ++a) {
     const auto u = model.conditions.displacement.row(a).array();
     if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0 && (u.abs() > 0).any()) {
-      moved.push_back(a);
+      moved.push_back(static_cast<std::int32_t>(a));
     }
   }
   if (moved.empty()) {
@@ -73,15 +75,8 @@ std::vector<ThinPart> thin_parts(const Model& model, const PlacedPoints& points)
   if (const std::optional<double> patch = patch_across(model); patch && *patch < enough) {
     thin.push_back({"the moved patch", *patch});
   }
-  std::vector<Eigen::Index> all, on_surface;
-  for (std::size_t a = 0; a < model.cloud.size(); ++a) {
-    all.push_back(static_cast<Eigen::Index>(a));
-    if (model.cloud.on_surface[a] != 0) {
-      on_surface.push_back(static_cast<Eigen::Index>(a));
-    }
-  }
-  const Points surface = model.cloud.positions(on_surface, Eigen::all);
-  const double spacing = mean_spacing_at(model.cloud, all);
+  const Points surface = model.cloud.positions(surface_nodes(model.cloud), Eigen::all);
+  const double spacing = mean_spacing(model.cloud);
   for (const std::int32_t tissue : std::set<std::int32_t>(points.tissue.begin(), points.tissue.end())) {
     if (const double spacings = across(points, tissue, surface) / spacing; spacings < enough) {
       thin.push_back({"tissue " + std::to_string(tissue), spacings});

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "solve/body/lay_out.hpp"
+#include "solve/body/nodal_order.hpp"
 #include "solve/ensemble/each.hpp"
 #include "solve/ensemble/relax_together.hpp"
 #include "solve/run/coarse.hpp"
@@ -82,15 +83,6 @@ std::optional<Points> whole_displacement(const Model& model, const SolveOptions&
   return result.failure.empty() ? std::optional(std::move(result.solution.displacement)) : std::nullopt;
 }
 
-/// û of the coarse nodes in the cloud's order.
-Points in_cloud_order(const NodalVectors& parameters, const std::vector<std::int32_t>& original) {
-  Points ordered(static_cast<Eigen::Index>(original.size()), 3);
-  for (std::size_t a = 0; a < original.size(); ++a) {
-    ordered.row(original[a]) = at(parameters, a).head<3>();
-  }
-  return ordered;
-}
-
 }  // namespace
 
 Displacements coarse_displacements(const Model& model, const SolveOptions& options,
@@ -148,7 +140,7 @@ Displacements whole_displacements(const Model& model, const SolveOptions& given,
   for (std::size_t m = 0; m < loads.size(); ++m) {
     (starts[m] ? from_start : from_rest).push_back(m);
     if (starts[m]) {
-      loads[m].start = as_start(*starts[m], prepared.body.original);
+      loads[m].start = in_body_order(*starts[m], prepared.body.original);
     }
   }
   Displacements displacements(constants.size());

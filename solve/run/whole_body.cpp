@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "segmentation/progress/stopwatch.hpp"
+#include "solve/body/nodal_order.hpp"
 #include "solve/cut/resection.hpp"
 #include "solve/run/coarse.hpp"
 #include "solve/run/error_estimate.hpp"
@@ -41,14 +42,6 @@ SolveOptions of_coarse_start(SolveOptions options) {
   options.tolerance *= factor;
   options.load_steps = std::min(options.load_steps, 100);
   return options;
-}
-
-NodalVectors as_start(const Points& displacement, const std::vector<std::int32_t>& original) {
-  NodalVectors start(4 * original.size(), 0.0);
-  for (std::size_t a = 0; a < original.size(); ++a) {
-    at(start, a).head<3>() = displacement.row(original[a]);
-  }
-  return start;
 }
 
 namespace {
@@ -116,7 +109,7 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
     report(progress, 0, "solving a coarse cloud");
     coarse = coarse_displacement(model, of_coarse_start(options), {});
     if (coarse && starts_coarse(model, options)) {
-      start_from = as_start(*coarse, prepared.body.original);
+      start_from = in_body_order(*coarse, prepared.body.original);
     }
     measures.seconds_coarse = begin.seconds();
   }

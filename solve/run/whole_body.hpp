@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "segmentation/progress/progress.hpp"
-#include "solve/arrays/nodal_vectors.hpp"
 #include "solve/interface/model.hpp"
 #include "solve/interface/options.hpp"
 #include "solve/interface/result.hpp"
@@ -15,10 +14,9 @@ namespace brainshift::solve {
 /// solve() without a region: the resection is taken out, the rest prepared, started and stepped to the end.
 SolveResult solve_whole_body(const Model& model, const SolveOptions& options, const Progress& progress);
 
-/// Whether it is started from a coarse solution, with what options that is made, and û at the body's nodes that is made
-/// of it: the displacement (n × 3) mm is taken for the parameters, which is near enough for a start.
+/// Whether it is started from a coarse solution, and with what options that is made. Its displacement is then taken for
+/// the parameters û, which is near enough for a start.
 bool starts_coarse(const Model& model, const SolveOptions& options);
 SolveOptions of_coarse_start(SolveOptions options);
-NodalVectors as_start(const Points& displacement, const std::vector<std::int32_t>& original);
 
 }  // namespace brainshift::solve

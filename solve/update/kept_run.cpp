@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "segmentation/progress/stopwatch.hpp"
+#include "solve/body/nodal_order.hpp"
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/run/prepare.hpp"
@@ -23,18 +24,6 @@ constexpr double closer_at_rest = 0.1;  // of the tolerance: what is open here e
 /// A_0 of what responses leave open: it is local. Lower takes more steps; at a higher one the bound of the
 /// error does not hold for what is not.
 constexpr double local_eigenvalue = 0.002;
-
-NodalVectors in_body_order(const Points& values, const std::vector<std::int32_t>& original) {
-  NodalVectors ordered(4 * original.size(), 0.0);
-  for (std::size_t a = 0; a < original.size(); ++a) {
-    at(ordered, a).head<3>() = values.row(original[a]);
-  }
-  return ordered;
-}
-
-bool is_loaded(const Points& prescribed, Eigen::Index node) {
-  return !prescribed.row(node).array().isNaN().all();
-}
 
 /// Surface nodes of the whole cloud that nothing prescribes.
 std::vector<std::int32_t> free_nodes(const std::vector<std::uint8_t>& on_surface, const Points& prescribed) {

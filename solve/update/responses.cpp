@@ -22,7 +22,7 @@ constexpr int most_steps = 1500;          // that a response is worth
 std::vector<std::int32_t> loaded_nodes(const Points& prescribed) {
   std::vector<std::int32_t> nodes;
   for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
-    if (!prescribed.row(a).array().isNaN().all()) {
+    if (is_loaded(prescribed, a)) {
       nodes.push_back(static_cast<std::int32_t>(a));
     }
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "segmentation/geometry/points.hpp"
 #include "segmentation/progress/progress.hpp"
 #include "solve/dynamics/stepping.hpp"
 #include "solve/interface/options.hpp"
@@ -16,6 +17,11 @@ struct KeptBody {
   NodalVectors parameters;  ///< û at rest, mm
   Settled settled;
 };
+
+/// Whether a load prescribes any component at a node.
+inline bool is_loaded(const Points& prescribed, Eigen::Index node) {
+  return !prescribed.row(node).array().isNaN().all();
+}
 
 /// How a body at rest answers small changes of what is prescribed: to long waves over the loaded nodes. What answers to
 /// short ones lies near them and relaxes in a few steps. All zero where it is not known, and none where more than 1500
