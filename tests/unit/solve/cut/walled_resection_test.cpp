@@ -87,7 +87,7 @@ class Plates : public ::testing::Test {
 
   static Model plates() {
     Model model = with_wall(test::box(origin, {side, side, side}),
-                            test::box({-5, -5, (side - gap) / 2}, {side + 5, side + 5, (side + gap) / 2}), 1500);
+                            test::box({-5, -5, (side - gap) / 2}, {side + 5, side + 5, (side + gap) / 2}), 1000);
     for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
       const Eigen::RowVector3d x = model.cloud.positions.row(a);
       auto prescribed = model.conditions.displacement.row(a);
@@ -132,7 +132,7 @@ TEST_F(Plates, OpenAgain) {
 /// A dry cavity in a ball that lies in fluid: what is around it is pressed into it.
 TEST(WalledResection, ADryCavityInFluidIsPressedTogetherAndNotTurnedInsideOut) {
   const Surface ball = test::sphere(origin, 30, 4), wall = test::sphere(origin, 8, 4);
-  Model model = with_wall(ball, wall, 1500);
+  Model model = with_wall(ball, wall, 1000);
   model.materials[1].youngs_modulus = 500;
   model.fluid = DrainedFluid{.gravity = {0, 0, -9.81}, .gravity_of_image = {0, 0, -9.81}, .level = -40};
   model.resection->fluid_level = 100;

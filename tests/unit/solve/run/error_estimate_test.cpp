@@ -35,7 +35,7 @@ TEST(ErrorEstimate, DoesNotVanishWhereTheFieldsCross) {
 
 /// Against a cloud of eight times the nodes.
 TEST(ErrorEstimate, ComesWithEverySolutionThatHadACoarseStart) {
-  Model coarse = uniaxial(0.8, 7), fine = uniaxial(0.8, 13);
+  Model coarse = uniaxial(0.8, 6), fine = uniaxial(0.8, 11);
   for (Model* model : {&coarse, &fine}) {
     for (Eigen::Index a = 0; a < model->cloud.positions.rows(); ++a) {
       if (model->cloud.positions(a, 2) < 1e-9 || model->cloud.positions(a, 2) > side - 1e-9) {
