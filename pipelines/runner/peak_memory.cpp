@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/peak_memory.hpp"
 
+#include <algorithm>
 #include <fstream>
-#include <limits>
 #include <optional>
 #include <string>
+
+#include "pipelines/runner/control_groups.hpp"
 
 namespace brainshift::pipelines {
 
@@ -31,8 +33,20 @@ double peak_memory_mb() {
   return megabytes_in("/proc/self/status", "VmHWM:").value_or(0);
 }
 
+double memory_limit_mb(std::string_view groups, const std::filesystem::path& mount) {
+  return smallest_limit(groups, mount, "memory", [](const std::filesystem::path& group) {
+    for (const char* name : {"memory.max", "memory.limit_in_bytes"}) {  // "max", or nearly 2^63, is no limit
+      if (double bytes = 0; std::ifstream(group / name) >> bytes) {
+        return bytes / (1024 * 1024);
+      }
+    }
+    return no_limit;
+  });
+}
+
 double available_memory_mb() {
-  return megabytes_in("/proc/meminfo", "MemAvailable:").value_or(std::numeric_limits<double>::infinity());
+  return std::min(megabytes_in("/proc/meminfo", "MemAvailable:").value_or(no_limit),
+                  memory_limit_mb(own_control_groups(), "/sys/fs/cgroup"));
 }
 
 }  // namespace brainshift::pipelines

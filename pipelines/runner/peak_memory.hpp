@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
+#include <string_view>
+
 namespace brainshift::pipelines {
 
 /// Begins to measure anew, where the system can (Linux).
@@ -10,7 +13,11 @@ void reset_peak_memory();
 /// system does not say.
 double peak_memory_mb();
 
-/// Memory that can be had without swapping, MB; infinite where the system does not say.
+/// What the control groups of a process leave it, MB, infinity without a limit; as processor_quota().
+double memory_limit_mb(std::string_view groups, const std::filesystem::path& mount);
+
+/// Memory that can be had without swapping, and that the control groups allow, MB; infinite where the system does not
+/// say.
 double available_memory_mb();
 
 }  // namespace brainshift::pipelines

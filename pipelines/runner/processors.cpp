@@ -6,18 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
-#include <limits>
-#include <sstream>
-#include <string>
+
+#include "pipelines/runner/control_groups.hpp"
 
 namespace brainshift::pipelines {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// Version 2 writes "50000 100000" or "max 100000" into one file, version 1 two numbers into two; -1 is no limit there.
 double quota_of(const fs::path& group) {
@@ -28,47 +24,13 @@ double quota_of(const fs::path& group) {
     std::ifstream(group / "cpu.cfs_quota_us") >> quota;
     std::ifstream(group / "cpu.cfs_period_us") >> period;
   }
-  return quota > 0 && period > 0 ? quota / period : unlimited;
-}
-
-/// A container may show a path of its host that is not there: the groups above it then decide.
-double smallest_quota(const fs::path& mount, const fs::path& group) {
-  double smallest = quota_of(mount);
-  fs::path folder = mount;
-  for (const fs::path& part : group.relative_path()) {
-    folder /= part;
-    smallest = std::min(smallest, quota_of(folder));
-  }
-  return smallest;
-}
-
-bool names_cpu(std::string_view controllers) {
-  std::istringstream names{std::string(controllers)};
-  for (std::string name; std::getline(names, name, ',');) {
-    if (name == "cpu") {
-      return true;
-    }
-  }
-  return false;
+  return quota > 0 && period > 0 ? quota / period : no_limit;
 }
 
 }  // namespace
 
 double processor_quota(std::string_view groups, const fs::path& mount) {
-  double smallest = unlimited;
-  std::istringstream lines{std::string(groups)};
-  for (std::string line; std::getline(lines, line);) {  // NUMBER:CONTROLLERS:/GROUP
-    const std::size_t first = line.find(':');
-    const std::size_t second = line.find(':', first == std::string::npos ? first : first + 1);
-    if (second == std::string::npos) {
-      continue;
-    }
-    const std::string controllers = line.substr(first + 1, second - first - 1);
-    if (controllers.empty() || names_cpu(controllers)) {
-      smallest = std::min(smallest, smallest_quota(mount / controllers, line.substr(second + 1)));
-    }
-  }
-  return smallest;
+  return smallest_limit(groups, mount, "cpu", quota_of);
 }
 
 int threads_for(int allowed, double quota) {
@@ -76,9 +38,7 @@ int threads_for(int allowed, double quota) {
 }
 
 int available_threads() {
-  std::ifstream file("/proc/self/cgroup");
-  const std::string groups{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return threads_for(omp_get_num_procs(), processor_quota(groups, "/sys/fs/cgroup"));
+  return threads_for(omp_get_num_procs(), processor_quota(own_control_groups(), "/sys/fs/cgroup"));
 }
 
 }  // namespace brainshift::pipelines

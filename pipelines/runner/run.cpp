@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "pipelines/runner/artefacts.hpp"
+#include "pipelines/runner/enough_memory.hpp"
 #include "pipelines/runner/folder_lock.hpp"
 #include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/own_folder.hpp"
@@ -146,7 +147,7 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
   InputStates states;
   RunOutcome outcome{begin_run_record(scene, states), {}};
   Tally tally(scene, options.until, observer);
-  bool rerun = options.force;
+  bool rerun = options.force, memory_is_enough = false;
   StageId last = StageId::segment;
   for (const StageId stage : all_stages) {
     if (stage > options.until || !outcome.failure.empty()) {
@@ -167,6 +168,10 @@ RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& inte
       tally.tell(RunEvent::Kind::kept, stage, 0, listed(old->edited));
       tally.tell_notes(stage, old->record.entry);
     } else {
+      if (!memory_is_enough) {
+        require_memory(scene, stage, options.until, available_memory_mb());
+        memory_is_enough = true;
+      }
       tally.tell(RunEvent::Kind::started, stage);
       const Progress progress = [&](double fraction, std::string_view what) {
         tally.tell(RunEvent::Kind::progress, stage, fraction, what);

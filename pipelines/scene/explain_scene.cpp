@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <numbers>
 #include <sstream>
 
-#include "pipelines/scene/scene_labels.hpp"
+#include "pipelines/scene/run_size.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "pipelines/scene/stage_memory.hpp"
 #include "solve/shape/node_supports.hpp"
@@ -15,47 +14,6 @@
 
 namespace brainshift::pipelines {
 namespace {
-
-constexpr double typical_brain_volume = 1.4e6;  // mm³
-
-bool is_brain(const Scene& scene, std::uint16_t value, bool mask) {
-  if (mask) {
-    return value != 0;
-  }
-  return std::any_of(scene.tissues.begin(), scene.tissues.end(), [&](const Tissue& t) { return t.label == value; });
-}
-
-RunSize image_size(const Scene& scene) {
-  RunSize size{.solve = {.volume = typical_brain_volume}};
-  const bool mask = scene.image.labels.empty();
-  const auto& file = mask ? scene.image.brain_mask : scene.image.labels;
-  if (!file.empty()) {
-    const LabelMap map = mask ? read_label_map(file) : read_labels(scene.image, label_reading(scene)).map;
-    const auto count = std::count_if(map.voxels.begin(), map.voxels.end(),
-                                     [&](std::uint16_t value) { return is_brain(scene, value, mask); });
-    size.label_voxels = static_cast<double>(map.voxels.size());
-    size.solve.volume = static_cast<double>(count) * map.geometry.voxel_volume();
-  }
-  const auto& t1 = scene.image.t1;
-  size.voxels =
-      t1.empty() || t1 == file ? size.label_voxels : static_cast<double>(read_image(t1).geometry.voxel_count());
-  return size;
-}
-
-RunSize estimate(const Scene& scene) {
-  RunSize size = image_size(scene);
-  SolveSize& solve = size.solve;
-  const auto& discretise = scene.discretise;
-  solve.nodes = discretise.spacing ? solve.volume / std::pow(*discretise.spacing, 3)
-                                   : static_cast<double>(discretise.nodes.value_or(12000));
-  const bool hexahedra = discretise.cells == CellKind::hexahedron;
-  // Delaunay tetrahedra of a cloud: about six a node.
-  const double cells = solve.nodes * (hexahedra ? discretise.cells_per_node : 6);
-  const int points_a_cell = scene.solve.points_per_cell.value_or(hexahedra ? 8 : 4);
-  solve.points = cells * points_a_cell;
-  solve.pairs = solve.points * 4 * std::numbers::pi / 3 * std::pow(solve::dilatation(scene.solve.shape), 3);
-  return size;
-}
 
 std::string round_number(double value) {
   const double digits = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(value, 1.0))) - 1));
@@ -207,7 +165,7 @@ void explain_shares(const Scene& scene, const SolveSize& size, std::ostringstrea
 }  // namespace
 
 std::string explain_scene(const Scene& scene) {
-  const RunSize size = estimate(scene);
+  const RunSize size = run_size(scene);
   std::ostringstream text;
   text << "parts\n";
   explain_parts(scene, text);

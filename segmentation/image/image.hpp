@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,10 @@ double share_within(const LabelMap& labels, const ImageGeometry& grid);
 
 /// "256 x 256 x 256 voxels of 1 x 1 x 1 mm from (-128, 128, 128)", for sentences.
 std::string described(const ImageGeometry& geometry);
+
+/// Voxels that the header of a file promises, before any of them is read; empty of a folder of DICOM slices. Throws as
+/// read_image().
+std::optional<double> declared_voxels(const std::filesystem::path& file);
 
 /// Reads one 3-D scalar image: .nii, .nii.gz, .nrrd, .mha, .mgz, .mgh, or a folder with one DICOM series.
 /// Throws std::invalid_argument, naming the file, when it is missing, empty, truncated, no image, not 3-D, or (scalar)

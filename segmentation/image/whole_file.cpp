@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/image/bytes.hpp"
 #include "segmentation/image/gzip_file.hpp"
@@ -73,6 +75,20 @@ ImageHeader read_header(const fs::path& file, ImageFormat format) {
 }
 
 }  // namespace
+
+std::optional<double> declared_voxels(const fs::path& file) {
+  check_readable(file);
+  std::error_code unknown;
+  if (fs::is_directory(file, unknown)) {
+    return std::nullopt;
+  }
+  const ImageHeader header = read_header(file, image_format(file));
+  double voxels = 1;
+  for (std::size_t axis = 0; axis < std::min<std::size_t>(3, header.size.size()); ++axis) {
+    voxels *= static_cast<double>(header.size[axis]);
+  }
+  return voxels;
+}
 
 ImageHeader check_whole(const fs::path& file, ImageFormat format, std::uint64_t components) {
   ImageHeader header = read_header(file, format);

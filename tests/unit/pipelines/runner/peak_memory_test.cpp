@@ -2,7 +2,11 @@
 #include "pipelines/runner/peak_memory.hpp"
 
 #include <gtest/gtest.h>
+
+#include <limits>
+
 #include <sys/mman.h>
+#include "tests/unit/pipelines/run_folder.hpp"
 
 #include <cmath>
 
@@ -46,6 +50,18 @@ TEST(PeakMemory, WhatCanBeHadIsMoreThanNothing) {
   const double available = available_memory_mb();
   EXPECT_GT(available, 1);
   EXPECT_FALSE(std::isnan(available));
+}
+
+/// The run's folder stands for /sys/fs/cgroup.
+class MemoryLimit : public RunFolder {};
+
+TEST_F(MemoryLimit, OfAControlGroupOfEitherVersionIsRead) {
+  write("job/memory.max", "1073741824\n");
+  write("free/memory.max", "max\n");
+  write("memory/job/memory.limit_in_bytes", "536870912\n");
+  EXPECT_EQ(memory_limit_mb("0::/job\n", folder_), 1024);
+  EXPECT_EQ(memory_limit_mb("0::/free\n", folder_), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(memory_limit_mb("5:memory:/job\n", folder_), 512);
 }
 
 }  // namespace brainshift::pipelines::peak_memory_test

@@ -163,4 +163,16 @@ TEST(VoxelName, CountsXFastest) {
   EXPECT_EQ(voxel_name({3, 4, 5}, 59), "voxel (2, 3, 4)");
 }
 
+TEST(DeclaredVoxels, AreThoseOfTheHeaderAlone) {
+  const ScratchFolder scratch;
+  for (const char* name : {"image.nii", "image.nii.gz", "image.mha", "image.nrrd"}) {
+    const fs::path file = scratch / name;
+    write_image(file, counted<float>());
+    EXPECT_EQ(declared_voxels(file), size * size * size) << name;
+  }
+  resize_file(scratch / "image.nii", file_size(scratch / "image.nii") - 4);
+  EXPECT_EQ(declared_voxels(scratch / "image.nii"), size * size * size) << "at the voxels nothing looks";
+  EXPECT_FALSE(declared_voxels(scratch.path())) << "slices of DICOM";
+}
+
 }  // namespace brainshift::test::whole_file_test
