@@ -6,8 +6,7 @@
 
 namespace brainshift::solve {
 
-/// The bytes of a file as they lie in the system's memory, without a copy. The first is at an address that any number
-/// may have.
+/// The bytes of a file as they lie in the system's memory, without a copy; the first is aligned for any number.
 class MappedFile {
  public:
   /// Empty where the file is not there or cannot be read.
