@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds pause{20};
+constexpr std::chrono::milliseconds pause{5};  // between looks at the file
+constexpr std::chrono::milliseconds rest{20};  // unchanged for so long, it is whole
 
 struct LiveArguments {
   fs::path run;
@@ -81,13 +82,16 @@ void answer(LiveRun& run, const LiveArguments& arguments, const FileState& state
     std::fflush(stdout);
   }
   FileState seen, answered;
+  auto since = std::chrono::steady_clock::now();
   for (;; std::this_thread::sleep_for(pause)) {
     const FileState now = state_of(arguments.load);
-    if (now.there && now != answered && now == seen) {  // who writes it has paused
+    if (now != seen) {
+      seen = now;
+      since = std::chrono::steady_clock::now();
+    } else if (now.there && now != answered && std::chrono::steady_clock::now() - since >= rest) {
       answer(run, arguments, now, settings.quiet);
       answered = now;
     }
-    seen = now;
   }
 }
 

@@ -140,14 +140,15 @@ json uncertainty(PageContent& content, const json& stages) {
 }
 
 // How a measured load was weighed: the weights that were tried, or that it has no noise to be weighed by.
-json weight_of(const json& stages, const json& options) {
+json weight_of(PageContent& content, const json& stages, const json& options) {
   const json::json_pointer place("/solve/measures");
   const json measures = stages.contains(place) ? stages.at(place) : json::object();
   if (measures.contains("weights")) {
     return {{"exact", false},
             {"chosen",
              {{"weight", readable(measures.value("weight_mJ", 0.0))},
-              {"factor", readable(measures.value("noise_factor", 1.0))}}}};
+              {"factor", readable(measures.value("noise_factor", 1.0))},
+              {"figures", figures_of(content.weights)}}}};
   }
   const bool measured = options.contains("load.craniotomy") || options.contains("load.markups");
   return measured && !measures.contains("weight_mJ") ? json{{"exact", true}, {"chosen", false}} : json(false);
@@ -238,7 +239,7 @@ std::string make_page(PageContent content) {
                               {"displacement", displacement(content)},
                               {"septum", elements.contains("septa") || elements.contains("septum")},
                               {"uncertainty", uncertainty(content, stages)},
-                              {"weight", weight_of(stages, elements)},
+                              {"weight", weight_of(content, stages, elements)},
                               {"labels", labels_of(content)},
                               {"measures", measures_of(measures)},
                               {"convergence", convergence(content)},

@@ -20,6 +20,7 @@ struct PageContent {
   std::vector<Figure> uncertainties = {};   ///< one a plane
   std::vector<Figure> labels = {};          ///< one a plane
   std::vector<Figure> surfaces = {};        ///< none or one
+  std::vector<Figure> weights = {};         ///< none or one
   ViewerData viewer = {};                   ///< without an array where there is no image
   std::vector<PackedBytes> libraries = {};  ///< of viewer.js
 };

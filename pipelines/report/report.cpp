@@ -15,6 +15,7 @@
 #include "pipelines/report/run_data.hpp"
 #include "pipelines/report/slice_figures.hpp"
 #include "pipelines/report/surface_figure.hpp"
+#include "pipelines/report/weight_figure.hpp"
 #include "segmentation/files/make_folder.hpp"
 
 namespace brainshift::pipelines {
@@ -35,8 +36,9 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
 constexpr std::size_t largest_page = 10'000'000;  // letters: what goes by mail
 constexpr std::size_t tables = 200'000;           // and script: what else is on the page
 
-std::array<const std::vector<Figure>*, 5> all_figures(const PageContent& content) {
-  return {&content.comparisons, &content.displacements, &content.uncertainties, &content.labels, &content.surfaces};
+std::array<const std::vector<Figure>*, 6> all_figures(const PageContent& content) {
+  return {&content.comparisons, &content.displacements, &content.uncertainties,
+          &content.labels,      &content.surfaces,      &content.weights};
 }
 
 // The pictures do not depend on each other: one is drawn while another's PNG is compressed.
@@ -94,13 +96,15 @@ void write_report(const fs::path& run_folder, const fs::path& out, const Progres
   content.record = run.record;
   content.has_image = run.t1.has_value() && run.warped.has_value();
   content.libraries = viewer_libraries();
+  const auto measures =
+      run.record.value(nlohmann::json::json_pointer("/stages/solve/measures"), nlohmann::json::object());
+  content.weights = weight_figures(measures);
   if (run.brain && run.solution) {
     draw_pictures(run, content, progress);
   }
   content.viewer.facts["history"] = run.history;
   content.viewer.facts["options"] = run.record.value("options", nlohmann::json::object());
-  content.viewer.facts["measures"] =
-      run.record.value(nlohmann::json::json_pointer("/stages/solve/measures"), nlohmann::json::object());
+  content.viewer.facts["measures"] = measures;
   content.viewer.facts["label_names"] = run.record.value("label_names", nlohmann::json::object());
   for (const auto* figures : all_figures(content)) {
     for (const Figure& figure : *figures) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The part of the report that moves: curves of the solver and of the load's weight (uPlot), and three planes with the
+// The part of the report that moves: curves of the solver (uPlot), and three planes with the
 // brain in 3-D (NiiVue). page.cpp puts it at the end of the page, after viewer_run.js. NiiVue's places are in RAS;
 // flipped() leads from LPS to them and back.
 
 // --- Curves ---
 
-// Rows come in the order of x. A line: its label, its column, its dashes, the size of its points. One without a
-// positive value is left out, and a plot without lines.
+// Rows come in the order of x. A line: its label, its column, its dashes. One without a positive value is left out, and
+// a plot without lines.
 function drawPlot(place, rows, title, [x, xLabel], yLabel, lines, { logarithmic = [], shaded = 0 } = {}) {
   const scale = (axis) => ({ time: false, distr: logarithmic.includes(axis) ? 3 : 1 });
   const plain = (_, ticks) => ticks.map((tick) => (tick === null ? "" : `${Number(tick.toPrecision(3))}`));
@@ -27,8 +27,8 @@ function drawPlot(place, rows, title, [x, xLabel], yLabel, lines, { logarithmic 
     scales: { x: scale("x"), y: scale("y") },
     axes: [{ label: xLabel, ...numbers("x") }, { label: yLabel, size: 70, ...numbers("y") }],
     series: [{ label: xLabel }, ...drawn.map((i, number) => {
-      const [label, , dash, size = 5] = lines[i];
-      return { label, stroke: colours[number], width: 2, dash, points: { show: !dash, size } };
+      const [label, , dash] = lines[i];
+      return { label, stroke: colours[number], width: 2, dash, points: { show: !dash, size: 5 } };
     })],
   }, [rows.map((row) => row[x]), ...drawn.map((i) => columns[i])], element(place));
 }
@@ -46,16 +46,6 @@ function drawCurves(history, options) {
   drawPlot("curves", rows, "Energies", inTime ? ["time", "time, s"] : ["step", "step"], "mJ",
     [["external work", "external_work_mJ"], ["strain energy", "strain_energy_mJ"],
       ["kinetic energy", "kinetic_energy_mJ"], ["dissipated", "dissipated_energy_mJ"]]);
-}
-
-// The weights of the measured points that were tried, and the one that was taken.
-function drawWeights({ weights = [], weight_mJ: taken }) {
-  const rows = weights.map((row) => ({ ...row, taken: row.weight_mJ === taken ? row.misfit : NaN }));
-  rows.sort((a, b) => a.energy_mJ - b.energy_mJ);
-  drawPlot("weights", rows, "What the measured points ask of the tissue",
-    ["energy_mJ", "energy of the deformation, mJ"], "misfit, sum of squares over variances",
-    [["weights that were tried", "misfit"], ["the one that was taken", "taken", undefined, 12]],
-    { logarithmic: ["x", "y"] });
 }
 
 // --- Colours ---
@@ -275,7 +265,6 @@ async function begin(says) {
   await load("style", "uplot_style");
   await load("script", "uplot");
   if (facts.history) drawCurves(facts.history, facts.options.solve ?? {});
-  drawWeights(facts.measures);
   if (!says) return; // there was nothing to turn
   if (!document.createElement("canvas").getContext("webgl2")) {
     says.textContent = "This browser has no WebGL2, or it is switched off, so nothing can be turned here. The "

@@ -89,8 +89,9 @@ LiveRun::Answer LiveRun::answer(const fs::path& file) {
   const fs::path place = live_ / name_of(number_ + 1);
   StageFolder folder(place, interruption_);
   const auto inside = [&](const char* name) { return folder.path() / (std::string(name) + ".h5"); };
-  registration::write_transform(inside(registration::image_transform), registration::moving_part(resampling_));
-  registration::write_transform(inside(registration::point_transform), registration::moving_part(forward));
+  const auto plain = registration::Packing::plain;  // to deflate them takes longer than to write them
+  registration::write_transform(inside(registration::image_transform), registration::moving_part(resampling_), plain);
+  registration::write_transform(inside(registration::point_transform), registration::moving_part(forward), plain);
   solve::write_craniotomy_csv(folder.path() / "load.csv", load);
   folder.replace();
   ++number_;

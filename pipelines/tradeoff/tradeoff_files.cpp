@@ -7,9 +7,9 @@
 #include <map>
 #include <sstream>
 
+#include "pipelines/report/plot.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/tradeoff/front.hpp"
-#include "pipelines/tradeoff/plot.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;

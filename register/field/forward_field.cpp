@@ -103,15 +103,25 @@ Eigen::Vector3d place_at_reach(const SignedDistance& outside, Eigen::Vector3d x,
 }
 
 /// Gives the fading voxels the displacement of the brain near by.
-void extend(const BrainZones& zones, const std::vector<Voxel>& fading, double reach, VectorImage& field) {
+void extend(const BrainZones& zones, const std::vector<Voxel>& fading, double reach, WayOut* way, VectorImage& field) {
   const FieldSampler sampler(field);
   std::vector<Displacement> extended(fading.size());
+  const bool known = way != nullptr && way->places.size() == fading.size();
+  if (way != nullptr) {
+    way->places.resize(fading.size());
+  }
 #pragma omp parallel for schedule(dynamic, 1024)
   for (std::size_t v = 0; v < fading.size(); ++v) {
-    const Eigen::Vector3d x = field.geometry.to_world(fading[v].index());
-    const Eigen::Vector3d place = place_at_reach(zones.outside, x, reach);
-    const Eigen::Vector3f u = sampler.value(sampler.to_index(place)).cast<float>();
+    const auto found = [&] {
+      const Eigen::Vector3d x = field.geometry.to_world(fading[v].index());
+      return sampler.to_index(place_at_reach(zones.outside, x, reach));
+    };
+    const Eigen::Vector3d place = known ? way->places[v] : found();
+    const Eigen::Vector3f u = sampler.value(place).cast<float>();
     extended[v] = {u.x(), u.y(), u.z()};
+    if (way != nullptr) {
+      way->places[v] = place;
+    }
   }
   for (std::size_t v = 0; v < fading.size(); ++v) {
     field.voxels[fading[v].offset] = extended[v];
@@ -256,7 +266,7 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
 }
 
 VectorImage forward_field(const DisplacementAt& displacement_at, double spacing, const BrainZones& zones,
-                          const ImageGeometry& geometry, double fade, const Progress& progress) {
+                          const ImageGeometry& geometry, double fade, const Progress& progress, WayOut* way) {
   VectorImage field{geometry, std::vector<Displacement>(geometry.voxel_count(), Displacement{0, 0, 0})};
   const double reach = std::min(zones.shell / 2, reach_in_spacings * spacing);
   const auto in = [&](Zone wanted) { return [&, wanted](const Voxel& v) { return zones.zone[v.offset] == wanted; }; };
@@ -274,7 +284,7 @@ VectorImage forward_field(const DisplacementAt& displacement_at, double spacing,
         field);
   }
   report(progress, 0.8, "fading outside the brain");
-  extend(zones, voxels_where(geometry, in(Zone::fading)), reach, field);
+  extend(zones, voxels_where(geometry, in(Zone::fading)), reach, way, field);
   const std::vector<Voxel> outside = voxels_where(geometry, [&](const Voxel& v) {
     return in(Zone::fading)(v) || (in(Zone::shell)(v) && distance_at(zones, geometry, v) > reach);
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "register/field/brain_zones.hpp"
 #include "segmentation/geometry/points.hpp"
@@ -23,10 +24,16 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
 /// The solver's displacement at places, (m × 3) mm.
 using DisplacementAt = std::function<Points(const Points& places)>;
 
+/// Where the fading voxels of one grid take their displacement from.
+struct WayOut {
+  std::vector<Eigen::Vector3d> places;  ///< indices of the grid
+};
+
 /// The same of a displacement that is asked for at all places in the brain and near it, part by part: for the same
-/// zones and grid at the same places in the same order. spacing: mean of the nodes', mm.
+/// zones and grid at the same places in the same order. spacing: mean of the nodes', mm. way: of an earlier field of
+/// the same zones and grid, or empty, then it is noted; null: not kept.
 VectorImage forward_field(const DisplacementAt& displacement_at, double spacing, const BrainZones& zones,
-                          const ImageGeometry& geometry, double fade, const Progress& progress);
+                          const ImageGeometry& geometry, double fade, const Progress& progress, WayOut* way = nullptr);
 
 /// Falls from 1 at 0 to 0 at 1, with zero slope at both ends and at most 1.25 between: the gentlest way out, as a
 /// field that pushes outward by u folds where the ramp is steeper than 1/u.

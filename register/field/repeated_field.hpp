@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "register/field/brain_zones.hpp"
+#include "register/field/forward_field.hpp"
 #include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
 #include "solve/interface/solution.hpp"
@@ -18,13 +19,14 @@ class RepeatedField {
   RepeatedField(const Solution& solution, const Surface& brain, const ImageGeometry& grid, double fade);
 
   /// parameters: the nodes' û, (n × 3) mm. What forward_field() gives, to rounding.
-  VectorImage forward(const Points& parameters) const;
+  VectorImage forward(const Points& parameters);
 
  private:
   ImageGeometry grid_;
   double fade_, spacing_;
   BrainZones zones_;
   std::vector<solve::ShapeRows> rows_;  ///< part by part as forward_field() asks
+  WayOut way_;
 };
 
 /// A grid of voxels of one size that covers an image.

@@ -16,6 +16,8 @@ namespace brainshift::registration {
 
 namespace {
 
+constexpr const char* parameters = "TransformParameters";
+
 /// What HDF5 opened, closed in the end. Throws when it could not be opened.
 class Handle {
  public:
@@ -91,10 +93,9 @@ std::vector<Bytef> packed(std::span<const float> numbers, std::size_t chunk) {
 }
 
 /// HDF5 would compress on one thread.
-void write_parameters(hid_t parent, const VectorImage& field) {
-  const std::span numbers(field.voxels.front().data(), 3 * field.voxels.size());
+void write_packed(hid_t parent, std::span<const float> numbers) {
   const std::size_t chunk = std::min(std::size_t{1} << 18, numbers.size());
-  const Handle set = new_dataset(parent, "TransformParameters", H5T_IEEE_F32LE, numbers.size(), chunk);
+  const Handle set = new_dataset(parent, parameters, H5T_IEEE_F32LE, numbers.size(), chunk);
   std::vector<std::vector<Bytef>> chunks((numbers.size() + chunk - 1) / chunk);
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t c = 0; c < chunks.size(); ++c) {
@@ -107,9 +108,14 @@ void write_parameters(hid_t parent, const VectorImage& field) {
   }
 }
 
+void write_plain(hid_t parent, std::span<const float> numbers) {
+  const Handle set = new_dataset(parent, parameters, H5T_IEEE_F32LE, numbers.size());
+  Handle::check(H5Dwrite(set, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()));
+}
+
 /// The bytes of the file that ITK's reader of HDF5 transforms expects. It is made in memory: where HDF5 itself meets a
 /// full disk, it keeps the file open, and crashes when the program ends.
-std::vector<char> hdf5_file(const VectorImage& field) {
+std::vector<char> hdf5_file(const VectorImage& field, Packing packing) {
   constexpr std::size_t growth = std::size_t{1} << 20;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   Handle::check(H5Pset_fapl_core(access, growth, false));
@@ -119,7 +125,8 @@ std::vector<char> hdf5_file(const VectorImage& field) {
   const Handle one(H5Gcreate2(all, "0", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   write_text(one, "TransformType", "DisplacementFieldTransform_float_3_3");
   write_grid(one, field.geometry);
-  write_parameters(one, field);
+  const std::span numbers(field.voxels.front().data(), 3 * field.voxels.size());
+  packing == Packing::deflated ? write_packed(one, numbers) : write_plain(one, numbers);
   Handle::check(H5Fflush(out, H5F_SCOPE_LOCAL));
   const ssize_t size = H5Fget_file_image(out, nullptr, 0);
   Handle::check(size < 0 ? -1 : 0);
@@ -130,9 +137,9 @@ std::vector<char> hdf5_file(const VectorImage& field) {
 
 }  // namespace
 
-void write_transform(const std::filesystem::path& file, const VectorImage& field) {
+void write_transform(const std::filesystem::path& file, const VectorImage& field, Packing packing) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is thrown, not printed
-  const std::vector<char> bytes = hdf5_file(field);
+  const std::vector<char> bytes = hdf5_file(field, packing);
   OutStream out(file);
   out.write(bytes.data(), bytes.size());
   out.finish();

@@ -184,14 +184,13 @@ double Motion::energy_of_motion(std::span<const double> mass) const {
   return (1 + beta_) / (4 * alpha_) * inertia(mass, now, before);
 }
 
-void Motion::start_from(const NodalVectors& parameters, const PointLaws& laws) {
+void Motion::start_from(const NodalVectors& parameters, double smallest_jacobian) {
   now = parameters;
   fraction_ = fraction_before_ = 1;
   time = 1;
   body.essential.apply(fraction_, now);
   before = next = now;
-  find_force(laws);
-  external_work_ = point_state(body.points, laws, scratch).strain_energy;
+  squeezed_to_ = smallest_jacobian;
   looks_before_books_ = 2;
 }
 

@@ -31,8 +31,11 @@ class Motion {
   bool squeezed();
 
   /// Goes on from û under the full load, at rest. Energies count from the second look() on, with as much work done
-  /// as the body holds then. After weigh().
-  void start_from(const NodalVectors& parameters, const PointLaws& laws);
+  /// as the body holds then. smallest_jacobian: J down to which squeezed() is not true yet. After weigh().
+  void start_from(const NodalVectors& parameters, double smallest_jacobian = 1);
+
+  /// f_int at `now`, of tissues swollen by the fraction of the load there.
+  void find_force(const PointLaws& laws);
 
   /// v ← P⁻¹ v: the masses as a step sees them are `mass`, and P⁻¹ where there are rigid modes.
   void multiply_by_masses(std::span<const double> mass, NodalVectors& v) const;
@@ -75,8 +78,6 @@ class Motion {
   double time = 0;
 
  private:
-  /// f_int at `now`, of tissues swollen by the fraction of the load there.
-  void find_force(const PointLaws& laws);
   void add_swelling_work(const PointLaws& laws, double next_fraction);
   void go_on_with(ChangedBody changed, const PointLaws& laws);
   LastSteps last_steps() const { return {now, before, next}; }

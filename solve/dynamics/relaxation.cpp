@@ -18,8 +18,8 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int settled_window = 3;     // steps between looks of a start that is near the end
-constexpr int windows_of_a_row = 10;  // every so manieth of its looks is at the points, too, which costs half a step
+constexpr int settled_window = 2;     // steps between looks of a start that is near the end
+constexpr int windows_of_a_row = 60;  // every so manieth of its looks is at the points, too, which costs half a step
 constexpr int settled_steps = 60;     // in which the A_0 of a start near the end is not estimated anew
 constexpr double alpha = relaxation_alpha;
 
@@ -48,8 +48,9 @@ class Relaxation {
       mass_ = course_.settled->mass;
       mass_scale_ = course_.settled->mass_scale;
       lowest_ = course_.settled->lowest;
+      squeezed_to_ = course_.settled->smallest_jacobian;
       motion_.weigh(mass_, alpha);
-      motion_.start_from(course_.start, laws());
+      motion_.start_from(course_.start, squeezed_to_);
       pace_.skip();
       return;
     }
@@ -64,7 +65,8 @@ class Relaxation {
     }
     motion_.weigh(mass_, alpha);
     if (!course_.start.empty()) {
-      motion_.start_from(course_.start, laws());
+      motion_.start_from(course_.start);
+      motion_.find_force(laws());
       pace_.skip();
       follow_stiffness();
     }
@@ -251,6 +253,7 @@ class Relaxation {
   /// Makes the masses anew when a node has become stiffer than they allow for.
   void follow_stiffness() {
     const std::vector<double> bound = stiffness_bound(points(), laws(), motion_.scratch);
+    squeezed_to_ = jacobian_range(motion_.scratch).smallest;
     bool stiffer = false;
     for (std::size_t a = 0; a < nodes(); ++a) {
       stiffer = stiffer || mass_scale_ * bound[a] > mass_[a];
@@ -284,7 +287,8 @@ class Relaxation {
 
   SteppingResult finish() {
     motion_.result.error_bound = bound_.value();
-    motion_.result.settled = {.mass = std::move(mass_), .mass_scale = mass_scale_, .lowest = lowest_};
+    motion_.result.settled = {
+        .mass = std::move(mass_), .mass_scale = mass_scale_, .lowest = lowest_, .smallest_jacobian = squeezed_to_};
     return motion_.finish();
   }
 
@@ -295,7 +299,8 @@ class Relaxation {
   NodalVectors force_before_;
   std::vector<double> mass_;
   double mass_scale_ = 1;
-  double lowest_ = 1e-4;  // A_0: a guess until there are increments
+  double lowest_ = 1e-4;    // A_0: a guess until there are increments
+  double squeezed_to_ = 1;  // the smallest J of the state that the masses follow
   ErrorBound bound_{window_};
   LoadPace pace_;
   Quickening quickening_{alpha};

@@ -17,9 +17,10 @@ namespace brainshift::solve {
 
 /// What relaxation has found out about a body on the way to rest.
 struct Settled {
-  std::vector<double> mass;  ///< fictitious, one a node
-  double mass_scale = 1;     ///< of the stiffness bound
-  double lowest = 1e-4;      ///< A_0
+  std::vector<double> mass;      ///< fictitious, one a node
+  double mass_scale = 1;         ///< of the stiffness bound
+  double lowest = 1e-4;          ///< A_0
+  double smallest_jacobian = 1;  ///< of the state that the masses follow
 };
 
 /// What happens to a body while it is stepped.

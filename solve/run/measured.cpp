@@ -59,27 +59,26 @@ Points stacked(const Points& above, const Points& below) {
   return both;
 }
 
-/// Of each point of the cortex the node that it has the largest share in; the point itself where some count for less,
-/// as one that is wrong has shares in the nodes at its neighbours, too.
+/// Of each point of the cortex the node that it has the largest share in, none of one without a share, as where the
+/// nodes are fewer; the point itself where some count for less, as one that is wrong has shares in the nodes at its
+/// neighbours, too.
 Seen seen_points(const Model& model, bool themselves) {
   const Measurement& m = *model.conditions.measured;
   if (themselves) {
     return {stacked(m.cortex, m.inner), stacked(m.cortex_displacement, m.inner_displacement),
             stacked(m.sigma, m.inner_sigma)};
   }
-  const Eigen::Index cortex = m.sigma.rows();
-  Seen seen{Points(cortex + m.inner.rows(), 3), Points(cortex + m.inner.rows(), 3), Points(cortex + m.inner.rows(), 3)};
-  for (Eigen::Index p = 0; p < cortex; ++p) {
+  std::vector<Eigen::Index> points, nodes;
+  for (Eigen::Index p = 0; p < m.sigma.rows(); ++p) {
     Eigen::Index node = 0;
-    Eigen::VectorXd(m.spread.col(p)).maxCoeff(&node);
-    seen.positions.row(p) = model.cloud.positions.row(node);
-    seen.displacement.row(p) = model.conditions.displacement.row(node);
-    seen.sigma.row(p) = m.sigma.row(p);
+    if (Eigen::VectorXd(m.spread.col(p)).maxCoeff(&node) > 0) {
+      points.push_back(p);
+      nodes.push_back(node);
+    }
   }
-  seen.positions.bottomRows(m.inner.rows()) = m.inner;
-  seen.displacement.bottomRows(m.inner.rows()) = m.inner_displacement;
-  seen.sigma.bottomRows(m.inner.rows()) = m.inner_sigma;
-  return seen;
+  return {stacked(model.cloud.positions(nodes, Eigen::all), m.inner),
+          stacked(model.conditions.displacement(nodes, Eigen::all), m.inner_displacement),
+          stacked(m.sigma(points, Eigen::all), m.inner_sigma)};
 }
 
 /// The model on a few hundred of its nodes.

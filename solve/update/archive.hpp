@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -11,6 +12,9 @@
 #include "segmentation/geometry/points.hpp"
 
 namespace brainshift::solve {
+
+/// Every value begins at a multiple of so many bytes, so that it can be read where it lies.
+inline constexpr std::size_t archive_step = alignof(double);
 
 /// Puts values at the end of bytes, as this machine has them in memory.
 class ArchiveWriter {
@@ -37,6 +41,7 @@ class ArchiveWriter {
   void put(const void* data, std::size_t size) {
     const char* first = static_cast<const char*>(data);
     bytes_.insert(bytes_.end(), first, first + size);
+    bytes_.resize((bytes_.size() + archive_step - 1) / archive_step * archive_step);
   }
   std::vector<char>& bytes_;
 };
@@ -44,41 +49,37 @@ class ArchiveWriter {
 /// Takes them out again in the same order. Throws std::length_error where there are too few.
 class ArchiveReader {
  public:
+  /// bytes: where a double may lie.
   explicit ArchiveReader(std::span<const char> bytes) : bytes_(bytes) {}
 
   template <class Value>
   void plain(Value& value) {
-    get(&value, sizeof value);
+    std::memcpy(&value, take(1, sizeof value), sizeof value);
   }
   template <class Value>
   void many(std::vector<Value>& values) {
     std::size_t size = 0;
     plain(size);
-    check(size, sizeof(Value));
-    values.resize(size);
-    get(values.data(), size * sizeof(Value));
+    const auto* const first = reinterpret_cast<const Value*>(take(size, sizeof(Value)));
+    values.assign(first, first + size);
   }
   void points(Points& points) {
     Eigen::Index rows = 0;
     plain(rows);
-    check(static_cast<std::size_t>(rows), 3 * sizeof(double));
-    points.resize(rows, 3);
-    get(points.data(), static_cast<std::size_t>(points.size()) * sizeof(double));
+    points = Eigen::Map<const Points>(
+        reinterpret_cast<const double*>(take(static_cast<std::size_t>(rows), 3 * sizeof(double))), rows, 3);
   }
   bool at_end() const { return bytes_.empty(); }
 
  private:
-  void check(std::size_t count, std::size_t size) const {
+  const char* take(std::size_t count, std::size_t size) {
     if (count > bytes_.size() / size) {
       throw std::length_error("kept run");
     }
-  }
-  void get(void* data, std::size_t size) {
-    check(size, 1);
-    if (size > 0) {  // no points lie nowhere
-      std::memcpy(data, bytes_.data(), size);
-    }
-    bytes_ = bytes_.subspan(size);
+    const char* const first = bytes_.data();
+    const std::size_t steps = (count * size + archive_step - 1) / archive_step;
+    bytes_ = bytes_.subspan(std::min(bytes_.size(), steps * archive_step));
+    return first;
   }
   std::span<const char> bytes_;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/tradeoff/plot.hpp"
+#include "pipelines/report/plot.hpp"
 
 namespace brainshift::verification {
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
+#include "pipelines/report/weight_figure.hpp"
+
 namespace brainshift::pipelines::page_test {
 
 using nlohmann::json;
@@ -134,10 +136,12 @@ TEST(Page, ExplainsTheWeightOfALoadWithNoiseAndHintsWhereThereIsNone) {
   for (const double weight : {0.1, 0.5, 2.0}) {
     measures["weights"].push_back({{"weight_mJ", weight}, {"misfit", 10 / weight}, {"energy_mJ", weight}});
   }
+  content.weights = weight_figures(measures);
   const std::string page = make_page(content);
   EXPECT_FALSE(has(page, hint));
   EXPECT_TRUE(has(page, "tried 0.5 mJ"));
   EXPECT_TRUE(has(page, "id=\"weights\""));
+  EXPECT_TRUE(has(page, "the one that was taken, 0.5 mJ"));
 }
 
 }  // namespace brainshift::pipelines::page_test

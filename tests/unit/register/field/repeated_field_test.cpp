@@ -15,7 +15,7 @@ using namespace builders;
 TEST(RepeatedField, IsTheForwardFieldOfEachDisplacement) {
   RegisterInput input = head(sinking);
   const double fade = 20;
-  const RepeatedField field(input.solution, input.brain, input.t1.geometry, fade);
+  RepeatedField field(input.solution, input.brain, input.t1.geometry, fade);
   const BrainZones zones = brain_zones(input.brain, input.t1.geometry, fade);
   const solve::ShapeFunctions shape = shape_functions(input.solution);
   for (const double factor : {1.0, -0.5}) {

@@ -27,6 +27,18 @@ TEST(WriteTransform, OfAFieldThatIsZeroIsTheIdentity) {
   EXPECT_EQ(moved[2], 3);
 }
 
+TEST(WriteTransform, MovesAPlaceAlikeDeflatedAndPlain) {
+  const ScratchFolder folder;
+  const auto moving = field(grid(), [](const Eigen::Vector3d& x) { return Eigen::Vector3d(std::sin(x[0]), 1, x[2]); });
+  write_transform(folder / "deflated.h5", moving);
+  write_transform(folder / "plain.h5", moving, Packing::plain);
+  const double x[3] = {1.3, 2.2, 3.1};
+  const auto one = read_transform(folder / "deflated.h5")->TransformPoint(x);
+  const auto other = read_transform(folder / "plain.h5")->TransformPoint(x);
+  EXPECT_EQ(one, other);
+  EXPECT_GT(one[1], x[1]);
+}
+
 /// The size that files may have, until the end of the scope: a write beyond it fails as on a full disk.
 class FileSizeLimit {
  public:

@@ -125,6 +125,18 @@ TEST(MeasuredCovariance, IsThatOfTheLandmarksAtANodeInside) {
   EXPECT_LT((at_node - fit.covariance.row(0)).norm(), 1e-9 * at_node.norm());
 }
 
+TEST(FitMeasured, LeavesOutAPointWithoutAShareInAnyNode) {
+  Model model = measured_box(0.5);
+  const MeasuredFit all = fit_measured(model, quick());
+  Measurement& measured = *model.conditions.measured;
+  const Eigen::Index points = measured.spread.cols() + 1;  // more points than loaded nodes, as on a coarse cloud
+  measured.spread.conservativeResize(measured.spread.rows(), points);
+  measured.sigma = Points::Constant(points, 3, 0.5);
+  const MeasuredFit fit = fit_measured(model, quick());
+  EXPECT_EQ(fit.weight, all.weight);
+  EXPECT_EQ(fit.noise_factor, all.noise_factor);
+}
+
 TEST(WorstOutlier, IsThePointThatContradictsTheOthersAndNoneWhereAllAgree) {
   Model model = measured_box(0.5);
   EXPECT_FALSE(worst_outlier(model, quick(), fit_measured(model, quick())));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipelines/tradeoff/plot.hpp"
+#include "pipelines/report/plot.hpp"
 
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/scratch_folder.hpp"

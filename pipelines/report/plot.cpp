@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipelines/tradeoff/plot.hpp"
+#include "pipelines/report/plot.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int width = 680, height = 440, left = 80, right = 24, bottom = 58;
+constexpr int width = plot_width, height = plot_height, left = 80, right = 24, bottom = 58;
 constexpr int title_height = 40, key_height = 20;
 constexpr Colour grid = {225, 225, 225};
 constexpr std::array<Colour, 6> colours = {

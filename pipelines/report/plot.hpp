@@ -25,6 +25,9 @@ struct Plot {
   Scale scale = Scale::linear;
 };
 
+/// Of every plot, pixels.
+inline constexpr int plot_width = 680, plot_height = 440;
+
 /// The plot as SVG text.
 std::string plot_svg(const Plot& plot);
 
