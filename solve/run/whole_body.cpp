@@ -2,12 +2,14 @@
 #include "solve/run/whole_body.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/cut/resection.hpp"
+#include "solve/output/field_difference.hpp"
 #include "solve/run/coarse.hpp"
 #include "solve/run/error_estimate.hpp"
 #include "solve/run/prepare.hpp"
@@ -23,11 +25,15 @@ struct Attempt {
   std::string what;
 };
 
+/// Whether nobody wants to see the way to the end, nor does the end depend on it.
+bool may_start_near(const Model& model, const SolveOptions& options) {
+  return options.start == Start::coarse && options.dynamics == Dynamics::relaxation && options.snapshot_every == 0 &&
+         model.cuts.empty() && !model.rupture && model.curve.at(model.curve.duration()) == 1;
+}
+
 /// Whether a coarse solution is made: as the start, or to tell the error.
 bool has_coarse(const Model& model, const SolveOptions& options) {
-  return options.start == Start::coarse && options.dynamics == Dynamics::relaxation && options.snapshot_every == 0 &&
-         model.cuts.empty() && !model.septum && !model.rupture && !model.resection &&
-         model.curve.at(model.curve.duration()) == 1;
+  return may_start_near(model, options) && !model.septum && !model.resection;
 }
 
 }  // namespace
@@ -88,6 +94,23 @@ bool too_thin_for_quadratic(const SolveOptions& options, const SolveMeasures& me
   return options.shape.basis == Basis::modified_quadratic && 2 * measures.grown_supports > measures.integration_points;
 }
 
+/// Of the last state, the displacement at the body's nodes. Face nodes of a septum lie in pairs at one place, so that
+/// they must be the same nodes.
+std::optional<Points> last_displacement(const Model& model, const Points& positions) {
+  const Solution& last = *model.last;
+  if (last.positions.rows() == positions.rows() && last.positions == positions) {
+    return as_prescribed(last.displacement, model.conditions);
+  }
+  if (model.septum || !last.cut.empty()) {
+    return std::nullopt;
+  }
+  try {
+    return as_prescribed(displacement_at(last, positions), model.conditions);
+  } catch (const std::logic_error&) {
+    return std::nullopt;  // it has too few nodes near one of these
+  }
+}
+
 SolveResult attempt(const Model& model, const SolveOptions& options, const SolveMeasures& known,
                     const Progress& progress) {
   constexpr std::size_t few_nodes = 500;
@@ -112,6 +135,11 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
       start_from = in_body_order(*coarse, prepared.body.original);
     }
     measures.seconds_coarse = begin.seconds();
+  }
+  if (model.last && may_start_near(model, options)) {
+    if (const std::optional<Points> last = last_displacement(model, prepared.body.positions)) {
+      start_from = in_body_order(*last, prepared.body.original);
+    }
   }
   const PlacedPoints placed = model.cloud.size() < few_nodes ? prepared.body.placed : PlacedPoints();
   SolveResult result = step_to_end(model, options, std::move(prepared), measures, std::move(start_from), progress);

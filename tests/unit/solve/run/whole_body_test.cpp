@@ -38,6 +38,30 @@ TEST(CoarseStart, EndsWhereTheStartFromRestEndsInFewerSteps) {
   }
 }
 
+TEST(LastStart, GoesOnFromAStateOfAnotherCloudAndEndsWhereTheOthersEnd) {
+  Model model = pressed_bar();
+  SolveOptions options;
+  options.shape.basis = Basis::linear;
+  options.tolerance = 0.02;
+  options.start = Start::coarse;
+  const SolveResult from_coarse = solve_whole_body(model, options, {});
+  Solution last = from_coarse.solution;
+  last.displacement *= 0.95;
+  const Eigen::Index some = last.positions.rows() - 7;  // another cloud: the field is looked up at the nodes
+  for (const Eigen::Index nodes : {last.positions.rows(), some}) {
+    Solution part = last;
+    part.positions.conservativeResize(nodes, 3);
+    part.displacement.conservativeResize(nodes, 3);
+    part.spacing.resize(static_cast<std::size_t>(nodes));
+    model.last = part;
+    const SolveResult result = solve_whole_body(model, options, {});
+    ASSERT_TRUE(result.failure.empty()) << result.failure;
+    EXPECT_LT(result.measures.steps, from_coarse.measures.steps) << nodes;
+    EXPECT_LT(largest_difference_of(result, from_coarse), 2 * options.tolerance) << nodes;
+    EXPECT_EQ(result.history.front().time, 1);
+  }
+}
+
 TEST(CoarseStart, IsFromRestWhereTheWayThereIsWanted) {
   const Model model = pressed_bar();
   SolveOptions options;
