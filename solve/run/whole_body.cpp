@@ -15,6 +15,7 @@
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "solve/run/thin_parts.hpp"
+#include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::solve {
 
@@ -94,8 +95,8 @@ bool too_thin_for_quadratic(const SolveOptions& options, const SolveMeasures& me
   return options.shape.basis == Basis::modified_quadratic && 2 * measures.grown_supports > measures.integration_points;
 }
 
-/// Of the last state, the displacement at the body's nodes. Face nodes of a septum lie in pairs at one place, so that
-/// they must be the same nodes.
+/// The displacement of the last state at the body's nodes; nothing where they cannot be told apart: face nodes of a
+/// septum lie in pairs at one place.
 std::optional<Points> last_displacement(const Model& model, const Points& positions) {
   const Solution& last = *model.last;
   if (last.positions.rows() == positions.rows() && last.positions == positions) {
@@ -104,10 +105,22 @@ std::optional<Points> last_displacement(const Model& model, const Points& positi
   if (model.septum || !last.cut.empty()) {
     return std::nullopt;
   }
+  return as_prescribed(displacement_at(last, positions), model.conditions);
+}
+
+/// û of the last state, cloud's order. Shape functions beside a septum see one side of it alone: there u is near
+/// enough.
+std::optional<Points> last_parameters(const Model& model, const SolveOptions& options, const Body& body) {
   try {
-    return as_prescribed(displacement_at(last, positions), model.conditions);
+    const std::optional<Points> u = last_displacement(model, body.positions);
+    if (!u || model.septum) {
+      return u;
+    }
+    return parameters_from_displacement({body.positions, body.spacing, options.shape}, body.positions, *u);
   } catch (const std::logic_error&) {
     return std::nullopt;  // it has too few nodes near one of these
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
   }
 }
 
@@ -137,7 +150,7 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
     measures.seconds_coarse = begin.seconds();
   }
   if (model.last && may_start_near(model, options)) {
-    if (const std::optional<Points> last = last_displacement(model, prepared.body.positions)) {
+    if (const std::optional<Points> last = last_parameters(model, options, prepared.body)) {
       start_from = in_body_order(*last, prepared.body.original);
     }
   }
