@@ -55,13 +55,19 @@ struct Trial {
   std::string fault;                      ///< empty, or why there is no solution
 };
 
+/// Without a resection, or with another, there are other nodes.
+solve::FieldDifference change_of(const Solution& whole, const Solution& other) {
+  const bool same = whole.positions.rows() == other.positions.rows() && whole.positions == other.positions;
+  return same ? solve::field_difference(whole.displacement, other.displacement) : solve::field_difference(whole, other);
+}
+
 Trial tried(const CheaperModel& cheaper, const SolveInput& input, const solve::SolveResult& whole) {
   SolveInput other = input;
   cheaper.make(other.model, other.options);
   Trial trial;
   try {
     const solve::SolveResult result = solve::solve(other.model, other.options);
-    const auto change = solve::field_difference(whole.solution.displacement, result.solution.displacement);
+    const auto change = change_of(whole.solution, result.solution);
     trial = {change.largest, change.percentile_95, seconds_of(whole) - seconds_of(result), result.failure};
   } catch (const std::invalid_argument& error) {
     trial.fault = error.what();

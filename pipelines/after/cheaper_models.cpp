@@ -36,6 +36,16 @@ bool any_material(const Model& model, const Is& is) {
   return std::any_of(model.materials.begin(), model.materials.end(), [&](const auto& m) { return is(m.second); });
 }
 
+void add_resection(const solve::Resection& resection, std::vector<CheaperModel>& found) {
+  found.push_back({"resection", "left out", "", [](Model& m, SolveOptions&) { m.resection.reset(); }});
+  if (resection.wall) {
+    found.push_back({"wall of the resection", "where labels change", "", [](Model& m, SolveOptions&) {
+                       m.resection->wall.reset();
+                       m.resection->fluid_level.reset();  // it needs a wall to press on
+                     }});
+  }
+}
+
 void add_parts_of_the_model(const Model& model, const SolveOptions& options, std::vector<CheaperModel>& found) {
   if (model.skull) {
     found.push_back({"contact", "left out", "", [](Model& m, SolveOptions&) { m.skull.reset(); }});
@@ -48,6 +58,9 @@ void add_parts_of_the_model(const Model& model, const SolveOptions& options, std
   }
   if (model.fluid) {
     found.push_back({"drained fluid", "left out", "", [](Model& m, SolveOptions&) { m.fluid.reset(); }});
+  }
+  if (model.resection) {
+    add_resection(*model.resection, found);
   }
   if (any_material(model, [](const solve::Material& m) { return m.swelling != 0; })) {
     found.push_back({"swelling", "left out", "", [](Model& m, SolveOptions&) {

@@ -47,6 +47,10 @@ void Console::line(const std::string& text) {
   }
 }
 
+void Console::state(std::string_view name) {
+  line("state " + std::string(name));
+}
+
 void Console::started(StageId stage) {
   last_what_.clear();
   if (!terminal_) {

@@ -18,6 +18,7 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
+  void state(std::string_view name);
   void started(StageId stage);
   /// total: fraction of the whole work that is done, for the estimate.
   void progress(StageId stage, double fraction, double total, std::string_view what);

@@ -57,7 +57,14 @@ void tell(const Level& level, bool quiet) {
 /// The sentence of what did not converge, or was not reached; else empty.
 std::string run_checked(const Scene& scene, const RunArguments& arguments, const Settings& settings) {
   Console console(settings.quiet, settings.verbose);
-  const RunObserver observer = [&](const RunEvent& event) { show(console, event); };
+  std::string state;
+  const RunObserver observer = [&](const RunEvent& event) {
+    if (state != event.state) {
+      state = event.state;
+      console.state(state);
+    }
+    show(console, event);
+  };
   if (!arguments.tolerance) {
     return run(scene, arguments.options, *settings.interruption, observer).failure;
   }

@@ -6,6 +6,7 @@
 
 #include "pipelines/after/after_run.hpp"
 #include "pipelines/commands/commands.hpp"
+#include "pipelines/runner/run.hpp"
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/explain_scene.hpp"
@@ -34,6 +35,33 @@ Scene checked(const std::filesystem::path& file, const std::vector<std::string>&
   return scene;
 }
 
+void explain(const Scene& scene, const std::filesystem::path& after, std::optional<double> within,
+             const Settings& settings) {
+  std::cout << explain_scene(scene);
+  if (!after.empty()) {
+    std::cout << std::flush
+              << explain_after(scene, after, within, *settings.interruption, [&](const std::string& what) {
+                   if (!settings.quiet) {
+                     std::cerr << "solving " << what << " ...\n";
+                   }
+                 });
+  }
+}
+
+/// Of a sequence state by state, as each is run.
+void explain_all(const Scene& scene, const SceneArguments& arguments, const Settings& settings) {
+  if (scene.states.empty()) {
+    explain(scene, arguments.after, arguments.within, settings);
+  }
+  for (const Scene& state : scene.states) {
+    const std::string& name = state.state->name;
+    std::cout << "state " << name << (state.state->before.empty() ? "" : ", which goes on from " + state.state->before)
+              << "\n";
+    explain(state, arguments.after.empty() ? arguments.after : state_folder(arguments.after, name), arguments.within,
+            settings);
+  }
+}
+
 void look_at_scene(const SceneArguments& arguments, const Settings& settings) {
   if (arguments.defaults) {
     std::cout << default_scene();
@@ -53,17 +81,7 @@ void look_at_scene(const SceneArguments& arguments, const Settings& settings) {
       std::cout << arguments.check.string() << ": no fault found\n";
     }
   } else {
-    const Scene scene = checked(arguments.explain, arguments.overrides);
-    std::cout << explain_scene(scene);
-    if (!arguments.after.empty()) {
-      std::cout << std::flush
-                << explain_after(scene, arguments.after, arguments.within, *settings.interruption,
-                                 [&](const std::string& what) {
-                                   if (!settings.quiet) {
-                                     std::cerr << "solving " << what << " ...\n";
-                                   }
-                                 });
-    }
+    explain_all(checked(arguments.explain, arguments.overrides), arguments, settings);
   }
   std::cout.flush();
   if (!std::cout && errno != EPIPE) {  // who reads may have had enough, as head has

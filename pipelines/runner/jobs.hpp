@@ -52,6 +52,7 @@ struct SolveJob {
   std::optional<solve::Rupture> rupture = {};
   std::optional<solve::Resection> resection = {};  ///< without its wall
   std::filesystem::path wall = {};                 ///< of the resection; empty: it goes by labels
+  std::filesystem::path last = {};                 ///< solution of the state before; empty: there is none
   std::optional<UncertaintyJob> uncertainty = {};  ///< absent: not wanted
 };
 

@@ -99,6 +99,13 @@ fs::path wall_of(const Scene& scene, const fs::path& folder) {
                                                                 : fs::path();
 }
 
+/// The solution that a state of a sequence goes on from.
+fs::path last_of(const Scene& scene, const fs::path& folder) {
+  return scene.state && !scene.state->before.empty()
+             ? if_there(folder.parent_path() / scene.state->before / "solve" / "solution.vtu")
+             : fs::path();
+}
+
 StagePlan plan_segment(const Scene& scene) {
   SegmentJob job{scene.image, scene.segment, label_reading(scene)};
   job.options.brain_labels = tissue_labels(scene);
@@ -207,6 +214,9 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
   }
   if (!job.wall.empty()) {
     add_artefacts(plan, folder, {"segment/resection.vtp"});
+  }
+  if (!job.last.empty()) {
+    plan.inputs.push_back({"last/solution.vtu", job.last});
   }
   plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
   return plan;
@@ -348,7 +358,8 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
                .gravity = scene.gravity,
                .cuts = scene.cuts,
                .resection = scene.resection,
-               .wall = wall_of(scene, folder)};
+               .wall = wall_of(scene, folder),
+               .last = last_of(scene, folder)};
   if (scene.contact) {
     job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;
   }

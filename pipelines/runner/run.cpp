@@ -1,195 +1,72 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/run.hpp"
 
-#include <chrono>
-
-#include "pipelines/runner/artefacts.hpp"
-#include "pipelines/runner/enough_memory.hpp"
 #include "pipelines/runner/folder_lock.hpp"
-#include "pipelines/runner/json_text.hpp"
-#include "pipelines/runner/own_folder.hpp"
-#include "pipelines/runner/peak_memory.hpp"
-#include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
-#include "pipelines/show/show_scripts.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
 namespace {
 
-/// The shares of the stages in the time of a run, measured on a head of 12,000 nodes: for the estimate of what is left.
-constexpr std::array<double, all_stages.size()> time_shares = {0.11, 0.04, 0.26, 0.53, 0.06};
-
-/// Where the run stands, and telling it to the observer.
-class Tally {
- public:
-  Tally(const Scene& scene, StageId until, const RunObserver& observer) : observer_(observer) {
-    for (const StageId stage : all_stages) {
-      whole_ += stage <= until && is_active(stage, scene) ? time_shares[index_of(stage)] : 0;
-    }
+/// Tells of a state as of its part of the whole.
+RunObserver part_of(const RunObserver& observer, const std::string& state, std::size_t ordinal, std::size_t states) {
+  if (!observer) {
+    return {};
   }
-  void tell(RunEvent::Kind kind, StageId stage, double fraction = 0, std::string_view what = {}, double seconds = 0) {
-    if (observer_) {
-      observer_({kind, stage, fraction, (done_ + fraction * time_shares[index_of(stage)]) / whole_, what, seconds});
-    }
-  }
-  /// The notes of the stage's entry, of a kept stage too: what they say still holds.
-  void tell_notes(StageId stage, const nlohmann::ordered_json& entry) {
-    if (const auto notes = entry.find("notes"); notes != entry.end() && notes->is_array()) {
-      for (const auto& note : *notes) {
-        tell(RunEvent::Kind::note, stage, 1, note.is_string() ? note.get<std::string>() : "");
-      }
-    }
-  }
-  void finish(StageId stage) { done_ += time_shares[index_of(stage)]; }
-
- private:
-  const RunObserver& observer_;
-  double whole_ = 0;
-  double done_ = 0;
-};
-
-/// What lies in the folder where that is what the plan would make, maybe edited since; else nothing.
-struct Kept {
-  StageRecord record;
-  std::vector<std::string> edited;
-};
-std::optional<Kept> kept(const StagePlan& plan, const std::string& plan_stamp, const fs::path& folder) {
-  const auto record = read_stage_record(folder);
-  if (!record || record->stamp != plan_stamp || !record->failure.empty()) {
-    return std::nullopt;
-  }
-  for (const std::string& name : plan.artefacts) {
-    if (!record->artefacts.contains(name)) {
-      return std::nullopt;
-    }
-  }
-  ArtefactChanges changes = changes_of(record->artefacts, folder);
-  return changes.lost.empty() ? std::optional(Kept{*record, std::move(changes.edited)}) : std::nullopt;
+  return [=](RunEvent event) {
+    event.state = state;
+    event.total_fraction = (static_cast<double>(ordinal) + event.total_fraction) / static_cast<double>(states);
+    observer(event);
+  };
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
+/// ParaView plays the solutions as steps 1, 2, ...
+std::string collection_of(const fs::path& out, const std::vector<Scene>& states) {
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const fs::path solution = state_folder("", states[i].state->name) / "solve" / "solution.vtu";
+    if (fs::exists(out / solution)) {
+      text += "<DataSet timestep=\"" + std::to_string(i + 1) + "\" file=\"" + solution.string() + "\"/>\n";
+    }
   }
-  return text;
+  return text + "</Collection>\n</VTKFile>\n";
 }
 
-StageRecord make_stage(const StagePlan& plan, const fs::path& folder, InputStates& states, Interruption& interruption,
-                       const Progress& progress) {
-  refuse_foreign_folder(folder);
-  refuse_foreign_folder(old_of(folder));
-  StageFolder unfinished(folder, interruption);
-  reset_peak_memory();
-  const auto begin = std::chrono::steady_clock::now();
-  const StageReport report = plan.work(unfinished.path(), progress);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  for (const InputFile& input : plan.inputs) {
-    states.check_unchanged(input.path);
+RunOutcome run_sequence(const Scene& scene, const RunOptions& options, Interruption& interruption,
+                        const RunObserver& observer) {
+  const fs::path out = place_of(options.out);
+  const FolderLock lock(out);
+  InputStates inputs;
+  RunOutcome outcome{begin_run_record(scene, inputs), {}};
+  outcome.record.erase("stages");
+  fs::path before;
+  for (std::size_t i = 0; i < scene.states.size() && outcome.failure.empty(); ++i) {
+    const Scene& state = scene.states[i];
+    const std::string& name = state.state->name;
+    RunOptions own = options;
+    own.out = state_folder(out, name);
+    const RunOutcome one =
+        run_stages(state, own, before, interruption, part_of(observer, name, i, scene.states.size()));
+    outcome.record["states"][name] = one.record["stages"];
+    outcome.failure = one.failure.empty() ? "" : "state '" + name + "': " + one.failure;
+    before = own.out;
+    write_run_record(out, outcome.record, interruption);
   }
-  const StageRecord record{.stamp = stamp(plan, states),
-                           .failure = report.failure,
-                           .entry = stage_entry(report, seconds.count(), peak_memory_mb())};
-  write_stage_record(unfinished.path(), record);
-  unfinished.replace();
-  return record;
-}
-
-void write_record(const fs::path& out, const RunOutcome& outcome, Interruption& interruption) {
   const auto hold = interruption.hold();
-  write_whole(out / "run.json", json_text(outcome.record));
-}
-
-/// Whoever may read a script may start it.
-void make_executable(const fs::path& script) {
-  constexpr fs::perms all_read = fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read;
-  std::error_code refused;  // by a file system without rights, where nothing is started by a double-click
-  const auto readers = static_cast<unsigned>(fs::status(script, refused).permissions() & all_read);
-  fs::permissions(script, static_cast<fs::perms>(readers >> 2), fs::perm_options::add, refused);
-}
-
-/// For whoever opens the folder: whatever ran, they show what lies there.
-void write_scripts(const fs::path& out, Interruption& interruption) {
-  const auto hold = interruption.hold();
-  for (const ShowScript& script : show_scripts()) {
-    write_whole(out / script.name, script.text);
-    make_executable(out / script.name);
-  }
-}
-
-/// Later stages of an earlier run that were not reached: told apart from those that still hold.
-void note_unreached(nlohmann::ordered_json& stages, const Scene& scene, const fs::path& out, StageId last,
-                    InputStates& states, Interruption& interruption) {
-  bool outdated = false;  // and then so is all that was made from it
-  for (const StageId stage : all_stages) {
-    const fs::path folder = out / stage_name(stage);
-    if (stage <= last) {
-      continue;
-    }
-    if (const auto record = read_stage_record(folder)) {
-      const StagePlan plan = plan_stage(stage, scene, out, interruption);
-      auto& entry = stages[std::string(stage_name(stage))] = record->entry;
-      outdated = outdated || !kept(plan, stamp(plan, states), folder);
-      if (outdated) {
-        entry["status"] = "outdated";
-      }
-    }
-  }
+  write_whole(out / "steps.pvd", collection_of(out, scene.states));
+  return outcome;
 }
 
 }  // namespace
 
+fs::path state_folder(const fs::path& out, const std::string& state) {
+  return out / "states" / state;
+}
+
 RunOutcome run(const Scene& scene, const RunOptions& options, Interruption& interruption, const RunObserver& observer) {
-  const fs::path out = place_of(options.out);
-  const FolderLock lock(out);
-  InputStates states;
-  RunOutcome outcome{begin_run_record(scene, states), {}};
-  Tally tally(scene, options.until, observer);
-  bool rerun = options.force, memory_is_enough = false;
-  StageId last = StageId::segment;
-  for (const StageId stage : all_stages) {
-    if (stage > options.until || !outcome.failure.empty()) {
-      break;
-    }
-    last = stage;
-    const std::string name(stage_name(stage));
-    if (!is_active(stage, scene)) {
-      outcome.record["stages"][name] = {{"status", "inactive"}};
-      continue;
-    }
-    const StagePlan plan = plan_stage(stage, scene, out, interruption);
-    const std::string plan_stamp = stamp(plan, states);
-    const std::optional<Kept> old = rerun ? std::nullopt : kept(plan, plan_stamp, out / name);
-    if (old) {
-      outcome.record["stages"][name] = old->record.entry;
-      outcome.record["stages"][name]["status"] = "kept";
-      tally.tell(RunEvent::Kind::kept, stage, 0, listed(old->edited));
-      tally.tell_notes(stage, old->record.entry);
-    } else {
-      if (!memory_is_enough) {
-        require_memory(scene, stage, options.until, available_memory_mb());
-        memory_is_enough = true;
-      }
-      tally.tell(RunEvent::Kind::started, stage);
-      const Progress progress = [&](double fraction, std::string_view what) {
-        tally.tell(RunEvent::Kind::progress, stage, fraction, what);
-      };
-      const StageRecord record = make_stage(plan, out / name, states, interruption, progress);
-      outcome.record["stages"][name] = record.entry;
-      outcome.failure = record.failure;
-      tally.tell_notes(stage, record.entry);
-      const auto kind = record.failure.empty() ? RunEvent::Kind::finished : RunEvent::Kind::failed;
-      tally.tell(kind, stage, 1, {}, record.entry["seconds"]);
-    }
-    tally.finish(stage);
-    write_record(out, outcome, interruption);
-  }
-  note_unreached(outcome.record["stages"], scene, out, last, states, interruption);
-  write_record(out, outcome, interruption);
-  write_scripts(out, interruption);
-  return outcome;
+  return scene.states.empty() ? run_stages(scene, options, {}, interruption, observer)
+                              : run_sequence(scene, options, interruption, observer);
 }
 
 }  // namespace brainshift::pipelines

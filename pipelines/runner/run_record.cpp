@@ -70,13 +70,23 @@ nlohmann::ordered_json begin_run_record(const Scene& scene, InputStates& states)
   for (const auto& [label, name] : label_names(scene)) {
     names[std::to_string(label)] = name;
   }
-  return {{"version", BRAINSHIFT_VERSION},
-          {"scene", std::filesystem::absolute(scene.source.file).lexically_normal().string()},
-          {"inputs", std::move(inputs)},
-          {"options", effective_options(scene)},
-          {"label_names", std::move(names)},
-          {"threads", threads_in_use()},
-          {"stages", nlohmann::ordered_json::object()}};
+  nlohmann::ordered_json record = {{"version", BRAINSHIFT_VERSION},
+                                   {"scene", std::filesystem::absolute(scene.source.file).lexically_normal().string()},
+                                   {"inputs", std::move(inputs)},
+                                   {"options", effective_options(scene)},
+                                   {"label_names", std::move(names)},
+                                   {"threads", threads_in_use()},
+                                   {"stages", nlohmann::ordered_json::object()}};
+  if (scene.state) {
+    record["state"] = scene.state->name;
+  }
+  return record;
+}
+
+void write_run_record(const std::filesystem::path& out, const nlohmann::ordered_json& record,
+                      Interruption& interruption) {
+  const auto hold = interruption.hold();
+  write_whole(out / "run.json", json_text(record));
 }
 
 }  // namespace brainshift::pipelines

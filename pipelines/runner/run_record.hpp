@@ -32,4 +32,8 @@ std::optional<StageRecord> read_stage_record(const std::filesystem::path& folder
 /// run.json before any stage: version, scene, inputs with checksums, options, threads.
 nlohmann::ordered_json begin_run_record(const Scene& scene, InputStates& states);
 
+/// Writes it as run.json into a run's folder.
+void write_run_record(const std::filesystem::path& out, const nlohmann::ordered_json& record,
+                      Interruption& interruption);
+
 }  // namespace brainshift::pipelines

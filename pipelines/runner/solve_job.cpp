@@ -12,6 +12,7 @@
 #include "segmentation/files/surface_file.hpp"
 #include "solve/cut/septum.hpp"
 #include "solve/load/noisy_load.hpp"
+#include "solve/output/field_difference.hpp"
 #include "solve/output/solution_file.hpp"
 #include "solve/run/measured.hpp"
 
@@ -150,6 +151,15 @@ void read_cuts(const SolveJob& job, solve::Model& model) {
   }
 }
 
+/// How far a state lies from the one before it.
+void measure_move(const Solution& last, const Solution& now, StageReport& said) {
+  const bool same = last.positions.rows() == now.positions.rows() && last.positions == now.positions;
+  const solve::FieldDifference move =
+      same ? solve::field_difference(now.displacement, last.displacement) : solve::field_difference(now, last);
+  said.measures["moved_since_last_mm"] = move.largest;
+  said.measures["moved_since_last_95_mm"] = move.percentile_95;
+}
+
 }  // namespace
 
 solve::CraniotomyLoad read_load(const Load& load, const fs::path& surface) {
@@ -196,6 +206,9 @@ SolveInput read_input(const SolveJob& job) {
     model.resection->wall = read_surface(job.wall);
   }
   read_cuts(job, model);
+  if (!job.last.empty()) {
+    model.last = read_solution(job.last);
+  }
   if (!job.septum.empty()) {
     model.septum = solve::read_septum(job.septum);
   }
@@ -250,6 +263,9 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
                                            [&] { return solve::solve(input.model, input.options, progress); });
   solve::write_solve(out, result);
   StageReport said = report_of(result, input.options.dynamics);
+  if (input.model.last) {
+    measure_move(*input.model.last, result.solution, said);
+  }
   said.notes.insert(said.notes.end(), input.notes.begin(), input.notes.end());
   write_measured(input, result, out, said);
   add_uncertainty(job, input, result, out, said, part_of(given, solving_share, 1));

@@ -28,6 +28,11 @@ nlohmann::ordered_json record_of(const fs::path& run) {
       !record.contains("inputs") || !record["inputs"].is_array()) {
     refuse(run, "this is no run: it has no run.json that can be read; make one with 'brainshift run SCENE --out DIR'");
   }
+  if (record.contains("state") || record.contains("states")) {
+    refuse(run,
+           "the run cannot be updated: it is of a sequence; change the state's load in the scene and run it again, "
+           "which keeps the states before it");
+  }
   if (record["version"] != BRAINSHIFT_VERSION) {
     refuse(run, "the run was made by version " + record["version"].get<std::string>() + ", this is " +
                     BRAINSHIFT_VERSION + "; run its scene again");

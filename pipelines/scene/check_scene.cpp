@@ -150,9 +150,28 @@ void check_options(const Scene& scene) {
   }
 }
 
+/// A fault of a state stands where its element is written, which may be before the sequence.
+void check_states(const Scene& scene) {
+  if (scene.solve.dynamics == solve::Dynamics::transient) {
+    fail(scene, "solve.dynamics",
+         "dynamics is transient, but a <sequence> goes from one state of rest to the next; take relaxation");
+  }
+  for (const Scene& state : scene.states) {
+    try {
+      check_scene(state);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(std::string(error.what()) + " (state '" + state.state->name + "')");
+    }
+  }
+}
+
 }  // namespace
 
 void check_scene(const Scene& scene) {
+  if (!scene.states.empty()) {
+    check_states(scene);
+    return;
+  }
   check_files(scene);
   check_image(scene);
   check_load(scene);

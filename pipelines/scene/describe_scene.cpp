@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "pipelines/scene/read_sequence.hpp"
 #include "pipelines/scene/scene_table.hpp"
 
 namespace brainshift::pipelines {
@@ -67,6 +68,13 @@ std::string tissues_part() {
                      "       or <tissues><tissue class=\"ventricles\" youngs_modulus=\"20\"/></tissues>\n");
 }
 
+std::string sequence_part() {
+  return comment("Not built unless named. An operation in order: each state goes on from the one before it.",
+                 "       It names what it changes: " + changeable_elements() +
+                     ".\n       <sequence><state name=\"opened\"/><state name=\"drained\"><gravity "
+                     "direction=\"0,1,0\" drained=\"30\"/></state></sequence>\n");
+}
+
 }  // namespace
 
 std::string default_scene() {
@@ -95,7 +103,7 @@ std::string default_scene() {
       text += tissues_part();
     }
   }
-  return text + "</scene>\n";
+  return text + sequence_part() + "</scene>\n";
 }
 
 nlohmann::ordered_json effective_options(const Scene& scene) {

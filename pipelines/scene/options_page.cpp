@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "pipelines/scene/read_sequence.hpp"
 #include "pipelines/scene/scene_table.hpp"
 
 namespace brainshift::pipelines {
@@ -87,7 +88,15 @@ std::string options_page() {
       text += section("<cuts><cut>", "One element for each cut.", cut_options(), CutFile{});
     }
   }
-  return text;
+  return text + "\n## `<sequence><state>`\n" +
+         wrapped(
+             "Not built unless it is named. An operation in order, one `<state name=\"...\">` each, which goes on from "
+             "the one before it and holds the elements that it changes: " +
+                 changeable_elements() +
+                 ". An element takes the place of the one that was there; of a tissue only the attributes change that "
+                 "are named; what is resected stays out. `--set sequence.STATE.PATH=VALUE` overrides an option of a "
+                 "state and of those after it that do not change it themselves.",
+             "");
 }
 
 }  // namespace brainshift::pipelines

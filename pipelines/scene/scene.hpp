@@ -142,6 +142,12 @@ inline solve::SolveOptions quickest() {
   return options;
 }
 
+/// Which state of a sequence a scene is.
+struct StateOfSequence {
+  std::string name;
+  std::string before;  ///< the state that it goes on from; empty: it is the first
+};
+
 /// The whole problem. Members that are empty are parts that the scene does not name: they are not built. File names are
 /// absolute or relative to the working directory, not to the scene's file.
 struct Scene {
@@ -166,6 +172,8 @@ struct Scene {
   registration::RegisterOptions registration;
   std::array<std::string, all_stages.size()> commands;  ///< external commands that replace stages; empty: our own stage
   SceneSource source;
+  std::optional<StateOfSequence> state = {};
+  std::vector<Scene> states = {};  ///< an operation in order, each the whole scene of its state; none: no sequence
 };
 
 /// Whether the scene has what the stage needs: register and report a T1, or a label map in its place.

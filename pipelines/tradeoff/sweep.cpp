@@ -79,6 +79,10 @@ class Sweeper {
   Scene own_scene() const {
     Scene scene = parse_scene(scene_, overrides_);
     check_scene(scene);
+    if (!scene.states.empty()) {
+      throw std::invalid_argument(place(scene.source, "sequence") +
+                                  ": settings are varied of one state; leave <sequence> out");
+    }
     for (const StageId stage : {StageId::discretise, StageId::solve}) {
       if (!scene.commands[index_of(stage)].empty()) {
         throw std::invalid_argument(place(scene.source, std::string(stage_name(stage)) + ".command") +

@@ -33,6 +33,11 @@ void check(const Scene& scene, double tolerance, const RunOptions& options) {
   if (options.until < StageId::solve) {
     throw std::invalid_argument("a run to a tolerance solves: --until must be solve or a later stage");
   }
+  if (!scene.states.empty()) {
+    throw std::invalid_argument(place(scene.source, "sequence") +
+                                ": --tolerance refines one state; leave <sequence> out to find the cloud, then run "
+                                "the sequence on it");
+  }
   for (const StageId stage : {StageId::discretise, StageId::solve}) {
     if (!scene.commands[index_of(stage)].empty()) {
       throw std::invalid_argument(place(scene.source, std::string(stage_name(stage)) + ".command") +

@@ -16,6 +16,7 @@
 #include "solve/interface/conditions.hpp"
 #include "solve/interface/cut.hpp"
 #include "solve/interface/load_curve.hpp"
+#include "solve/interface/solution.hpp"
 #include "solve/material/material.hpp"
 
 namespace brainshift::solve {
@@ -62,6 +63,8 @@ struct Model {
   std::optional<Septum> septum = {};  ///< a rigid sheet inside the body; absent: none
   std::optional<Rupture> rupture = {};
   std::optional<Resection> resection = {};
+  /// The state of rest before this one, maybe on another cloud: where a coarse start begins. Absent: there is none.
+  std::optional<Solution> last = {};
   LoadCurve curve = {};  ///< of prescribed displacements and all forces; in a transient run its times are seconds
 };
 

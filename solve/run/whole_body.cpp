@@ -2,17 +2,20 @@
 #include "solve/run/whole_body.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/cut/resection.hpp"
+#include "solve/output/field_difference.hpp"
 #include "solve/run/coarse.hpp"
 #include "solve/run/error_estimate.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "solve/run/thin_parts.hpp"
+#include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::solve {
 
@@ -23,11 +26,15 @@ struct Attempt {
   std::string what;
 };
 
+/// Whether nobody wants to see the way to the end, nor does the end depend on it.
+bool may_start_near(const Model& model, const SolveOptions& options) {
+  return options.start == Start::coarse && options.dynamics == Dynamics::relaxation && options.snapshot_every == 0 &&
+         model.cuts.empty() && !model.rupture && model.curve.at(model.curve.duration()) == 1;
+}
+
 /// Whether a coarse solution is made: as the start, or to tell the error.
 bool has_coarse(const Model& model, const SolveOptions& options) {
-  return options.start == Start::coarse && options.dynamics == Dynamics::relaxation && options.snapshot_every == 0 &&
-         model.cuts.empty() && !model.septum && !model.rupture && !model.resection &&
-         model.curve.at(model.curve.duration()) == 1;
+  return may_start_near(model, options) && !model.septum && !model.resection;
 }
 
 }  // namespace
@@ -88,6 +95,35 @@ bool too_thin_for_quadratic(const SolveOptions& options, const SolveMeasures& me
   return options.shape.basis == Basis::modified_quadratic && 2 * measures.grown_supports > measures.integration_points;
 }
 
+/// The displacement of the last state at the body's nodes; nothing where they cannot be told apart: face nodes of a
+/// septum lie in pairs at one place.
+std::optional<Points> last_displacement(const Model& model, const Points& positions) {
+  const Solution& last = *model.last;
+  if (last.positions.rows() == positions.rows() && last.positions == positions) {
+    return as_prescribed(last.displacement, model.conditions);
+  }
+  if (model.septum || !last.cut.empty()) {
+    return std::nullopt;
+  }
+  return as_prescribed(displacement_at(last, positions), model.conditions);
+}
+
+/// û of the last state, cloud's order. Shape functions beside a septum see one side of it alone: there u is near
+/// enough.
+std::optional<Points> last_parameters(const Model& model, const SolveOptions& options, const Body& body) {
+  try {
+    const std::optional<Points> u = last_displacement(model, body.positions);
+    if (!u || model.septum) {
+      return u;
+    }
+    return parameters_from_displacement({body.positions, body.spacing, options.shape}, body.positions, *u);
+  } catch (const std::logic_error&) {
+    return std::nullopt;  // it has too few nodes near one of these
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+}
+
 SolveResult attempt(const Model& model, const SolveOptions& options, const SolveMeasures& known,
                     const Progress& progress) {
   constexpr std::size_t few_nodes = 500;
@@ -112,6 +148,11 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
       start_from = in_body_order(*coarse, prepared.body.original);
     }
     measures.seconds_coarse = begin.seconds();
+  }
+  if (model.last && may_start_near(model, options)) {
+    if (const std::optional<Points> last = last_parameters(model, options, prepared.body)) {
+      start_from = in_body_order(*last, prepared.body.original);
+    }
   }
   const PlacedPoints placed = model.cloud.size() < few_nodes ? prepared.body.placed : PlacedPoints();
   SolveResult result = step_to_end(model, options, std::move(prepared), measures, std::move(start_from), progress);

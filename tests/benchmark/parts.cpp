@@ -17,11 +17,13 @@
 #include <vector>
 
 #include "discretise/discretise.hpp"
+#include "solve/cut/walled_resection.hpp"
 #include "solve/dynamics/motion.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "tests/benchmark/heap.hpp"
 #include "tests/benchmark/problems.hpp"
+#include "tests/unit/discretise/bodies.hpp"
 
 using namespace brainshift;
 using namespace brainshift::solve;
@@ -69,6 +71,16 @@ void to_be_cut(Model& model, SolveOptions&) {
   model.cuts[0].time = {0.9, 0.9, 1, 1};
 }
 
+/// A cavity of 30 mm beside what sinks.
+Surface cavity() {
+  return test::ball(15, {35, 0, -15}, 4);
+}
+
+void know_the_cavity(Model& model, SolveOptions&) {
+  model = bench::ellipsoid(model.cloud.size(), discretise::DiscretiseOptions().cells_per_node, cavity()).model;
+  model.boundary = bench::ellipsoid_surface(0);
+}
+
 void three_materials(Model& model, SolveOptions&) {
   model.materials[2] = model.materials[3] = model.materials[1];
   for (std::size_t i = 0; i < model.cells.size(); ++i) {
@@ -89,12 +101,23 @@ std::vector<Part> parts() {
        [](Model& m, SolveOptions&) {
          m.gravity = {0, 0, -9.81};
        }},
+      {"drained fluid", nothing,
+       [](Model& m, SolveOptions&) {
+         m.fluid = DrainedFluid{.gravity = {0, 0, -9.81}, .gravity_of_image = {0, 0, -9.81}};
+       }},
+      {"swelling", nothing, [](Model& m, SolveOptions&) { m.materials[1].swelling = 0.05; }},
       {"forces at nodes", nothing,
        [](Model& m, SolveOptions&) { m.conditions.force = Points::Constant(m.cloud.positions.rows(), 3, 1e-6); }},
       {"pressure patches (absent: pointwise)", [](Model&, SolveOptions& o) { o.volumetric = Volumetric::pointwise; },
        [](Model&, SolveOptions& o) { o.volumetric = Volumetric::mean_dilatation; }},
       {"a cut", nothing, cut_open},
       {"a cut that goes on", nothing, to_be_cut},
+      {"a septum", nothing,
+       [](Model& m, SolveOptions&) {
+         m.septum = Septum{"sheet", {sheet().vertices, sheet().triangles}};
+       }},
+      {"a resection with a wall", know_the_cavity,
+       [](Model& m, SolveOptions&) { m.resection = Resection{.labels = {2}, .wall = cavity()}; }},
       {"three materials (absent: one of the same constants)", nothing, three_materials}};
 }
 
@@ -112,6 +135,7 @@ double held_bytes(const Model& model, const SolveOptions& options) {
 struct Case {
   Model model;
   SolveOptions options;
+  SolveMeasures measures;
   Prepared prepared;
   double bytes;                 ///< of the heap, while it is stepped
   std::vector<double> seconds;  ///< a step, between one report of progress and the next
@@ -122,7 +146,11 @@ struct Case {
     if (with) {
       part.with(model, options);
     }
-    SolveMeasures measures;
+    if (model.resection) {
+      Resected resected = resect_within_wall(model);
+      model = std::move(resected.rest);
+      measures.resection = resected.measures;
+    }
     prepared = prepare(model, options, {}, measures, {});
     bytes = held_bytes(model, options);
   }
@@ -136,7 +164,7 @@ struct Case {
         reports.emplace_back(std::atoi(text.c_str() + 5), static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
       }
     };
-    const SolveResult result = step_to_end(model, options, prepared, {}, {}, note);
+    const SolveResult result = step_to_end(model, options, prepared, measures, {}, note);
     for (std::size_t i = 1; i < reports.size(); ++i) {
       if (reports[i].first > reports[i - 1].first) {
         seconds.push_back((reports[i].second - reports[i - 1].second) / (reports[i].first - reports[i - 1].first));

@@ -17,10 +17,13 @@ Surface ellipsoid_surface(double larger) {
   return surface;
 }
 
-Problem ellipsoid(std::size_t nodes, double cells_per_node) {
+Problem ellipsoid(std::size_t nodes, double cells_per_node, const std::optional<Surface>& wall) {
   discretise::DiscretiseOptions options;
   options.nodes = nodes;
   options.cells_per_node = cells_per_node;
+  if (wall) {
+    options.resected = discretise::ResectedTissue{*wall, {2}};
+  }
   auto [cloud, cells, measures] = discretise::discretise(ellipsoid_surface(0), nullptr, options);
   Problem problem;
   problem.model.cloud = std::move(cloud);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "solve/force/point_blocks.hpp"
@@ -16,8 +17,8 @@ struct Problem {
 };
 
 /// An ellipsoid as large as a brain; the top sinks by up to 4 mm, the rest is free. cells_per_node: of
-/// DiscretiseOptions.
-Problem ellipsoid(std::size_t nodes, double cells_per_node);
+/// DiscretiseOptions. wall: cells and nodes know of it; nothing: of none.
+Problem ellipsoid(std::size_t nodes, double cells_per_node, const std::optional<Surface>& wall = {});
 
 /// The same surface, larger by so many mm in each direction.
 Surface ellipsoid_surface(double larger);

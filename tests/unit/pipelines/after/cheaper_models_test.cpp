@@ -55,6 +55,19 @@ TEST(CheaperModels, LeaveOutThePartsOfTheModelOneAtATime) {
   EXPECT_TRUE(model.materials[1].prony.empty());
 }
 
+TEST(CheaperModels, LeaveOutAResectionOrItsWall) {
+  SolveOptions options = cheapest();
+  Model model = plain_model();
+  model.resection = solve::Resection{.labels = {2}, .fluid_level = 3, .wall = Surface()};
+  const std::vector<CheaperModel> found = cheaper_models(model, options, 1);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[1].part, "wall of the resection");
+  found[1].make(model, options);
+  EXPECT_FALSE(model.resection->wall || model.resection->fluid_level);
+  EXPECT_EQ(only(model, options).part, "resection");
+  EXPECT_FALSE(model.resection);
+}
+
 TEST(CheaperModels, TakeTheTissueOfMostCellsThatHasAMaterialForAll) {
   Model model = plain_model();
   model.materials[2] = model.materials[1];

@@ -38,6 +38,34 @@ TEST(CoarseStart, EndsWhereTheStartFromRestEndsInFewerSteps) {
   }
 }
 
+/// By how much the first row's strain energy differs from the last one's.
+double way_of(const SolveResult& result) {
+  return std::abs(result.history.front().strain_energy - result.history.back().strain_energy);
+}
+
+TEST(LastStart, GoesOnFromAStateOfAnotherCloudAndEndsWhereTheOthersEnd) {
+  Model model = pressed_bar();
+  SolveOptions options;
+  options.shape.basis = Basis::linear;
+  options.tolerance = 0.02;
+  options.start = Start::coarse;
+  const SolveResult from_coarse = solve_whole_body(model, options, {});
+  const Solution last = from_coarse.solution;
+  const Eigen::Index some = last.positions.rows() - 7;  // another cloud: the field is looked up at the nodes
+  for (const Eigen::Index nodes : {last.positions.rows(), some}) {
+    Solution part = last;
+    part.positions.conservativeResize(nodes, 3);
+    part.displacement.conservativeResize(nodes, 3);
+    part.spacing.resize(static_cast<std::size_t>(nodes));
+    model.last = part;
+    const SolveResult result = solve_whole_body(model, options, {});
+    ASSERT_TRUE(result.failure.empty()) << result.failure;
+    EXPECT_LT(way_of(result), 0.2 * way_of(from_coarse)) << "it begins where it ends; nodes: " << nodes;
+    EXPECT_LE(result.measures.steps, from_coarse.measures.steps) << nodes;
+    EXPECT_LT(largest_difference_of(result, from_coarse), 2 * options.tolerance) << nodes;
+  }
+}
+
 TEST(CoarseStart, IsFromRestWhereTheWayThereIsWanted) {
   const Model model = pressed_bar();
   SolveOptions options;
