@@ -55,7 +55,8 @@ OptionTable<SolveOptions> integration_options() {
           "of the derivatives while stepping and of the sums over pairs of points and nodes; "
           "stresses are double in any case. On the demo single is within 0.0001 mm of double. Double is "
           "taken where K of a material is over 400 µ, the largest µ over 1000 or the largest K over 40000 times the "
-          "least µ, what is imposed over half of the body's size, or the tolerance below a hundred thousandth of it")};
+          "least µ (1000 times where a weight or another force acts), what is imposed over half of the body's size, or "
+          "the tolerance below a hundred thousandth of it")};
 }
 
 OptionTable<SolveOptions> stepping_options() {

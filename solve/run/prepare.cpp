@@ -132,11 +132,12 @@ void check_rupture(const Model& model, Dynamics dynamics) {
 
 /// Derivatives rounded to single precision err by 1e-7 of a strain, which K answers, and a stiff part hands on to a
 /// soft one: the bound of the error no longer holds beyond these (measured: tests/extremes, precision).
-constexpr double most_bulk_in_single = 400;       // K / µ of a material
-constexpr double most_contrast_in_single = 1000;  // largest over least µ
-constexpr double most_of_both_in_single = 4e4;    // largest K over least µ
-constexpr double farthest_in_single = 0.5;        // what is imposed, over the size of the body: half turns
-constexpr double finest_in_single = 1e-5;         // error that may be left, over the size of the body
+constexpr double most_bulk_in_single = 400;         // K / µ of a material
+constexpr double most_contrast_in_single = 1000;    // largest over least µ
+constexpr double most_of_both_in_single = 4e4;      // largest K over least µ
+constexpr double most_of_both_under_forces = 1000;  // the same where a stiff part may weigh on soft tissue
+constexpr double farthest_in_single = 0.5;          // what is imposed, over the size of the body: half turns
+constexpr double finest_in_single = 1e-5;           // error that may be left, over the size of the body
 
 /// The largest component that is prescribed, mm.
 double largest_imposed(const Model& model) {
@@ -152,6 +153,10 @@ double error_wanted(double imposed, double tolerance) {
   return imposed > 0 ? std::min(tolerance, open_part * imposed) : tolerance;
 }
 
+bool is_pushed(const Model& model) {
+  return !model.gravity.isZero() || model.conditions.force.rows() > 0 || model.body_force;
+}
+
 bool single_serves(const Model& model, double tolerance) {
   double bulk = 0, stiffest = 0, softest = std::numeric_limits<double>::infinity();
   for (const auto& [label, material] : model.materials) {
@@ -163,8 +168,8 @@ bool single_serves(const Model& model, double tolerance) {
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
   const double imposed = largest_imposed(model);
   return bulk <= most_bulk_in_single && stiffness_contrast(model.materials) <= most_contrast_in_single &&
-         stiffest <= most_of_both_in_single * softest && imposed <= farthest_in_single * size &&
-         error_wanted(imposed, tolerance) >= finest_in_single * size;
+         stiffest <= (is_pushed(model) ? most_of_both_under_forces : most_of_both_in_single) * softest &&
+         imposed <= farthest_in_single * size && error_wanted(imposed, tolerance) >= finest_in_single * size;
 }
 
 /// Of a cavity with a wall that something presses in.

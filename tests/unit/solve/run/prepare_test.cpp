@@ -42,6 +42,10 @@ TEST(Completed, TakesDoublePrecisionWhereStiffnessDiffersMuch) {
   EXPECT_EQ(precision(), Precision::double_precision) << "of K here and µ there";
   model.materials[2].youngs_modulus /= 2;
   EXPECT_EQ(precision(), Precision::single_precision);
+  model.gravity = {0, 0, -9.81};
+  EXPECT_EQ(precision(), Precision::double_precision) << "a stiff part weighs on a soft one";
+  model.materials[2].youngs_modulus = 15 * model.materials[1].youngs_modulus;
+  EXPECT_EQ(precision(), Precision::single_precision);
 }
 
 /// Of a head ten metres long single precision resolves no hundredth of a millimetre.

@@ -40,6 +40,18 @@ TEST(ThinParts, AreNamedWhereNothingTellsTheErrorForWantOfNodes) {
   EXPECT_NEAR(thin[2].spacings, 2, 0.5);
 }
 
+/// It ends with a force several times too high.
+TEST(ThinParts, AreABodyOfEightNodes) {
+  Model model = box_model(test::box_cells(1, model_side), 2);
+  model.conditions.displacement = model.cloud.positions * Eigen::Vector3d(0, 0, -0.1).asDiagonal();
+  SolveOptions options;
+  options.shape.basis = Basis::linear;
+  const SolveResult result = solve(model, options);
+  ASSERT_EQ(result.failure, "");
+  ASSERT_FALSE(result.measures.thin.empty());
+  EXPECT_LE(result.measures.thin.back().spacings, 1);
+}
+
 TEST(ThinParts, AreNoneOfAWidePatchAndAThickBody) {
   const SolveResult result = solve(uniaxial(0.9, 7), {});
   ASSERT_EQ(result.failure, "");

@@ -119,6 +119,20 @@ TEST(WholeBody, IsLoadedMoreSlowlyBeforeItIsGivenUp) {
   EXPECT_EQ(result.measures.took, "50 load steps");
 }
 
+/// Above a contrast of 1 : 10⁵ a slower load may end, but several times too stiff.
+TEST(WholeBody, IsGivenUpAtOnceWhereNoLoadIsSlowEnoughForItsContrast) {
+  Model model = uniaxial(-0.5, 5);
+  for (std::size_t cell = 0; cell < model.cells.size(); cell += 2) {
+    model.cells.label[cell] = 2;
+  }
+  model.materials[2] = {3e9, 0.49, 1000};
+  const SolveResult result = solve_whole_body(model, {}, {});
+  EXPECT_NE(result.failure, "");
+  EXPECT_EQ(result.failure.find("five times as slow"), std::string::npos) << result.failure;
+  model.materials[2].youngs_modulus = 3e7;
+  EXPECT_NE(solve_whole_body(model, {}, {}).failure.find("five times as slow did not help"), std::string::npos);
+}
+
 /// Forces of single precision bring the body no nearer to its rest than this.
 TEST(WholeBody, TakesDoublePrecisionWhereSingleDoesNotEnd) {
   Model model = uniaxial(0.8, 7);
