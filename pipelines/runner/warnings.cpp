@@ -10,6 +10,7 @@
 #include "segmentation/geometry/distinct_points.hpp"
 #include "segmentation/geometry/point_tree.hpp"
 #include "segmentation/labels/label_fit.hpp"
+#include "segmentation/options/values.hpp"
 
 namespace brainshift::pipelines {
 namespace {
