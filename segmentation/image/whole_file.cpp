@@ -77,11 +77,11 @@ ImageHeader read_header(const fs::path& file, ImageFormat format) {
 }  // namespace
 
 std::optional<double> declared_voxels(const fs::path& file) {
-  check_readable(file);
   std::error_code unknown;
   if (fs::is_directory(file, unknown)) {
     return std::nullopt;
   }
+  check_readable(file);
   const ImageHeader header = read_header(file, image_format(file));
   double voxels = 1;
   for (std::size_t axis = 0; axis < std::min<std::size_t>(3, header.size.size()); ++axis) {
