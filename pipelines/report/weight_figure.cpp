@@ -13,12 +13,14 @@ std::vector<Figure> weight_figures(const nlohmann::json& measures) {
   const double taken = measures.value("weight_mJ", 0.0);
   Series all{.name = "weights that were tried", .x = {}, .y = {}};
   Series one{.name = "the one that was taken, " + readable(taken) + " mJ", .x = {}, .y = {}, .joined = false};
+  const auto add = [](const nlohmann::json& row, Series& series) {
+    series.x.push_back(row.value("energy_mJ", 0.0));
+    series.y.push_back(row.value("misfit", 0.0));
+  };
   for (const auto& row : measures["weights"]) {
-    for (Series* series : {&all, row.value("weight_mJ", 0.0) == taken ? &one : nullptr}) {
-      if (series != nullptr) {
-        series->x.push_back(row.value("energy_mJ", 0.0));
-        series->y.push_back(row.value("misfit", 0.0));
-      }
+    add(row, all);
+    if (row.value("weight_mJ", 0.0) == taken) {
+      add(row, one);
     }
   }
   const Plot plot{.file = "weights",

@@ -10,16 +10,18 @@
 namespace brainshift::pipelines {
 namespace {
 
-std::string gigabytes(double mb) {
+std::string to_tenths(double number) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.1f", mb * 1024 * 1024 / 1e9);
+  std::snprintf(text, sizeof text, "%.1f", number);
   return text;
 }
 
+std::string gigabytes(double mb) {
+  return to_tenths(mb * 1024 * 1024 / 1e9);
+}
+
 std::string millions(double count) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f million", count / 1e6);
-  return text;
+  return to_tenths(count / 1e6) + " million";
 }
 
 /// What the stage's memory grows with, and how to have less of it.

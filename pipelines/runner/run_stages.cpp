@@ -176,7 +176,6 @@ RunOutcome run_stages(const Scene& scene, const RunOptions& options, const fs::p
   InputStates states;
   RunOutcome outcome{begin_run_record(scene, states), {}};
   Tally tally(scene, options.until, observer);
-  const bool rerun = options.force;
   bool memory_is_enough = false;
   StageId last = StageId::segment;
   for (const StageId stage : all_stages) {
@@ -192,7 +191,7 @@ RunOutcome run_stages(const Scene& scene, const RunOptions& options, const fs::p
     const StagePlan plan = plan_stage(stage, scene, out, interruption);
     const std::string plan_stamp = stamp(plan, states);
     const bool taken = take_over(plan, plan_stamp, before, out / name);
-    const std::optional<Kept> old = rerun && !taken ? std::nullopt : kept(plan, plan_stamp, out / name);
+    const std::optional<Kept> old = options.force && !taken ? std::nullopt : kept(plan, plan_stamp, out / name);
     if (old) {
       outcome.record["stages"][name] = old->record.entry;
       outcome.record["stages"][name]["status"] = "kept";

@@ -48,9 +48,9 @@ class Relaxation {
       mass_ = course_.settled->mass;
       mass_scale_ = course_.settled->mass_scale;
       lowest_ = course_.settled->lowest;
-      squeezed_to_ = course_.settled->smallest_jacobian;
+      mass_jacobian_ = course_.settled->smallest_jacobian;
       motion_.weigh(mass_, alpha);
-      motion_.start_from(course_.start, squeezed_to_);
+      motion_.start_from(course_.start, mass_jacobian_);
       pace_.skip();
       return;
     }
@@ -253,7 +253,7 @@ class Relaxation {
   /// Makes the masses anew when a node has become stiffer than they allow for.
   void follow_stiffness() {
     const std::vector<double> bound = stiffness_bound(points(), laws(), motion_.scratch);
-    squeezed_to_ = jacobian_range(motion_.scratch).smallest;
+    mass_jacobian_ = jacobian_range(motion_.scratch).smallest;
     bool stiffer = false;
     for (std::size_t a = 0; a < nodes(); ++a) {
       stiffer = stiffer || mass_scale_ * bound[a] > mass_[a];
@@ -288,7 +288,7 @@ class Relaxation {
   SteppingResult finish() {
     motion_.result.error_bound = bound_.value();
     motion_.result.settled = {
-        .mass = std::move(mass_), .mass_scale = mass_scale_, .lowest = lowest_, .smallest_jacobian = squeezed_to_};
+        .mass = std::move(mass_), .mass_scale = mass_scale_, .lowest = lowest_, .smallest_jacobian = mass_jacobian_};
     return motion_.finish();
   }
 
@@ -299,8 +299,8 @@ class Relaxation {
   NodalVectors force_before_;
   std::vector<double> mass_;
   double mass_scale_ = 1;
-  double lowest_ = 1e-4;    // A_0: a guess until there are increments
-  double squeezed_to_ = 1;  // the smallest J of the state that the masses follow
+  double lowest_ = 1e-4;      // A_0: a guess until there are increments
+  double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow
   ErrorBound bound_{window_};
   LoadPace pace_;
   Quickening quickening_{alpha};
