@@ -17,7 +17,7 @@ namespace {
 
 std::string with_digits(double number) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g", number);
+  std::snprintf(text, sizeof text, number < 99.5 ? "%.2g" : "%.0f", number);
   return text;
 }
 
@@ -150,6 +150,20 @@ Warnings warnings_of_pressure(const solve::SolveMeasures& measures) {
           "that the tissue does not allow? Take a smaller load, a smaller Poisson ratio, or more nodes"};
 }
 
+/// Of a ball's cavity in soft tissue 8 % of the volume leave a smooth wall and 5 % creases; at 3 % a seventh of the
+/// wall has passed through the rest, by a fifth of a spacing, on clouds of 1,500 to 6,000 nodes.
+Warnings warnings_of_cavity(const solve::SolveMeasures& measures) {
+  constexpr double smooth = 0.06;
+  if (!measures.resection || !measures.resection->volume ||
+      *measures.resection->volume >= smooth * measures.resection->removed_volume) {
+    return {};
+  }
+  return {"of the cavity's volume " +
+          with_digits(100 * *measures.resection->volume / measures.resection->removed_volume) +
+          " % are left: its wall is creased more finely than the nodes can follow, and creases may pass through each "
+          "other; expect no accuracy there better than two spacings"};
+}
+
 Warnings warnings_of_few_nodes(const solve::SolveMeasures& measures) {
   std::string parts;
   for (const solve::ThinPart& part : measures.thin) {
@@ -168,7 +182,8 @@ Warnings warnings_of_few_nodes(const solve::SolveMeasures& measures) {
 
 Warnings warnings_of(const solve::SolveMeasures& measures) {
   Warnings warnings = warnings_of_points(measures);
-  for (const Warnings& more : {warnings_of_pressure(measures), warnings_of_few_nodes(measures)}) {
+  for (const Warnings& more :
+       {warnings_of_pressure(measures), warnings_of_cavity(measures), warnings_of_few_nodes(measures)}) {
     warnings.insert(warnings.end(), more.begin(), more.end());
   }
   return warnings;

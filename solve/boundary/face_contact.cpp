@@ -109,7 +109,7 @@ void FaceContact::sweep() {
     gap_[l.face] += l.share * l.direction.dot(shift_.row(l.face) - shift_.row(l.opposite));
   }
   for (Eigen::Index f = 0; f < push_.size(); ++f) {
-    push_[f] = row_sum_[f] > 0 ? std::max(0.0, push_[f] - gap_[f] / row_sum_[f]) : 0;
+    push_[f] = row_sum_[f] > 0 ? std::max(0.0, push_[f] - gaps_.presence(f) * gap_[f] / row_sum_[f]) : 0;
   }
   force_.setZero();
   for (const FaceGaps::Link& l : links_) {
@@ -154,7 +154,7 @@ FaceContact::Measures FaceContact::measure(const NodalVectors& parameters) const
   Measures measures;
   for (Eigen::Index f = 0; f < push_.size(); ++f) {
     measures.touching += gaps.gaps()[f] < touch * gaps.spacing(f) ? 1 : 0;
-    measures.largest_overlap = std::max(measures.largest_overlap, -gaps.gaps()[f]);
+    measures.largest_overlap = std::max(measures.largest_overlap, -gaps.presence(f) * gaps.gaps()[f]);
   }
   return measures;
 }

@@ -31,8 +31,9 @@ struct WallNode {
 /// that overlaps the opposite face, and the nodes of that face about it, are parted by equal and opposite pushes along
 /// the normal:
 ///   û ← û + M⁻¹ Vᵀ Gᵀ λ,  λ ≥ 0,  gap + G W Gᵀ λ ≥ 0,  W = V M⁻¹ Vᵀ,
-/// V the shape functions at the face nodes and G their shares in the gaps. Sweeps of λ ← max(0, λ − D⁻¹ gap), D the row
-/// sums of |G||W||G|ᵀ, come near to it; what remains of an overlap is taken back in the following steps.
+/// V the shape functions at the face nodes and G their shares in the gaps. Sweeps of λ ← max(0, λ − p D⁻¹ gap), D the
+/// row sums of |G||W||G|ᵀ and p the opposite face's presence, come near to it; what remains of an overlap is taken back
+/// in the following steps.
 class FaceContact {
  public:
   /// positions (n × 3), mm, and spacing, mm, of all nodes; rows: shape functions at their positions.
@@ -49,7 +50,7 @@ class FaceContact {
 
   struct Measures {
     std::size_t touching = 0;    ///< face nodes that overlap, or are within a hundredth of the spacing of it
-    double largest_overlap = 0;  ///< mm more than undeformed
+    double largest_overlap = 0;  ///< mm more than undeformed, times the presence of what is overlapped
   };
   Measures measure(const NodalVectors& parameters) const;
 

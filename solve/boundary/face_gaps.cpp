@@ -49,7 +49,8 @@ FaceGaps::FaceGaps(std::vector<FacePlace> places, Points undeformed, Faces kind)
       undeformed_(std::move(undeformed)),
       normal_(undeformed_.rows(), 3),
       undeformed_gap_(Eigen::VectorXd::Zero(undeformed_.rows())),
-      gap_(undeformed_.rows()) {
+      gap_(undeformed_.rows()),
+      presence_(undeformed_.rows()) {
   for (const FacePlace& p : places_) {
     append_neighbours(p);
   }
@@ -85,7 +86,8 @@ std::span<const FaceGaps::Neighbour> FaceGaps::neighbours(Eigen::Index place) co
   return std::span(neighbours_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
 }
 
-/// Nanson's: along cof(F) N, with the gradient F along the face.
+/// Nanson's: cof(F) N, with the gradient F along the face, no longer than 1. Where a face folds it passes through 0:
+/// what takes its direction alone would jump.
 Eigen::Vector3d FaceGaps::outward_normal(Eigen::Index face) const {
   const Eigen::Index side = face % sides_;
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
@@ -97,7 +99,7 @@ Eigen::Vector3d FaceGaps::outward_normal(Eigen::Index face) const {
   const Eigen::Vector3d& n = at(face / sides_).normal;
   const Eigen::Vector3d turned =
       n[0] * f.col(1).cross(f.col(2)) + n[1] * f.col(2).cross(f.col(0)) + n[2] * f.col(0).cross(f.col(1));
-  return (side == 0 ? -1 : 1) * turned.normalized();
+  return (side == 0 ? -1 : 1) * turned / std::max(1.0, turned.norm());
 }
 
 /// On the opposite face, from neighbour to neighbour, from where the two were together.
@@ -161,9 +163,10 @@ void FaceGaps::visit_opposite(Eigen::Index face, const Visit& visit) const {
   const auto look = [&](Eigen::Index other) {
     const Eigen::Vector3d outward = normal_.row(other);
     const double r = opposite_within * spacing(other);
-    const double w = bell((now_.row(face) - now_.row(other)).squaredNorm() / (r * r));
-    if (w > 0 && outward.dot(inward) > 0) {
-      visit(other, w, (outward + inward).normalized());
+    const double aligned = std::max(0.0, outward.dot(inward));
+    const double w = aligned * bell((now_.row(face) - now_.row(other)).squaredNorm() / (r * r));
+    if (w > 0) {
+      visit(other, w, (outward.normalized() + inward.normalized()).normalized());
     }
   };
   if (kind_ == Faces::of_cavity) {
@@ -179,12 +182,14 @@ void FaceGaps::visit_opposite(Eigen::Index face, const Visit& visit) const {
   }
 }
 
-double FaceGaps::mean_gap(Eigen::Index face) const {
+double FaceGaps::mean_gap(Eigen::Index face) {
   double sum = 0, weight = 0;
   visit_opposite(face, [&](Eigen::Index other, double w, const Eigen::Vector3d& direction) {
     weight += w;
     sum += w * direction.dot(now_.row(face) - now_.row(other));
   });
+  constexpr double full = 0.1;  // of the weight of a node at the same place
+  presence_[face] = std::min(1.0, weight / full);
   return weight > 0 ? sum / weight - undeformed_gap_[face] : std::numeric_limits<double>::infinity();
 }
 

@@ -24,8 +24,10 @@ enum class Faces : std::uint8_t { of_cuts, of_cavity };
 /// node i lies at place i, whose normal points into the tissue. Its gap is that to the opposite face: a mean over the
 /// nodes b there that are within reach of where it is now, of (x − x_b)·n, n between the outward normal at b and the
 /// inward one at x, which vanishes to third order where curved faces touch; less what it was undeformed, of a cavity
-/// only where that was an overlap. In a cavity nodes are opposite that face each other, and did so undeformed, through
-/// the cavity and not through tissue. They are looked for anew when some node may have come within reach.
+/// only where that was an overlap. Nodes count by how near they are, how much they face x and how little the face is
+/// folded there, so that the gap changes smoothly. In a cavity nodes are opposite that face each other, and did so
+/// undeformed, through the cavity and not through tissue. They are looked for anew when some node may have come within
+/// reach.
 class FaceGaps {
  public:
   /// undeformed: the face nodes, mm, two a place of cuts, one of a cavity.
@@ -36,6 +38,8 @@ class FaceGaps {
 
   const Points& undeformed() const { return undeformed_; }
   const Eigen::VectorXd& gaps() const { return gap_; }  ///< mm; negative: overlap; infinite: nothing is opposite
+  /// How much of the opposite face is there, 0 to 1: little where it is hardly within reach, turned away or folded.
+  double presence(Eigen::Index face) const { return presence_[face]; }
   double spacing(Eigen::Index face) const { return at(face / sides_).spacing; }
 
   /// A node of the opposite face, its share of the mean, and the direction that parts the two, out of it.
@@ -60,7 +64,7 @@ class FaceGaps {
   bool met_through_cavity(Eigen::Index face, Eigen::Index other) const;
   bool has_come_near() const;
   void look_for_opposite();
-  double mean_gap(Eigen::Index face) const;
+  double mean_gap(Eigen::Index face);
   template <class Visit>
   void visit_opposite(Eigen::Index face, const Visit& visit) const;
 
@@ -70,7 +74,7 @@ class FaceGaps {
   std::vector<Neighbour> neighbours_;  ///< of each place in turn
   std::vector<std::size_t> begin_;
   Points undeformed_, now_, normal_;  ///< of the face nodes
-  Eigen::VectorXd undeformed_gap_, gap_;
+  Eigen::VectorXd undeformed_gap_, gap_, presence_;
   Points looked_at_ = Points(0, 3);  ///< of a cavity: where the face nodes were when others were looked for
   std::vector<std::vector<Eigen::Index>> opposite_;  ///< that were found, of each face node
 };

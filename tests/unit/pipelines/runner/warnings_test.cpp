@@ -129,6 +129,19 @@ TEST(Warnings, TellOfVolumeUnderHighPressure) {
   expect_parts(warnings_of(measures).front(), {"41 % of a tissue's volume", "6 shear moduli", "change of volume"});
 }
 
+TEST(Warnings, TellOfACavityThatIsPressedFlat) {
+  solve::SolveMeasures measures;
+  measures.nodes = 1000;
+  measures.integration_points = 8000;
+  measures.resection = solve::ResectionMeasures{.removed_volume = 2000, .wall_nodes = 50};
+  EXPECT_TRUE(warnings_of(measures).empty()) << "it lies open";
+  measures.resection->volume = 200;
+  EXPECT_TRUE(warnings_of(measures).empty());
+  measures.resection->volume = 26;
+  ASSERT_EQ(warnings_of(measures).size(), 1U);
+  expect_parts(warnings_of(measures).front(), {"1.3 % are left", "creased more finely than the nodes"});
+}
+
 TEST(Warnings, TellOfPartsThatFewNodesHardlyResolve) {
   solve::SolveMeasures measures;
   measures.nodes = 300;

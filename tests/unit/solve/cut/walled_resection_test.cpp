@@ -130,10 +130,10 @@ TEST_F(Plates, OpenAgain) {
 }
 
 /// A dry cavity in a ball that lies in fluid: what is around it is pressed into it.
-TEST(WalledResection, ADryCavityInFluidIsPressedTogetherAndNotTurnedInsideOut) {
+TEST(WalledResection, ADryCavityInFluidIsPressedFlatAndNotTurnedInsideOut) {
   const Surface ball = test::sphere(origin, 30, 4), wall = test::sphere(origin, 8, 4);
   Model model = with_wall(ball, wall, 1500);
-  model.materials[1].youngs_modulus = 500;
+  model.materials[1].youngs_modulus = 200;
   model.fluid = DrainedFluid{.gravity = {0, 0, -9.81}, .gravity_of_image = {0, 0, -9.81}, .level = -40};
   model.resection->fluid_level = 100;
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
@@ -146,8 +146,9 @@ TEST(WalledResection, ADryCavityInFluidIsPressedTogetherAndNotTurnedInsideOut) {
   const ResectionMeasures& m = *result.measures.resection;
   const double spacing = std::cbrt(volume(ball) / static_cast<double>(model.cloud.size()));
   EXPECT_LT(m.touch.largest_overlap, 0.1 * spacing);
+  EXPECT_GT(m.touch.touching_nodes, m.wall_nodes / 5) << "its walls meet";
   EXPECT_GT(*m.volume, 0);
-  EXPECT_LT(*m.volume, 0.5 * volume(wall));
+  EXPECT_LT(*m.volume, 0.05 * volume(wall));
 }
 
 std::string fault(const Model& model) {
