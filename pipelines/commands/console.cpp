@@ -21,6 +21,10 @@ std::string duration(double seconds) {
   return text;
 }
 
+// between two words of how far the work is
+constexpr std::chrono::milliseconds on_terminal{100};
+constexpr std::chrono::minutes in_file{1};
+
 std::string percent(double fraction) {
   return std::to_string(static_cast<int>(std::floor(100 * fraction))) + " %";
 }
@@ -55,6 +59,7 @@ void Console::started(StageId stage) {
   last_what_.clear();
   if (!terminal_) {
     line(std::string(stage_name(stage)) + " ...");
+    shown_ = Clock::now();
   }
 }
 
@@ -69,7 +74,7 @@ void Console::progress(StageId stage, double fraction, double total, std::string
   if (new_what) {
     line(std::string(stage_name(stage)) + ": " + std::string(what));
   }
-  if (quiet_ || !terminal_ || now - shown_ < std::chrono::milliseconds(100)) {
+  if (quiet_ || now - shown_ < (terminal_ ? on_terminal : in_file)) {
     return;
   }
   shown_ = now;
@@ -78,6 +83,10 @@ void Console::progress(StageId stage, double fraction, double total, std::string
   const double done = total - start_fraction_;
   if (elapsed > 1 && done > 0.02) {
     text += ", about " + duration(std::ceil(elapsed * (1 - total) / done)) + " left";
+  }
+  if (!terminal_) {
+    line(text);
+    return;
   }
   std::fprintf(stderr, "\r\033[K%s", text.c_str());
   std::fflush(stderr);

@@ -10,7 +10,7 @@
 namespace brainshift::pipelines {
 
 /// Shows how far the work is, on standard error: one line that is written over on a terminal, with an estimate of the
-/// time left; plain lines otherwise; nothing when quiet.
+/// time left; otherwise plain lines, of a long stage each minute; nothing when quiet.
 class Console {
  public:
   Console(bool quiet, bool verbose);
