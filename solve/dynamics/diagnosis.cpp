@@ -13,7 +13,8 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double much_softer = 100;  // ratio of shear moduli from which on a neighbour is worth naming
+constexpr double much_softer = 100;   // ratio of shear moduli from which on a neighbour is worth naming
+constexpr double much_swollen = 0.2;  // share of a tissue's volume from which on its swelling is worth naming
 
 /// Calls use(point, node) for all pairs of a patch's points and the nodes they see, patch by patch.
 template <class Use>
@@ -78,6 +79,9 @@ std::string cause(const Fault& fault, std::int32_t node, const Body& body) {
   if (fault.swings) {
     return "the step is too long for the stiffness there, the node swings there and back from step to step; take a "
            "smaller time step";
+  }
+  if (std::ranges::any_of(body.laws.swelling, [](double share) { return std::abs(share) >= much_swollen; })) {
+    return "a tissue swells by more than what is around it makes room for; take a smaller swelling";
   }
   const Neighbours n = neighbours(body.points, body.laws, node);
   if (n.stiffest >= much_softer * n.softest) {

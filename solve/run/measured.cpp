@@ -212,7 +212,7 @@ std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& opt
   if (!(off.maxCoeff(&worst) > surprising * usual)) {
     return std::nullopt;
   }
-  return Outlier{thin.positions.row(worst), off[worst]};
+  return Outlier{thin.positions.row(worst), off[worst] / usual};
 }
 
 LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const OpeningOptions& opening) {

@@ -26,7 +26,7 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
 struct Outlier {
   Eigen::Vector3d
       position;       ///< undeformed: of the node that stands for a measured point, or the point's own inside, mm
-  double deviations;  ///< surprise(): how many standard deviations it is from what the others say
+  double deviations;  ///< surprise() over what is usual of this load, at least 1: from what the others say
 };
 
 /// The most surprising of the measured points, where it is more than five standard deviations off, and five times
