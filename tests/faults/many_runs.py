@@ -91,9 +91,9 @@ def main():
             rounds.append(held)
             seen.update(digests)
         more = list(grown(rounds)) if options.runs >= ENOUGH else []
-    print(f"{options.runs} runs here and as many in children: "
-          f"{'the same bytes' if len(seen) == 1 else f'{len(seen)} different results'}, "
-          f"{'grown: ' + ', '.join(more) if more else 'nothing grew' if options.runs >= ENOUGH else 'growth not judged'}")
+    same = "the same bytes" if len(seen) == 1 else f"{len(seen)} different results"
+    growth = "growth not judged" if options.runs < ENOUGH else "grown: " + ", ".join(more) if more else "nothing grew"
+    print(f"{options.runs} runs here and as many in children: {same}, {growth}")
     return 1 if more or len(seen) > 1 else 0
 
 
