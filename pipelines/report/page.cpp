@@ -139,6 +139,16 @@ json uncertainty(PageContent& content, const json& stages) {
           {"figures", figures_of(content.uncertainties)}};
 }
 
+json smooth_motion_of(const json& measures) {
+  if (!measures.contains("smooth_motion")) {
+    return false;
+  }
+  const json& smooth = measures["smooth_motion"];
+  return {{"length", readable(smooth.value("length_mm", 0.0))},
+          {"along", readable(smooth.value("along_mm", 0.0))},
+          {"across", readable(smooth.value("across_mm", 0.0))}};
+}
+
 // How a measured load was weighed: the weights that were tried, or that it has no noise to be weighed by.
 json weight_of(PageContent& content, const json& stages, const json& options) {
   const json::json_pointer place("/solve/measures");
@@ -148,6 +158,7 @@ json weight_of(PageContent& content, const json& stages, const json& options) {
             {"chosen",
              {{"weight", readable(measures.value("weight_mJ", 0.0))},
               {"factor", readable(measures.value("noise_factor", 1.0))},
+              {"smooth", smooth_motion_of(measures)},
               {"figures", figures_of(content.weights)}}}};
   }
   const bool measured = options.contains("load.craniotomy") || options.contains("load.markups");

@@ -76,6 +76,10 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
   if (m.measured) {
     report.measures["weight_mJ"] = m.measured->weight;
     report.measures["noise_factor"] = m.measured->noise_factor;
+    if (const solve::SmoothMotion& smooth = m.measured->smooth; smooth.length > 0) {
+      report.measures["smooth_motion"] = {
+          {"length_mm", smooth.length}, {"along_mm", smooth.along}, {"across_mm", smooth.across}};
+    }
     for (const solve::WeightRow& row : m.measured->weights) {
       report.measures["weights"].push_back({{"weight_mJ", row.weight},
                                             {"misfit", row.misfit},

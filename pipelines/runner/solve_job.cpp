@@ -94,7 +94,7 @@ void write_measured(const SolveInput& input, const solve::SolveResult& result, c
     return;
   }
   const solve::MeasuredFit& fit = *result.measures.measured;
-  warn(warnings_of(solve::worst_outlier(input.model, input.options, fit)), said);
+  warn(warnings_of(solve::worst_outlier(input.model, input.options)), said);
   if (input.registration) {
     solve::write_rigid(out / "registration_error.tfm", *input.registration);
     said.measures["registration_angle_deg"] = input.registration->angle();

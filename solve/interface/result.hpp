@@ -93,9 +93,20 @@ struct WeightRow {
   double log_likelihood = 0;  ///< restricted, choose_weight()
 };
 
+/// A motion of the opening that is alike at places near each other: a Gaussian with the covariance
+///   (along² e eᵀ + across² (I − e eᵀ)) exp(−|x − y|²/(2 length²)), e the direction.
+struct SmoothMotion {
+  double length = 0;             ///< mm; 0: there is none
+  double along = 0, across = 0;  ///< standard deviations, mm
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+};
+
 /// How the noise of a load was weighed.
 struct MeasuredFit {
   double weight = 0;        ///< s that was used, mJ
+  SmoothMotion smooth;      ///< what the points say of it
+  /// (m × 3) mm: with a smooth motion, the displacement of each point of the cortex as prior and noise have it.
+  Points smoothed = Points(0, 3);
   double noise_factor = 1;  ///< of the standard deviations, by which what was measured differs from what was given
   std::vector<WeightRow> weights;  ///< that were tried, ascending; none: the weight was given
   /// (6) the rigid motion in what was measured, rigid_motions() about its points, and its standard deviation, mm; not

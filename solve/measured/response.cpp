@@ -89,10 +89,13 @@ Eigen::Vector3d outward(const OrderedCloud& cloud, Eigen::Index node) {
   return away.transpose().normalized();
 }
 
+bool is_measured(const Conditions& conditions, Eigen::Index node) {
+  return conditions.measured && conditions.measured->spread.row(node).norm() > 0;
+}
+
 /// Whether what is prescribed at a node is held, not measured.
 bool is_held(const Conditions& conditions, Eigen::Index node, int axis) {
-  return conditions.is_prescribed(node, axis) &&
-         !(conditions.measured && conditions.measured->spread.row(node).norm() > 0);
+  return conditions.is_prescribed(node, axis) && !is_measured(conditions, node);
 }
 
 bool hold(const OrderedCloud& cloud, bool touches, Eigen::MatrixXd& k) {
@@ -156,6 +159,28 @@ Response linear_response(const BodyParts& parts, const ShapeRows& at_points, boo
   Eigen::MatrixXd moved = factor.solve(balanced);
   moved -= basis * (basis.transpose() * moved);
   return {observed.transpose() * moved, observed.transpose() * motions, true};
+}
+
+Carried carried_motion(const BodyParts& parts, const ShapeRows& at_points, bool touches) {
+  Carried carried;
+  for (Eigen::Index a = 0; a < parts.cloud.positions.rows(); ++a) {
+    if (is_measured(parts.cloud.conditions, a)) {
+      carried.nodes.push_back(a);
+    }
+  }
+  Eigen::MatrixXd k = stiffness_of(parts);
+  const double stiff = held_stiffness * k.diagonal().mean();
+  hold(parts.cloud, touches, k);
+  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(k.rows(), static_cast<Eigen::Index>(3 * carried.nodes.size()));
+  for (std::size_t i = 0; i < carried.nodes.size(); ++i) {
+    const Eigen::Index a = 3 * carried.nodes[i];
+    k.diagonal().segment<3>(a).array() += stiff;
+    push.block<3, 3>(a, static_cast<Eigen::Index>(3 * i)).diagonal().setConstant(stiff);
+  }
+  k.diagonal().array() += slack * k.diagonal().mean();
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(k);
+  carried.motion = loads_at(at_points, parts.cloud.size()).transpose() * factor.solve(push);
+  return carried;
 }
 
 }  // namespace brainshift::solve

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "solve/body/body_parts.hpp"
 
@@ -15,6 +16,10 @@ struct Response {
   /// the body as a whole by nothing. (3m × 0) where it is held.
   Eigen::MatrixXd rigid;
   bool free = false;  ///< nothing holds the body
+  /// (k × 3) places that a smooth motion of the opening is told at, mm; none: there is no such motion.
+  Points sites = Points(0, 3);
+  /// (3m × 3k) what becomes of it at the points.
+  Eigen::MatrixXd carry = {};
 };
 
 /// The six rigid motions at places, (3m × 6): moves along x, y, z by 1 mm, then turns about them through the centre of
@@ -26,5 +31,14 @@ Eigen::MatrixXd rigid_motions(const Points& places, const Points& about);
 /// along its normal where nothing is prescribed, as a skull around it would. Prescribed nodes that no point has a share
 /// in are held.
 Response linear_response(const BodyParts& parts, const ShapeRows& at_points, bool touches);
+
+/// How the motion of the opening is carried into the same body.
+struct Carried {
+  std::vector<Eigen::Index> nodes;  ///< whose displacement is measured
+  Eigen::MatrixXd motion;           ///< (3m × 3 nodes) at the points, of 1 mm of each component of these nodes
+};
+
+/// Where the measured nodes are held. Arguments as of linear_response().
+Carried carried_motion(const BodyParts& parts, const ShapeRows& at_points, bool touches);
 
 }  // namespace brainshift::solve

@@ -1,191 +1,260 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/measured/weight.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "solve/measured/gaussian.hpp"
+
 namespace brainshift::solve {
 
 namespace {
 
-constexpr double millijoule = 1e6;  // µN mm
-constexpr int candidates = 41;
+constexpr Eigen::Index points_that_choose = 60;
+constexpr int candidates = 41;                             // of the weight
+constexpr int amplitudes = 16;                             // of a smooth motion
+constexpr std::array lengths = {0.3, 0.45, 0.7, 1., 1.5};  // of it, over the points' distance from their middle
+constexpr double least_gain = 3;                           // in the likelihood, of its three numbers
 
-double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
-  return 2 * factor.matrixLLT().diagonal().array().log().sum();
+/// low … high, geometric.
+std::vector<double> steps_between(double low, double high, int count) {
+  std::vector<double> steps;
+  for (int i = 0; i < count; ++i) {
+    steps.push_back(low * std::pow(high / low, static_cast<double>(i) / (count - 1)));
+  }
+  return steps;
 }
 
-/// The points as Gaussians under one weight.
-class Gaussian {
+/// What the first of the measured points say of the prior.
+class Likelihood {
  public:
-  Gaussian(const Response& response, const Eigen::VectorXd& d, const Eigen::VectorXd& variance, double weight)
-      : response_(response), variance_(variance), weight_(weight) {
-    const Eigen::Index m = d.size();
-    Eigen::MatrixXd covariance = weight * response.compliance.topLeftCorner(m, m);
-    covariance.diagonal() += variance;
-    factor_.compute(covariance);
-    const Eigen::MatrixXd rigid = response.rigid.topRows(m);
-    inverse_rigid_ = factor_.solve(rigid);
-    normal_.compute(rigid.transpose() * inverse_rigid_);
-    motion = rigid.cols() > 0 ? normal_.solve(inverse_rigid_.transpose() * d).eval() : Eigen::VectorXd();
-    push = factor_.solve(d - rigid * motion);
-    squares = d.dot(push);
+  Likelihood(const Response& response, const Points& displacement, const Points& sigma)
+      : response_(response),
+        size_(3 * std::min(displacement.rows(), points_that_choose)),
+        displacement_(displacement.topRows(size_ / 3)),
+        d_(stacked_rows(displacement_)),
+        variance_(stacked_rows(sigma.topRows(size_ / 3)).cwiseAbs2()),
+        rigid_(response.rigid.topRows(size_)) {
+    const double answer = answers().diagonal().mean();
+    const double least = 0.1 * sigma.mean(), most = std::max(10 * displacement.cwiseAbs().maxCoeff(), 2 * least);
+    weights_ = steps_between(least * least / answer / millijoule, most * most / answer / millijoule, candidates);
+    amplitudes_ = steps_between(least, most, amplitudes);
+    amplitudes_.insert(amplitudes_.begin(), 0);
   }
 
-  WeightRow row() const {
-    const Eigen::Index m = push.size();
-    const double log_rigid = motion.size() > 0 ? log_determinant(normal_) : 0;
-    const auto answer = response_.compliance.topLeftCorner(m, m);
-    return {.weight = weight_ / millijoule,
-            .misfit = push.cwiseAbs2().dot(variance_),
-            .energy = weight_ * weight_ * push.dot(answer * push) / 2 / millijoule,
-            .log_likelihood = -(squares + log_determinant(factor_) + log_rigid) / 2};
-  }
-
-  Eigen::VectorXd motion_deviation() const {
-    const Eigen::Index n = motion.size();
-    return n > 0 ? normal_.solve(Eigen::MatrixXd::Identity(n, n)).diagonal().cwiseSqrt().eval() : Eigen::VectorXd();
-  }
-
-  /// Of `size` components of displacements behind the measured ones, from `first` on, in the frame of the image: of a
-  /// body that is held the rigid motion is the patient's, not the brain's.
-  Eigen::MatrixXd covariance(Eigen::Index first, Eigen::Index size, bool motion_is_of_body) const {
-    const Eigen::Index m = push.size();
-    const Eigen::MatrixXd cross = weight_ * response_.compliance.block(first, 0, size, m);
-    Eigen::MatrixXd result =
-        weight_ * response_.compliance.block(first, first, size, size) - cross * factor_.solve(cross.transpose());
-    if (motion.size() > 0) {
-      Eigen::MatrixXd left = -cross * inverse_rigid_;
-      if (motion_is_of_body) {
-        left += response_.rigid.middleRows(first, size);
-      }
-      result += left * normal_.solve(left.transpose());
+  /// The likeliest prior of a weight and, where there are sites, a smooth motion.
+  MeasuredFit best() const {
+    MeasuredFit plain;
+    double likeliest = -std::numeric_limits<double>::infinity();
+    int chosen = 0;
+    for (int i = 0; i < candidates; ++i) {
+      const double likely = gaussian({weights_[static_cast<std::size_t>(i)], 0, 0}, {}).log_likelihood;
+      chosen = likely > likeliest ? i : chosen;
+      likeliest = std::max(likeliest, likely);
     }
-    return result;
+    plain.weight = weights_[static_cast<std::size_t>(chosen)];
+    return response_.sites.rows() > 0 ? with_motion(plain, likeliest, chosen) : plain;
   }
 
-  /// Of each measured point the residual of leaving it out, P_ii⁻¹ (P d)_i, whose covariance is P_ii⁻¹; less what its
-  /// variance was raised by.
-  Eigen::VectorXd surprise(const Eigen::VectorXd& raised) const {
-    const Eigen::Index m = push.size();
-    Eigen::MatrixXd p = factor_.solve(Eigen::MatrixXd::Identity(m, m));
-    if (motion.size() > 0) {
-      p -= inverse_rigid_ * normal_.solve(inverse_rigid_.transpose());
+  /// Each weight, that of the fit among them, beside its smooth motion.
+  std::vector<WeightRow> rows(const MeasuredFit& fit) const {
+    const SmoothMotion& smooth = fit.smooth;
+    std::vector<double> weights = weights_;
+    weights.push_back(fit.weight);
+    std::sort(weights.begin(), weights.end());
+    weights.erase(std::unique(weights.begin(), weights.end()), weights.end());
+    std::vector<WeightRow> rows;
+    const Shapes shapes = smooth.length > 0 ? shapes_of(smooth.length, smooth.direction) : Shapes{};
+    for (const double weight : weights) {
+      const MeasuredGaussian g = gaussian({weight, smooth.along, smooth.across}, shapes);
+      const double s = millijoule * weight;
+      rows.push_back({.weight = weight,
+                      .misfit = g.push.cwiseAbs2().dot(variance_),
+                      .energy = s * s * g.push.dot(answers() * g.push) / 2 / millijoule,
+                      .log_likelihood = g.log_likelihood});
     }
-    Eigen::VectorXd result(m / 3);
-    for (Eigen::Index i = 0; i < m / 3; ++i) {
-      Eigen::Matrix3d covariance = p.block<3, 3>(3 * i, 3 * i).inverse();
-      const Eigen::Vector3d left_out = covariance * push.segment<3>(3 * i);
-      covariance.diagonal() -= raised.segment<3>(3 * i);
-      result[i] = std::sqrt(std::max(0.0, left_out.dot(covariance.ldlt().solve(left_out))));
-    }
-    return result;
+    return rows;
   }
-
-  Eigen::VectorXd motion;  ///< mm
-  Eigen::VectorXd push;    ///< P d, 1/mm
-  double squares = 0;      ///< dᵀ P d
 
  private:
+  /// Of a smooth motion of 1 mm along its direction and across: covariances at the points.
+  struct Shapes {
+    Eigen::MatrixXd along, across;
+  };
+  struct Sizes {
+    double weight, along, across;
+  };
+  using Place = std::array<int, 3>;  // among weights_, amplitudes_, amplitudes_
+
+  Eigen::Block<const Eigen::MatrixXd> answers() const { return response_.compliance.topLeftCorner(size_, size_); }
+
+  Shapes shapes_of(double length, const Eigen::Vector3d& direction) const {
+    const Eigen::Matrix3d along = direction * direction.transpose();
+    const auto carry = response_.carry.topRows(size_);
+    const auto carried = [&](const Eigen::Matrix3d& sizes) -> Eigen::MatrixXd {
+      return carry * smooth_covariance(response_.sites, length, sizes) * carry.transpose();
+    };
+    return {carried(along), carried(Eigen::Matrix3d::Identity() - along)};
+  }
+
+  MeasuredGaussian gaussian(const Sizes& sizes, const Shapes& shapes) const {
+    Eigen::MatrixXd prior = millijoule * sizes.weight * answers();
+    if (shapes.along.size() > 0) {
+      prior += sizes.along * sizes.along * shapes.along + sizes.across * sizes.across * shapes.across;
+    }
+    return {std::move(prior), rigid_, d_, variance_};
+  }
+
+  Sizes at(const Place& place) const {
+    return {weights_[static_cast<std::size_t>(place[0])], amplitudes_[static_cast<std::size_t>(place[1])],
+            amplitudes_[static_cast<std::size_t>(place[2])]};
+  }
+
+  MeasuredFit with_motion(MeasuredFit fit, double plain, int chosen) const {
+    double likeliest = plain + least_gain;
+    const Points away = response_.sites.rowwise() - response_.sites.colwise().mean();
+    const double extent = std::sqrt(away.squaredNorm() / static_cast<double>(away.rows()));
+    const Eigen::JacobiSVD<Eigen::MatrixXd> main(displacement_, Eigen::ComputeFullV);
+    const Eigen::Vector3d direction = main.matrixV().col(0);
+    for (const double share : lengths) {
+      if (!(extent > 0)) {
+        break;
+      }
+      const Shapes shapes = shapes_of(share * extent, direction);
+      for (Place place : {Place{chosen, 1, 0}, Place{0, 2 * amplitudes / 3, 0}}) {
+        const double likely = climb(shapes, place);
+        if (likely > likeliest) {
+          likeliest = likely;
+          const Sizes sizes = mean_sizes(shapes, place);
+          fit.weight = sizes.weight;
+          fit.smooth = {share * extent, sizes.along, sizes.across, direction};
+        }
+      }
+    }
+    return fit;
+  }
+
+  /// The means of the variances, each over its values beside the likeliest of the others: the likeliest of a small one
+  /// is 0, which would say that it is known.
+  Sizes mean_sizes(const Shapes& shapes, const Place& likeliest) const {
+    const auto mean = [&](std::size_t axis, auto&& variance) {
+      double most = -std::numeric_limits<double>::infinity(), sum = 0, total = 0;
+      std::vector<std::pair<double, double>> found;
+      for (Place place = likeliest; is_inside(place[axis] = static_cast<int>(found.size()), axis);) {
+        const Sizes sizes = at(place);
+        found.emplace_back(variance(sizes), gaussian(sizes, shapes).log_likelihood);
+        most = std::max(most, found.back().second);
+      }
+      for (const auto& [value, likely] : found) {
+        sum += value * std::exp(likely - most);
+        total += std::exp(likely - most);
+      }
+      return sum / total;
+    };
+    return {mean(0, [](const Sizes& s) { return s.weight; }),
+            std::sqrt(mean(1, [](const Sizes& s) { return s.along * s.along; })),
+            std::sqrt(mean(2, [](const Sizes& s) { return s.across * s.across; }))};
+  }
+
+  /// Goes to where no neighbour along an axis is likelier.
+  double climb(const Shapes& shapes, Place& place) const {
+    double likeliest = gaussian(at(place), shapes).log_likelihood;
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const int step : {-1, 1}) {
+          for (;;) {
+            Place next = place;
+            next[axis] += step;
+            if (!is_inside(next[axis], axis)) {
+              break;
+            }
+            const double likely = gaussian(at(next), shapes).log_likelihood;
+            if (!(likely > likeliest)) {
+              break;
+            }
+            place = next;
+            likeliest = likely;
+            moved = true;
+          }
+        }
+      }
+    }
+    return likeliest;
+  }
+
+  bool is_inside(int index, std::size_t axis) const {
+    return index >= 0 && index < static_cast<int>(axis == 0 ? weights_.size() : amplitudes_.size());
+  }
+
   const Response& response_;
-  const Eigen::VectorXd& variance_;
-  double weight_;  // s, µN mm
-  Eigen::LLT<Eigen::MatrixXd> factor_, normal_;
-  Eigen::MatrixXd inverse_rigid_;
+  Eigen::Index size_;  // components of the points that choose
+  Points displacement_;
+  Eigen::VectorXd d_, variance_;
+  Eigen::MatrixXd rigid_;
+  std::vector<double> weights_, amplitudes_;  // mJ, mm
 };
 
-double median(const Eigen::VectorXd& values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
-}
-
-double biweight(double r) {
-  constexpr double c = 5.49;  // of three components; of one it is the usual 4.685
-  const double in = 1 - std::min(1.0, r * r / (c * c));
-  return in * in;
+/// Of displacements behind the measured ones, in the frame of the image: of a body that is held the rigid motion is the
+/// patient's, not the brain's.
+Eigen::MatrixXd covariance_behind(const Response& response, const Prior& prior, const MeasuredGaussian& measured,
+                                  Eigen::Index first, Eigen::Index size) {
+  const Eigen::Index m = measured.push.size();
+  Eigen::MatrixXd rigid = response.rigid.middleRows(first, size);
+  if (!response.free) {
+    rigid.setZero();
+  }
+  return measured.covariance(prior.between(first, size, first, size), prior.between(first, size, 0, m), rigid);
 }
 
 }  // namespace
 
 MeasuredFit choose_weight(const Response& response, const Points& displacement, const Points& sigma, double weight) {
-  const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(displacement.data(), displacement.size());
-  const Eigen::VectorXd variance = Eigen::Map<const Eigen::VectorXd>(sigma.data(), sigma.size()).cwiseAbs2();
+  const Eigen::VectorXd d = stacked_rows(displacement), variance = stacked_rows(sigma).cwiseAbs2();
   const Eigen::Index m = d.size();
   const double freedom = static_cast<double>(m - response.rigid.cols());
   if (freedom <= 0) {
     throw std::invalid_argument("load: " + std::to_string(displacement.rows()) +
                                 " measured points do not tell a motion of the whole from noise; measure three or more");
   }
-  const double answer = response.compliance.diagonal().head(m).mean();
-  const double least = 0.1 * sigma.mean(), most = std::max(10 * displacement.cwiseAbs().maxCoeff(), 2 * least);
-  const double low = least * least / answer, high = most * most / answer;
   MeasuredFit fit;
-  double best = -std::numeric_limits<double>::infinity();
   fit.weight = weight;
-  for (int i = 0; i < candidates && weight == 0; ++i) {
-    const double s = low * std::pow(high / low, static_cast<double>(i) / (candidates - 1));
-    fit.weights.push_back(Gaussian(response, d, variance, s).row());
-    if (fit.weights.back().log_likelihood > best) {
-      best = fit.weights.back().log_likelihood;
-      fit.weight = fit.weights.back().weight;
-    }
+  if (weight == 0) {
+    const Likelihood likelihood(response, displacement, sigma);
+    fit = likelihood.best();
+    fit.weights = likelihood.rows(fit);
   }
-  const Gaussian chosen(response, d, variance, millijoule * fit.weight);
+  const Prior prior(response, fit.weight, fit.smooth);
+  const MeasuredGaussian chosen(prior.between(0, m, 0, m), response.rigid.topRows(m), d, variance);
   constexpr double given = 3;  // what was given of the noise counts as much as one measured point
   const double factor = (given + chosen.squares) / (given + freedom);
   fit.noise_factor = std::sqrt(factor);
   fit.motion = chosen.motion;
   fit.motion_deviation = fit.noise_factor * chosen.motion_deviation();
+  if (fit.smooth.length > 0) {
+    const Eigen::VectorXd smoothed = d - variance.cwiseProduct(chosen.push);
+    fit.smoothed = Eigen::Map<const Points>(smoothed.data(), displacement.rows(), 3);
+  }
   const Eigen::Index asked = (response.compliance.rows() - m) / 3;
   fit.covariance.resize(asked, 6);
   for (Eigen::Index a = 0; a < asked; ++a) {
-    fit.covariance.row(a) = six_entries(factor * chosen.covariance(m + 3 * a, 3, response.free));
+    fit.covariance.row(a) = six_entries(factor * covariance_behind(response, prior, chosen, m + 3 * a, 3));
   }
   return fit;
 }
 
-Eigen::VectorXd surprise(const Response& response, const Points& displacement, const Points& sigma, double weight) {
-  const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(displacement.data(), displacement.size());
-  const Eigen::VectorXd variance = Eigen::Map<const Eigen::VectorXd>(sigma.data(), sigma.size()).cwiseAbs2();
-  return Gaussian(response, d, variance, millijoule * weight).surprise(Eigen::VectorXd::Zero(d.size()));
-}
-
-Eigen::VectorXd robust_weights(const Response& response, const Points& displacement, const Points& sigma,
-                               double weight) {
-  constexpr int most_rounds = 50;
-  constexpr double settled = 0.01;
-  const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(displacement.data(), displacement.size());
-  const Eigen::VectorXd own = Eigen::Map<const Eigen::VectorXd>(sigma.data(), sigma.size()).cwiseAbs2();
-  Eigen::VectorXd left = Eigen::VectorXd::Ones(displacement.rows());
-  for (int round = 0; round < most_rounds; ++round) {
-    const Points raised = sigma.array().colwise() / left.array().sqrt();
-    const Eigen::VectorXd variance = Eigen::Map<const Eigen::VectorXd>(raised.data(), raised.size()).cwiseAbs2();
-    const double s = choose_weight(response, displacement, raised, weight).weight;
-    const Eigen::VectorXd off = Gaussian(response, d, variance, millijoule * s).surprise(variance - own);
-    const double usual = std::max(1.0, median(off) / usual_surprise);
-    const Eigen::VectorXd next = off.unaryExpr([&](double r) { return std::max(least_trust, biweight(r / usual)); });
-    const double moved = (next - left).cwiseAbs().maxCoeff();
-    left = next;
-    if (moved < settled) {
-      break;
-    }
-  }
-  return left;
-}
-
 Eigen::MatrixXd posterior_covariance(const Response& response, const Points& sigma, const MeasuredFit& fit) {
   const Eigen::Index m = sigma.size(), rest = response.compliance.rows() - m;
-  const Eigen::VectorXd variance = Eigen::Map<const Eigen::VectorXd>(sigma.data(), m).cwiseAbs2();
-  const Gaussian posterior(response, Eigen::VectorXd::Zero(m), variance, millijoule * fit.weight);
-  return fit.noise_factor * fit.noise_factor * posterior.covariance(m, rest, response.free);
+  const Prior prior(response, fit.weight, fit.smooth);
+  const MeasuredGaussian measured(prior.between(0, m, 0, m), response.rigid.topRows(m), Eigen::VectorXd::Zero(m),
+                                  stacked_rows(sigma).cwiseAbs2());
+  return fit.noise_factor * fit.noise_factor * covariance_behind(response, prior, measured, m, rest);
 }
 
 Eigen::Matrix<double, 1, 6> six_entries(const Eigen::Matrix3d& c) {

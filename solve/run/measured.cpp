@@ -13,6 +13,7 @@
 #include "solve/load/noisy_load.hpp"
 #include "solve/load/spread_out.hpp"
 #include "solve/measured/inner_rows.hpp"
+#include "solve/measured/surprise.hpp"
 #include "solve/measured/weight.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/pressure_patches.hpp"
@@ -26,7 +27,6 @@ namespace brainshift::solve {
 namespace {
 
 constexpr std::size_t most_nodes = 500;  // of the cloud on which the weight is chosen
-constexpr Eigen::Index most_points = 60;
 constexpr double nodes_a_patch = 8;
 
 void check_parts(const Model& model, const SolveOptions& options) {
@@ -47,39 +47,21 @@ void check_parts(const Model& model, const SolveOptions& options) {
   }
 }
 
-/// What is measured, at places of the body: nodes under the opening that are nearest to having one point's value, and
-/// the inner points.
-struct Seen {
-  Points positions, displacement, sigma;
-};
-
 Points stacked(const Points& above, const Points& below) {
   Points both(above.rows() + below.rows(), 3);
   both << above, below;
   return both;
 }
 
-/// Of each point of the cortex the node that it has the largest share in, none of one without a share, as where the
-/// nodes are fewer; the point itself where some count for less, as one that is wrong has shares in the nodes at its
-/// neighbours, too.
-Seen seen_points(const Model& model, bool themselves) {
-  const Measurement& m = *model.conditions.measured;
-  if (themselves) {
-    return {stacked(m.cortex, m.inner), stacked(m.cortex_displacement, m.inner_displacement),
-            stacked(m.sigma, m.inner_sigma)};
-  }
-  std::vector<Eigen::Index> points, nodes;
-  for (Eigen::Index p = 0; p < m.sigma.rows(); ++p) {
-    Eigen::Index node = 0;
-    if (Eigen::VectorXd(m.spread.col(p)).maxCoeff(&node) > 0) {
-      points.push_back(p);
-      nodes.push_back(node);
-    }
-  }
-  return {stacked(model.cloud.positions(nodes, Eigen::all), m.inner),
-          stacked(model.conditions.displacement(nodes, Eigen::all), m.inner_displacement),
-          stacked(m.sigma(points, Eigen::all), m.inner_sigma)};
-}
+/// What is measured, the points of the cortex first.
+struct Seen {
+  Points positions, displacement, sigma;
+
+  explicit Seen(const Measurement& m)
+      : positions(stacked(m.cortex, m.inner)),
+        displacement(stacked(m.cortex_displacement, m.inner_displacement)),
+        sigma(stacked(m.sigma, m.inner_sigma)) {}
+};
 
 /// The model on a few hundred of its nodes.
 BodyParts few_nodes(const Model& model, ShapeOptions shape_options, std::optional<ShapeFunctions>& shape) {
@@ -140,26 +122,51 @@ Eigen::MatrixXd covariance_of(const ShapeRows& rows, const Eigen::MatrixXd& join
   return result;
 }
 
-/// What the fit is made on: the thinned body, and of what is measured as many points as are used.
+/// What the fit is made on: the thinned body, and what is measured, spread out first.
 struct Thinned {
   std::optional<ShapeFunctions> shape;
   BodyParts parts;
+  std::vector<Eigen::Index> points;  // of Seen
   Points positions, displacement, sigma;
 
-  Thinned(const Model& model, const SolveOptions& options)
-      : Thinned(model, options, seen_points(model, model.conditions.measured->trust.size() > 0)) {}
-  Thinned(const Model& model, const SolveOptions& options, const Seen& seen)
-      : parts(few_nodes(model, options.shape, shape)) {
-    const std::vector<Eigen::Index> used = spread_out(seen.positions, most_points);
-    positions = seen.positions(used, Eigen::all);
-    displacement = seen.displacement(used, Eigen::all);
-    sigma = seen.sigma(used, Eigen::all);
+  Thinned(const Model& model, const SolveOptions& options) : parts(few_nodes(model, options.shape, shape)) {
+    const Seen seen(*model.conditions.measured);
+    points = spread_out(seen.positions, seen.positions.rows());
+    positions = seen.positions(points, Eigen::all);
+    displacement = seen.displacement(points, Eigen::all);
+    sigma = seen.sigma(points, Eigen::all);
   }
 };
 
 /// Whether all of a node's displacement is prescribed and none of it measured.
 bool is_held(const Conditions& conditions, Eigen::Index node) {
   return conditions.displacement.row(node).allFinite() && conditions.measured->spread.row(node).norm() == 0;
+}
+
+/// Lets a smooth motion of the opening move its points as they were measured, and all else as the body carries it; not
+/// where the registration, which would share it, is unknown, or the weight is given.
+void add_smooth_motion(const Thinned& thin, const Model& model, const ShapeRows& rows, Response& response) {
+  const Measurement& m = *model.conditions.measured;
+  if (m.registration_unknown || m.cortex.rows() == 0 || m.weight > 0) {
+    return;
+  }
+  std::vector<Eigen::Index> on_cortex;  // rows
+  for (std::size_t i = 0; i < thin.points.size(); ++i) {
+    if (thin.points[i] < m.cortex.rows()) {
+      on_cortex.push_back(static_cast<Eigen::Index>(i));
+    }
+  }
+  const Carried carried = carried_motion(thin.parts, rows, model.skull.has_value());
+  const auto own = static_cast<Eigen::Index>(on_cortex.size());
+  response.sites =
+      stacked(thin.positions(on_cortex, Eigen::all), thin.parts.cloud.positions(carried.nodes, Eigen::all));
+  response.carry = Eigen::MatrixXd::Zero(response.compliance.rows(), 3 * response.sites.rows());
+  response.carry.rightCols(carried.motion.cols()) = carried.motion;
+  for (Eigen::Index i = 0; i < own; ++i) {
+    auto row = response.carry.middleRows<3>(3 * on_cortex[static_cast<std::size_t>(i)]);
+    row.setZero();
+    row.middleCols<3>(3 * i).setIdentity();
+  }
 }
 
 /// places: what the rows see, the measured points first.
@@ -177,11 +184,37 @@ MeasuredFit fit_measured(const Model& model, const SolveOptions& options) {
   const Thinned thin(model, options);
   const Measurement& measured = *model.conditions.measured;
   const Points places = stacked(thin.positions, measured.asked);
-  const Response response = response_of(thin, model, inner_rows(*thin.shape, places), places);
+  const ShapeRows rows = inner_rows(*thin.shape, places);
+  Response response = response_of(thin, model, rows, places);
+  add_smooth_motion(thin, model, rows, response);
   MeasuredFit fit = choose_weight(response, thin.displacement, thin.sigma, measured.weight);
   fit.motion_centre = thin.positions.colwise().mean().transpose();
   fit.motion_size = (thin.positions.rowwise() - fit.motion_centre.transpose()).rowwise().norm().mean();
+  if (fit.smooth.length > 0) {
+    Points smoothed = measured.cortex_displacement;  // of points that are there twice, as measured
+    for (std::size_t i = 0; i < thin.points.size(); ++i) {
+      if (thin.points[i] < smoothed.rows()) {
+        smoothed.row(thin.points[i]) = fit.smoothed.row(static_cast<Eigen::Index>(i));
+      }
+    }
+    fit.smoothed = std::move(smoothed);
+  }
   return fit;
+}
+
+Conditions weighed_conditions(const Model& model, const MeasuredFit& fit) {
+  Conditions conditions = model.conditions;
+  Measurement& measured = *conditions.measured;
+  measured.weight = fit.weight;
+  if (fit.smooth.length > 0) {
+    conditions.displacement += measured.spread * (fit.smoothed - measured.cortex_displacement);
+    measured.spread.resize(conditions.displacement.rows(), 0);
+    measured.sigma.resize(0, 3);
+    if (measured.inner.rows() == 0) {
+      conditions.measured.reset();
+    }
+  }
+  return conditions;
 }
 
 Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit) {
@@ -189,7 +222,8 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
   ShapeRows rows = inner_rows(*thin.shape, thin.positions);
   append_nodes(thin.parts.cloud.size(), rows);
   const Points places = stacked(thin.positions, thin.parts.cloud.positions);
-  const Response response = response_of(thin, model, rows, places);
+  Response response = response_of(thin, model, rows, places);
+  add_smooth_motion(thin, model, rows, response);
   const Eigen::MatrixXd joint = posterior_covariance(response, thin.sigma, fit);
   Eigen::MatrixXd covariance = covariance_of(inner_rows(*thin.shape, model.cloud.positions), joint);
   for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
@@ -200,11 +234,13 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
   return covariance;
 }
 
-std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options, const MeasuredFit& fit) {
+std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options) {
   constexpr double surprising = 5;  // 60 points of a Gaussian have one in a thousand runs
   const Thinned thin(model, options);
+  // Without a smooth motion: one alike over short lengths takes a wrong point for one of its own.
   const Response response = response_of(thin, model, inner_rows(*thin.shape, thin.positions), thin.positions);
-  const Eigen::VectorXd off = surprise(response, thin.displacement, thin.sigma, fit.weight);
+  const MeasuredFit fit = choose_weight(response, thin.displacement, thin.sigma, model.conditions.measured->weight);
+  const Eigen::VectorXd off = surprise(response, thin.displacement, thin.sigma, fit);
   std::vector<double> sorted(off.begin(), off.end());
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
   const double usual = std::max(1.0, sorted[sorted.size() / 2] / usual_surprise);
@@ -219,7 +255,7 @@ LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const 
   check_parts(model, options);
   std::optional<ShapeFunctions> shape;
   const BodyParts parts = few_nodes(model, options.shape, shape);
-  const Seen seen = seen_points(model, true);
+  const Seen seen(*model.conditions.measured);
   const double weight = model.conditions.measured->weight;
   const Response response = linear_response(parts, inner_rows(*shape, seen.positions), model.skull.has_value());
   const Eigen::VectorXd trust = robust_weights(response, seen.displacement, seen.sigma, weight);
@@ -248,7 +284,7 @@ SolveResult solve_measured(const Model& model, const SolveOptions& options, cons
   report(progress, 0, "weighing the deformation against the noise");
   MeasuredFit fit = fit_measured(model, options);
   Model weighed = model;
-  weighed.conditions.measured->weight = fit.weight;
+  weighed.conditions = weighed_conditions(model, fit);
   SolveResult result = solve_whole_body(weighed, options, progress);
   result.measures.measured = std::move(fit);
   return result;

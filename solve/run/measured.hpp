@@ -24,16 +24,14 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
 
 /// Where what was measured contradicts itself.
 struct Outlier {
-  Eigen::Vector3d
-      position;       ///< undeformed: of the node that stands for a measured point, or the point's own inside, mm
-  double deviations;  ///< surprise() over what is usual of this load, at least 1: from what the others say
+  Eigen::Vector3d position;  ///< undeformed, of the measured point, mm
+  double deviations;         ///< surprise() over what is usual of this load, at least 1: from what the others say
 };
 
-/// The most surprising of the measured points, where it is more than five standard deviations off, and five times
-/// farther than is usual of this load: where all are far off, σ is too small, and no point is to blame. On the cortex
-/// what is looked at has been extended over the opening: the fault lies near, and among dense points a single one may
-/// be averaged away. Throws as solve() does.
-std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
+/// The most surprising of the measured points, by the energy of the deformation alone as prior, where it is more than
+/// five standard deviations off, and five times farther than is usual of this load: where all are far off, σ is too
+/// small, and no point is to blame. Throws as solve() does.
+std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options);
 
 /// Measured points that contradict the others.
 struct LessenedPoints {
@@ -47,9 +45,13 @@ struct LessenedPoints {
 /// solve_measured() and noisy_conditions() do.
 LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const OpeningOptions& opening);
 
-/// solve() of a model whose conditions were measured with noise: the weight is chosen on a cloud of some hundred of the
-/// nodes, choose_weight(), unless the conditions name one. Throws as solve() does, and std::invalid_argument with a
-/// part that noise does not go with: motion in time, the simplified imposition, a region, cuts, tears, a resection, a
+/// The conditions of a model as a fit weighs them: with its weight and, where it has a smooth motion of the opening,
+/// what that leaves of the noise taken out and the opening held.
+Conditions weighed_conditions(const Model& model, const MeasuredFit& fit);
+
+/// solve() of a model whose conditions were measured with noise: the prior is chosen on a cloud of some hundred of the
+/// nodes, choose_weight(), unless the conditions name a weight. Throws as solve() does, and std::invalid_argument with
+/// a part that noise does not go with: motion in time, the simplified imposition, a region, cuts, tears, a resection, a
 /// plane problem.
 SolveResult solve_measured(const Model& model, const SolveOptions& options, const Progress& progress);
 

@@ -142,6 +142,9 @@ TEST(Page, ExplainsTheWeightOfALoadWithNoiseAndHintsWhereThereIsNone) {
   EXPECT_TRUE(has(page, "tried 0.5 mJ"));
   EXPECT_TRUE(has(page, "id=\"weights\""));
   EXPECT_TRUE(has(page, "the one that was taken, 0.5 mJ"));
+  EXPECT_FALSE(has(page, "taken for motion"));
+  measures["smooth_motion"] = {{"length_mm", 20}, {"along_mm", 4}, {"across_mm", 0.1}};
+  EXPECT_TRUE(has(make_page(content), "alike over 20 mm"));
 }
 
 }  // namespace brainshift::pipelines::page_test

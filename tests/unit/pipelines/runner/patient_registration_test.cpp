@@ -62,6 +62,8 @@ void impose(const CraniotomyLoad& load, Model& model) {
     model.conditions.displacement.row(nodes[i]) = load.displacement.row(point);
   }
   measured.sigma = load.sigma;
+  measured.cortex = load.positions;
+  measured.cortex_displacement = load.displacement;
   measured.inner = measured.inner_displacement = measured.inner_sigma = Points(0, 3);
 }
 

@@ -69,4 +69,21 @@ TEST(LinearResponse, OfAFreeBodyMovesItNotAsAWhole) {
   EXPECT_LT(response.compliance(8, 8), 2 * linear_response(held.parts, held.rows(), false).compliance(8, 8));
 }
 
+TEST(CarriedMotion, TakesTheBodyAlongAsAWhole) {
+  Parts box(false);
+  Measurement& measured = box.parts.cloud.conditions.measured.emplace();
+  const auto nodes = static_cast<Eigen::Index>(box.parts.cloud.size());
+  measured.spread.resize(nodes, 4);
+  for (const Eigen::Index a : {24, 30, 200, 310}) {
+    measured.spread.insert(a, measured.spread.nonZeros()) = 1;
+  }
+  const Carried carried = carried_motion(box.parts, box.rows(), false);
+  ASSERT_EQ(carried.nodes, (std::vector<Eigen::Index>{24, 30, 200, 310}));
+  const Eigen::MatrixXd opening =
+      rigid_motions(box.parts.cloud.positions(carried.nodes, Eigen::all), box.model.cloud.positions);
+  const Points places = box.parts.cloud.positions(box.at, Eigen::all);
+  const Eigen::MatrixXd expected = rigid_motions(places, box.model.cloud.positions);
+  EXPECT_LT((carried.motion * opening - expected).norm(), 0.02 * expected.norm());
+}
+
 }  // namespace brainshift::solve::response_test

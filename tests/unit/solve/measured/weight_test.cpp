@@ -8,12 +8,12 @@
 #include <random>
 #include <vector>
 
+#include "solve/measured/gaussian.hpp"
+#include "solve/measured/surprise.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift::solve::weight_test {
-
-constexpr double millijoule = 1e6;
 
 /// Points whose displacements are alike over 40 mm, each component for itself.
 Response smooth_response(const Points& places) {
@@ -43,6 +43,12 @@ Points drawn(const Response& response, double s, std::mt19937& random) {
   covariance.diagonal().array() += 1e-9 * covariance.diagonal().mean();
   const Eigen::VectorXd u = covariance.llt().matrixL() * normals(covariance.rows(), random);
   return Eigen::Map<const Points>(u.data(), u.size() / 3, 3);
+}
+
+MeasuredFit of_weight(double s) {
+  MeasuredFit fit;
+  fit.weight = s / millijoule;
+  return fit;
 }
 
 TEST(Weight, IsFoundFromDisplacementsThatWereDrawnWithIt) {
@@ -105,6 +111,80 @@ TEST(Weight, EllipsoidsHoldTheTruthAsOftenAsTheySay) {
   EXPECT_LE(inside, 0.99 * draws * asked);
 }
 
+/// Places that answer forces by themselves alone, and that a smooth motion moves as it is.
+Response rough_response(const Points& places) {
+  const Eigen::Index size = places.size();
+  return {1e-3 * Eigen::MatrixXd::Identity(size, size), Eigen::MatrixXd(size, 0), false, places,
+          Eigen::MatrixXd::Identity(size, size)};
+}
+
+/// Drawn from a smooth motion, and a little of the rough one.
+Points smoothly_drawn(const Response& response, const SmoothMotion& smooth, std::mt19937& random) {
+  Eigen::MatrixXd covariance =
+      Prior(response, 1 / millijoule, smooth).between(0, response.compliance.rows(), 0, response.compliance.rows());
+  const Eigen::VectorXd u = covariance.llt().matrixL() * normals(covariance.rows(), random);
+  return Eigen::Map<const Points>(u.data(), u.size() / 3, 3);
+}
+
+TEST(SmoothMotion, OfTheOpeningIsFoundWhereThereIsOneAndOnlyThere) {
+  std::mt19937 random(8);
+  const Points places = test::random_points(40, 100);
+  const Response response = rough_response(places);
+  const Points sigma = Points::Constant(40, 3, 0.5);
+  double length = 0, along = 0, across = 0;
+  int found = 0;
+  for (int draw = 0; draw < 10; ++draw) {
+    const Points noise = 0.5 * Eigen::Map<const Points>(normals(120, random).data(), 40, 3);
+    const SmoothMotion truth{40, 4, 0.5, Eigen::Vector3d(1, 2, -2) / 3};
+    const MeasuredFit fit = choose_weight(response, smoothly_drawn(response, truth, random) + noise, sigma);
+    length += fit.smooth.length / 10;
+    along += fit.smooth.along / 10;
+    across += fit.smooth.across / 10;
+    EXPECT_GT(std::abs(fit.smooth.direction.dot(truth.direction)), 0.97);
+    const Points rough = Eigen::Map<const Points>(normals(120, random).data(), 40, 3);
+    found += choose_weight(response, 2 * rough, sigma).smooth.length > 0 ? 1 : 0;
+  }
+  EXPECT_GT(length, 25);
+  EXPECT_LT(length, 60);
+  EXPECT_GT(along, 2.5);
+  EXPECT_LT(along, 6);
+  EXPECT_GT(across, 0.2);
+  EXPECT_LT(across, 1);
+  EXPECT_LE(found, 1) << "of ten that are rough alone";
+}
+
+TEST(SmoothMotion, TakesNoiseOutOfThePointsAndItsEllipsoidsHoldTheTruth) {
+  std::mt19937 random(9);
+  constexpr int known = 30, asked = 10, draws = 40;
+  const Points places = test::random_points(known + asked, 100);
+  const Response response = rough_response(places);
+  double noisy = 0, smoothed = 0;
+  int inside = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    const Points truth = smoothly_drawn(response, {50, 4, 0.3, Eigen::Vector3d::UnitZ()}, random);
+    const Points noise = 0.5 * Eigen::Map<const Points>(normals(3 * known, random).data(), known, 3);
+    const Points d = truth.topRows(known) + noise, sigma = Points::Constant(known, 3, 0.5);
+    const MeasuredFit fit = choose_weight(response, d, sigma);
+    ASSERT_EQ(fit.smoothed.rows(), known);
+    noisy += noise.squaredNorm();
+    smoothed += (fit.smoothed - truth.topRows(known)).squaredNorm();
+    const Prior prior(response, fit.weight, fit.smooth);
+    Eigen::MatrixXd v = prior.between(0, 3 * known, 0, 3 * known);
+    v.diagonal().array() += 0.25;
+    const Eigen::VectorXd push = v.llt().solve(stacked_rows(d));
+    for (int a = 0; a < asked; ++a) {
+      const Eigen::Vector3d mean = prior.between(3 * (known + a), 3, 0, 3 * known) * push;
+      const Eigen::VectorXd c = fit.covariance.row(a);
+      const Eigen::Matrix3d covariance{{c[0], c[3], c[5]}, {c[3], c[1], c[4]}, {c[5], c[4], c[2]}};
+      const Eigen::Vector3d error = truth.row(known + a).transpose() - mean;
+      inside += error.dot(covariance.llt().solve(error)) <= 7.815 ? 1 : 0;
+    }
+  }
+  EXPECT_LT(smoothed, 0.4 * noisy);
+  EXPECT_GE(inside, 0.90 * draws * asked);
+  EXPECT_LE(inside, 0.99 * draws * asked);
+}
+
 TEST(Weight, AJointCovarianceHoldsThoseOfThePlacesThatAreAskedFor) {
   std::mt19937 random(5);
   constexpr int known = 10, asked = 4;
@@ -133,13 +213,13 @@ TEST(Surprise, IsChiSquaredOfPointsThatAgreeAndLargeOfOneThatDoesNot) {
   for (int draw = 0; draw < draws; ++draw) {
     const Points noise = 0.5 * Eigen::Map<const Points>(normals(3 * points, random).data(), points, 3);
     const Points measured = drawn(response, 1e4, random) + noise;
-    mean += surprise(response, measured, Points::Constant(points, 3, 0.5), 1e4 / millijoule).squaredNorm() /
-            (points * draws);
+    mean +=
+        surprise(response, measured, Points::Constant(points, 3, 0.5), of_weight(1e4)).squaredNorm() / (points * draws);
   }
   EXPECT_NEAR(mean, 3, 0.15);
   Points contradicted = drawn(response, 1e4, random);
   contradicted.row(7) += Eigen::RowVector3d(0, 30, 0);
-  const Eigen::VectorXd off = surprise(response, contradicted, Points::Constant(points, 3, 0.5), 1e4 / millijoule);
+  const Eigen::VectorXd off = surprise(response, contradicted, Points::Constant(points, 3, 0.5), of_weight(1e4));
   Eigen::Index most = 0;
   EXPECT_GT(off.maxCoeff(&most), 10);
   EXPECT_EQ(most, 7);

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/measured/gaussian.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace brainshift::solve {
+
+namespace {
+
+double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& factor) {
+  return 2 * factor.matrixLLT().diagonal().array().log().sum();
+}
+
+Eigen::Matrix3d sizes_of(const SmoothMotion& smooth) {
+  const Eigen::Matrix3d along = smooth.direction * smooth.direction.transpose();
+  return smooth.along * smooth.along * along + smooth.across * smooth.across * (Eigen::Matrix3d::Identity() - along);
+}
+
+}  // namespace
+
+Eigen::MatrixXd smooth_covariance(const Points& sites, double length, const Eigen::Matrix3d& sizes) {
+  Eigen::MatrixXd covariance(3 * sites.rows(), 3 * sites.rows());
+  for (Eigen::Index i = 0; i < sites.rows(); ++i) {
+    for (Eigen::Index j = 0; j < sites.rows(); ++j) {
+      const double far = (sites.row(i) - sites.row(j)).squaredNorm();
+      covariance.block<3, 3>(3 * i, 3 * j) = std::exp(-far / (2 * length * length)) * sizes;
+    }
+  }
+  return covariance;
+}
+
+Prior::Prior(const Response& response, double weight, const SmoothMotion& smooth)
+    : response_(response), weight_(millijoule * weight) {
+  if (smooth.length > 0) {
+    smooth_ = smooth_covariance(response.sites, smooth.length, sizes_of(smooth));
+  }
+}
+
+Eigen::MatrixXd Prior::between(Eigen::Index first, Eigen::Index rows, Eigen::Index other, Eigen::Index columns) const {
+  Eigen::MatrixXd covariance = weight_ * response_.compliance.block(first, other, rows, columns);
+  if (smooth_.size() > 0) {
+    const Eigen::MatrixXd carried = response_.carry.middleRows(first, rows) * smooth_;
+    covariance += carried * response_.carry.middleRows(other, columns).transpose();
+  }
+  return covariance;
+}
+
+MeasuredGaussian::MeasuredGaussian(Eigen::MatrixXd prior, Eigen::MatrixXd rigid, const Eigen::VectorXd& d,
+                                   const Eigen::VectorXd& variance) {
+  prior.diagonal() += variance;
+  factor_.compute(prior);
+  inverse_rigid_ = factor_.solve(rigid);
+  normal_.compute(rigid.transpose() * inverse_rigid_);
+  motion = rigid.cols() > 0 ? normal_.solve(inverse_rigid_.transpose() * d).eval() : Eigen::VectorXd();
+  push = factor_.solve(d - rigid * motion);
+  squares = d.dot(push);
+  const double log_rigid = rigid.cols() > 0 ? log_determinant(normal_) : 0;
+  log_likelihood = factor_.info() == Eigen::Success ? -(squares + log_determinant(factor_) + log_rigid) / 2
+                                                    : -std::numeric_limits<double>::infinity();
+}
+
+Eigen::VectorXd MeasuredGaussian::motion_deviation() const {
+  const Eigen::Index n = motion.size();
+  return n > 0 ? normal_.solve(Eigen::MatrixXd::Identity(n, n)).diagonal().cwiseSqrt().eval() : Eigen::VectorXd();
+}
+
+Eigen::MatrixXd MeasuredGaussian::covariance(const Eigen::MatrixXd& own, const Eigen::MatrixXd& cross,
+                                             const Eigen::MatrixXd& their_rigid) const {
+  Eigen::MatrixXd result = own - cross * factor_.solve(cross.transpose());
+  if (motion.size() > 0) {
+    const Eigen::MatrixXd left = their_rigid - cross * inverse_rigid_;
+    result += left * normal_.solve(left.transpose());
+  }
+  return result;
+}
+
+Eigen::MatrixXd MeasuredGaussian::precision() const {
+  const Eigen::Index m = push.size();
+  Eigen::MatrixXd p = factor_.solve(Eigen::MatrixXd::Identity(m, m));
+  if (motion.size() > 0) {
+    p -= inverse_rigid_ * normal_.solve(inverse_rigid_.transpose());
+  }
+  return p;
+}
+
+}  // namespace brainshift::solve

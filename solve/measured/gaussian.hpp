@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "solve/interface/result.hpp"
+#include "solve/measured/response.hpp"
+
+namespace brainshift::solve {
+
+inline constexpr double millijoule = 1e6;  // µN mm
+
+/// (m · 3) of (m × 3), x, y and z of the first point first.
+inline Eigen::VectorXd stacked_rows(const Points& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
+}
+
+/// K ⊗ sizes, (3k × 3k) mm²: the covariance of a smooth motion with these (3 × 3) variances at the sites (k × 3), mm.
+Eigen::MatrixXd smooth_covariance(const Points& sites, double length, const Eigen::Matrix3d& sizes);
+
+/// What is believed of displacements before they are measured, at the points of a response: s G of the deformation's
+/// energy, weight in mJ, and the smooth motion of the opening, as the body carries it.
+class Prior {
+ public:
+  Prior(const Response& response, double weight, const SmoothMotion& smooth);
+
+  /// Covariance, mm², of `rows` components from `first` on with `columns` from `other` on.
+  Eigen::MatrixXd between(Eigen::Index first, Eigen::Index rows, Eigen::Index other, Eigen::Index columns) const;
+
+ private:
+  const Response& response_;
+  double weight_;           // µN mm
+  Eigen::MatrixXd smooth_;  // at the sites; empty: none
+};
+
+/// What was measured, d, as a Gaussian with the covariance V = prior + diag(variance) about a rigid motion that is not
+/// known: P = V⁻¹ − V⁻¹ X (Xᵀ V⁻¹ X)⁻¹ Xᵀ V⁻¹.
+class MeasuredGaussian {
+ public:
+  /// prior: (m × m) mm²; rigid: X, (m × 6) or without columns; d: (m) mm; variance: (m) mm².
+  MeasuredGaussian(Eigen::MatrixXd prior, Eigen::MatrixXd rigid, const Eigen::VectorXd& d,
+                   const Eigen::VectorXd& variance);
+
+  Eigen::VectorXd motion;     ///< the rigid motion, mm
+  Eigen::VectorXd push;       ///< P d, 1/mm
+  double squares = 0;         ///< dᵀ P d
+  double log_likelihood = 0;  ///< restricted: −½ (dᵀ P d + log|V| + log|Xᵀ V⁻¹ X|); −∞ where V is singular
+
+  Eigen::VectorXd motion_deviation() const;
+
+  /// Covariance, mm², of displacements that are not measured: own is their prior, cross that with the measured ones,
+  /// their_rigid the rigid motion as it counts there.
+  Eigen::MatrixXd covariance(const Eigen::MatrixXd& own, const Eigen::MatrixXd& cross,
+                             const Eigen::MatrixXd& their_rigid) const;
+
+  /// P.
+  Eigen::MatrixXd precision() const;
+
+ private:
+  Eigen::LLT<Eigen::MatrixXd> factor_, normal_;
+  Eigen::MatrixXd inverse_rigid_;
+};
+
+}  // namespace brainshift::solve

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/measured/surprise.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "solve/measured/gaussian.hpp"
+#include "solve/measured/weight.hpp"
+
+namespace brainshift::solve {
+
+namespace {
+
+double median(const Eigen::VectorXd& values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+double biweight(double r) {
+  constexpr double c = 5.49;  // of three components; of one it is the usual 4.685
+  const double in = 1 - std::min(1.0, r * r / (c * c));
+  return in * in;
+}
+
+/// Of each point the residual of leaving it out, P_ii⁻¹ (P d)_i, whose covariance is P_ii⁻¹ less what the variance was
+/// raised by.
+Eigen::VectorXd left_out(const Response& response, const Eigen::VectorXd& d, const Eigen::VectorXd& variance,
+                         const Eigen::VectorXd& raised, const MeasuredFit& fit) {
+  const Eigen::Index m = d.size();
+  const Prior prior(response, fit.weight, fit.smooth);
+  const MeasuredGaussian measured(prior.between(0, m, 0, m), response.rigid.topRows(m), d, variance);
+  const Eigen::MatrixXd p = measured.precision();
+  Eigen::VectorXd result(m / 3);
+  for (Eigen::Index i = 0; i < m / 3; ++i) {
+    Eigen::Matrix3d covariance = p.block<3, 3>(3 * i, 3 * i).inverse();
+    const Eigen::Vector3d off = covariance * measured.push.segment<3>(3 * i);
+    covariance.diagonal() -= raised.segment<3>(3 * i);
+    result[i] = std::sqrt(std::max(0.0, off.dot(covariance.ldlt().solve(off))));
+  }
+  return result;
+}
+
+}  // namespace
+
+Eigen::VectorXd surprise(const Response& response, const Points& displacement, const Points& sigma,
+                         const MeasuredFit& fit) {
+  const Eigen::VectorXd variance = stacked_rows(sigma).cwiseAbs2();
+  return left_out(response, stacked_rows(displacement), variance, Eigen::VectorXd::Zero(variance.size()), fit);
+}
+
+Eigen::VectorXd robust_weights(const Response& response, const Points& displacement, const Points& sigma,
+                               double weight) {
+  constexpr int most_rounds = 50;
+  constexpr double settled = 0.01;
+  const Eigen::VectorXd d = stacked_rows(displacement), own = stacked_rows(sigma).cwiseAbs2();
+  Eigen::VectorXd left = Eigen::VectorXd::Ones(displacement.rows());
+  for (int round = 0; round < most_rounds; ++round) {
+    const Points raised = sigma.array().colwise() / left.array().sqrt();
+    const Eigen::VectorXd variance = stacked_rows(raised).cwiseAbs2();
+    const MeasuredFit fit = choose_weight(response, displacement, raised, weight);
+    const Eigen::VectorXd off = left_out(response, d, variance, variance - own, fit);
+    const double usual = std::max(1.0, median(off) / usual_surprise);
+    const Eigen::VectorXd next = off.unaryExpr([&](double r) { return std::max(least_trust, biweight(r / usual)); });
+    const double moved = (next - left).cwiseAbs().maxCoeff();
+    left = next;
+    if (moved < settled) {
+      break;
+    }
+  }
+  return left;
+}
+
+}  // namespace brainshift::solve

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far off a load with noise leaves the brain, beside the same points imposed exactly; called by noise.sh.
+
+The truth is the head's solution with all measured points and no noise. Of these points some are given, spread evenly
+or by chance, with noise that is drawn.
+"""
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+
+from patients import numbers, rows_of, write_load
+from phantoms import places_in, write_landmarks
+from predictors import spread_out
+
+DRAWS, NODES = 10, 2500
+CELLS = [(points, noise) for points in (10, 20, 40) for noise in (0.3, 0.5, 1.0)]
+DEMO_CELLS = [(20, 0.5)]
+XYZ = ("x", "y", "z", "ux", "uy", "uz")
+
+
+class Head:
+    """A scene whose load is replaced, and what its whole load without noise moves."""
+
+    def __init__(self, program, folder, scene, load, measured):
+        self.program, self.folder, self.scene, self.load = program, folder, scene, load
+        self.measured = measured
+        self.truth = self.moved(measured, None)
+
+    def moved(self, given, noise):
+        """Displacement at the landmarks, mm."""
+        write_load(self.folder / "given.csv", given[:, :3], given[:, 3:])
+        load = "<load>" if noise is None else f'<load noise="{noise}">'
+        text = self.scene.replace(self.load, f'{load}<craniotomy file="given.csv"/></load>')
+        (self.folder / "given.xml").write_text(text)
+        return solved(self.program, self.folder / "given.xml", self.folder / "run")
+
+    def error(self, given, noise):
+        """Of 95 % of the brain, mm."""
+        return np.quantile(np.linalg.norm(self.moved(given, noise) - self.truth, axis=1), 0.95)
+
+
+def solved(program, scene, out):
+    subprocess.run([program, "run", "-q", str(scene), "--out", str(out), "--until", "register"], check=True,
+                   stderr=subprocess.DEVNULL)
+    return numbers(rows_of(out / "register" / "landmarks.csv"), ("ux", "uy", "uz"))
+
+
+def between(text, first, last):
+    begin = text.index(first)
+    return text[begin:text.index(last, begin) + len(last)]
+
+
+def phantom(program, folder, random):
+    subprocess.run([program, "phantom", "--out", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    scene = (folder / "scene.xml").read_text().replace('nodes="12000"', f'nodes="{NODES}"')
+    scene = scene.replace("landmarks.mrk.json", "landmarks.fcsv")
+    write_landmarks(folder / "landmarks.fcsv", places_in(folder / "labels.nii.gz", random))
+    measured = numbers(rows_of(folder / "craniotomy.csv"), XYZ)
+    return Head(program, folder, scene, between(scene, "<load>", "</load>"), measured)
+
+
+def demo(program, folder, random, scene_file):
+    folder.mkdir(exist_ok=True)
+    scene = scene_file.read_text()
+    (folder / "demo.xml").write_text(scene)
+    subprocess.run([program, "run", "-q", str(folder / "demo.xml"), "--out", str(folder / "whole"), "--until", "solve"],
+                   check=True, stderr=subprocess.DEVNULL)
+    write_landmarks(folder / "landmarks.fcsv", places_in(folder / "whole" / "segment" / "labels.nii.gz", random))
+    scene = scene.replace("<contact/>", '<contact/><landmarks file="landmarks.fcsv"/>')
+    measured = numbers(rows_of(folder / "whole" / "solve" / "load.csv"), XYZ)
+    return Head(program, folder, scene, between(scene, "<load>", "</load>"), measured)
+
+
+def chosen(places, points, evenly, random):
+    if not evenly:
+        return random.choice(len(places), points, replace=False)
+    first = random.integers(len(places))
+    return (np.array(spread_out(np.roll(places, -first, axis=0), points)) + first) % len(places)
+
+
+def row(head, points, noise, evenly, random):
+    """Means over the draws: exact, weighed."""
+    errors = []
+    for _ in range(DRAWS):
+        given = head.measured[chosen(head.measured[:, :3], points, evenly, random)]
+        given[:, 3:] += noise * random.standard_normal((points, 3))
+        errors.append((head.error(given, None), head.error(given, noise)))
+    return np.mean(errors, axis=0)
+
+
+def main(program, out, scene):
+    out.mkdir(parents=True, exist_ok=True)
+    random = np.random.default_rng(1)
+    lines = ["| head | points | noise, mm | imposed exactly, mm | weighed, mm | ratio |", "|" + " --- |" * 6]
+    heads = [("phantom", phantom(program, out / "phantom", random), CELLS)]
+    if scene.is_file():
+        heads.append(("demo", demo(program, out / "demo", random, scene), DEMO_CELLS))
+    for name, head, cells in heads:
+        for points, noise in cells:
+            for evenly in (True, False):
+                exact, weighed = row(head, points, noise, evenly, random)
+                how = "spread evenly" if evenly else "by chance"
+                lines.append(f"| {name} | {points}, {how} | {noise} | {exact:.3f} | {weighed:.3f} | {weighed / exact:.2f} |")
+                print(lines[-1], flush=True)
+    (out / "noise.md").write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]))
