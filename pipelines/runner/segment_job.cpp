@@ -17,16 +17,8 @@ namespace brainshift::pipelines {
 namespace fs = std::filesystem;
 namespace {
 
-/// A mask, which may be an image of other numbers: non-zero is inside.
 std::optional<LabelMap> mask_if(const fs::path& file) {
-  if (file.empty()) {
-    return std::nullopt;
-  }
-  const ScalarImage image = read_image(file);
-  LabelMap mask{image.geometry, std::vector<std::uint16_t>(image.voxels.size())};
-  std::transform(image.voxels.begin(), image.voxels.end(), mask.voxels.begin(),
-                 [](float value) { return static_cast<std::uint16_t>(value != 0); });
-  return mask;
+  return file.empty() ? std::nullopt : std::optional(read_mask(file));
 }
 
 /// A tumour's map as a mask: of BraTS's numbers the tumour without its oedema.

@@ -45,7 +45,7 @@ RunSize run_size(const Scene& scene) {
   const bool mask = scene.image.labels.empty();
   const auto& file = label_file(scene);
   if (!file.empty()) {
-    const LabelMap map = mask ? read_label_map(file) : read_labels(scene.image, label_reading(scene)).map;
+    const LabelMap map = mask ? read_mask(file) : read_labels(scene.image, label_reading(scene)).map;
     const auto count = std::count_if(map.voxels.begin(), map.voxels.end(),
                                      [&](std::uint16_t value) { return is_brain(scene, value, mask); });
     size.label_voxels = static_cast<double>(map.voxels.size());

@@ -6,6 +6,7 @@
 #include <itkImageSeriesReader.h>
 #include <itkVectorImage.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -250,6 +251,14 @@ LabelMap read_label_map(const fs::path& file) {
     labels.voxels[i] = as_label(file, labels.geometry.size, i, values->GetBufferPointer()[i]);
   }
   return labels;
+}
+
+LabelMap read_mask(const fs::path& file) {
+  const ScalarImage image = read_image(file);
+  LabelMap mask{image.geometry, std::vector<std::uint16_t>(image.voxels.size())};
+  std::transform(image.voxels.begin(), image.voxels.end(), mask.voxels.begin(),
+                 [](float value) { return static_cast<std::uint16_t>(value != 0); });
+  return mask;
 }
 
 std::vector<LabelMap> read_layers(const fs::path& file) {

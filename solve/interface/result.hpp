@@ -103,8 +103,8 @@ struct SmoothMotion {
 
 /// How the noise of a load was weighed.
 struct MeasuredFit {
-  double weight = 0;        ///< s that was used, mJ
-  SmoothMotion smooth;      ///< what the points say of it
+  double weight = 0;    ///< s that was used, mJ
+  SmoothMotion smooth;  ///< what the points say of it
   /// (m × 3) mm: with a smooth motion, the displacement of each point of the cortex as prior and noise have it.
   Points smoothed = Points(0, 3);
   double noise_factor = 1;  ///< of the standard deviations, by which what was measured differs from what was given

@@ -25,6 +25,21 @@ TEST_F(SceneFile, RunSizeIsThatOfTheBrainInTheImages) {
   EXPECT_GT(size.solve.pairs, 10 * size.solve.points);
 }
 
+TEST_F(SceneFile, RunSizeTakesAStrippedImageForItsOwnMask) {
+  const LabelMap labels = block_labels();
+  ScalarImage stripped{labels.geometry, std::vector<float>(labels.voxels.size())};
+  double brain = 0;
+  for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
+    stripped.voxels[i] = labels.voxels[i] == 1 ? -13.5F : 0;  // as interpolation leaves some
+    brain += labels.voxels[i] == 1 ? 1 : 0;
+  }
+  write_image(folder_ / "t1.nii.gz", stripped);
+  write_load();
+  const RunSize size = run_size(parse(R"(<scene><image t1="t1.nii.gz" brain_mask="t1.nii.gz"/>
+    <load><craniotomy file="load.csv"/></load></scene>)"));
+  EXPECT_DOUBLE_EQ(size.solve.volume, brain * labels.geometry.voxel_volume());
+}
+
 /// Voxels alone tell what the images take; how large the brain is, they do not.
 TEST_F(SceneFile, DeclaredRunSizeIsTheSameButForTheBrain) {
   write_image(folder_ / "labels.nii.gz", block_labels());
