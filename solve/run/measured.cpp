@@ -208,8 +208,7 @@ Conditions weighed_conditions(const Model& model, const MeasuredFit& fit) {
   measured.weight = fit.weight;
   if (fit.smooth.length > 0) {
     conditions.displacement += measured.spread * (fit.smoothed - measured.cortex_displacement);
-    measured.spread.resize(conditions.displacement.rows(), 0);
-    measured.sigma.resize(0, 3);
+    measured.spread.setZero();
     if (measured.inner.rows() == 0) {
       conditions.measured.reset();
     }
