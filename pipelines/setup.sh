@@ -58,3 +58,6 @@ build() {
   cmake -S "$root" -B "$folder" -G Ninja "$@"
   cmake --build "$folder" --target "$target" --parallel "$jobs"
 }
+
+# Builds this checkout's program and prints its path.
+built_program() { build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release >&2 && echo "$root/build/pipelines/brainshift"; }

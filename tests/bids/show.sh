@@ -24,9 +24,5 @@ while [ $# -gt 0 ]; do
   shift
 done
 [ $install = no ] || install_packages python3 snakemake slurm-wlm >&2
-program=${BRAINSHIFT:-}
-if [ -z "$program" ]; then
-  build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release >&2
-  program=$root/build/pipelines/brainshift
-fi
+program=${BRAINSHIFT:-$(built_program)}
 /usr/bin/python3 "$root/tests/bids/show.py" "$program" "$out" "${words[@]}"

@@ -15,11 +15,7 @@ case ${1:-} in
   --out) out=$(realpath -m "$2") ;;
   *) sed -n '/^#   bash/s/^#   /usage: /p' "$0" >&2; exit 2 ;;
 esac
-program=${BRAINSHIFT:-}
-if [ -z "$program" ]; then
-  build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release >&2
-  program=$root/build/pipelines/brainshift
-fi
+program=${BRAINSHIFT:-$(built_program)}
 mkdir -p "$out/npm"
 (cd "$out/npm" && npm pack --silent bids-validator@1.15.0 && tar -xzf bids-validator-1.15.0.tgz &&
   npm install --no-audit --no-fund --silent deno@2)

@@ -30,10 +30,6 @@ while [[ ${1:-} == --* ]]; do
   shift
 done
 [ $# -gt 0 ] || { echo "$usage" >&2; exit 2; }
-program=${BRAINSHIFT:-}
-if [ -z "$program" ]; then
-  install_packages python3 >&2
-  build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release >&2
-  program=$root/build/pipelines/brainshift
-fi
+[ -n "${BRAINSHIFT:-}" ] || install_packages python3 >&2
+program=${BRAINSHIFT:-$(built_program)}
 python3 "$root/tests/heads/heads.py" "${quick[@]}" "$program" "$out" "$@"

@@ -16,10 +16,6 @@ while [ $# -gt 0 ]; do
     *) echo "$usage" >&2; exit 2 ;;
   esac
 done
-program=${BRAINSHIFT:-}
 install_packages python3 python3-numpy >&2
-if [ -z "$program" ]; then
-  build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release >&2
-  program=$root/build/pipelines/brainshift
-fi
+program=${BRAINSHIFT:-$(built_program)}
 /usr/bin/python3 "$root/tests/patients/phantoms.py" "$program" "$out"

@@ -19,10 +19,6 @@ while [ $# -gt 0 ]; do
   esac
 done
 [ -d "$folder" ] || { echo "$usage" >&2; exit 2; }
-program=${BRAINSHIFT:-}
 install_packages python3 python3-numpy >&2
-if [ -z "$program" ]; then
-  build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release >&2
-  program=$root/build/pipelines/brainshift
-fi
+program=${BRAINSHIFT:-$(built_program)}
 /usr/bin/python3 "$root/tests/patients/patients.py" "$program" "$out" "$folder"

@@ -33,10 +33,6 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
-program=${BRAINSHIFT:-}
-if [ -z "$program" ]; then
-  install_packages python3 >&2
-  build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release >&2
-  program=$root/build/pipelines/brainshift
-fi
+[ -n "${BRAINSHIFT:-}" ] || install_packages python3 >&2
+program=${BRAINSHIFT:-$(built_program)}
 python3 -B "$root/tests/random/random_problems.py" "$program" --out "$out" "${options[@]}"

@@ -23,11 +23,7 @@ if [ ! -x "$out/root/usr/bin/pvbatch" ]; then
   (cd "$out" && apt-get download --quiet paraview python3-paraview)
   for package in "$out"/*paraview_*.deb; do dpkg-deb --extract "$package" "$out/root"; done
 fi
-program=${BRAINSHIFT:-}
-if [ -z "$program" ]; then
-  build "$root/build" brainshift -DCMAKE_BUILD_TYPE=Release >&2
-  program=$root/build/pipelines/brainshift
-fi
+program=${BRAINSHIFT:-$(built_program)}
 out=$(realpath "$out")
 # Around pvbatch alone: what else is called here finds its own libraries.
 mkdir -p "$out/bin"

@@ -131,6 +131,21 @@ TEST(MeasuredCovariance, IsThatOfTheLandmarksAtANodeInside) {
   EXPECT_LT((at_node - fit.covariance.row(0)).norm(), 1e-9 * at_node.norm());
 }
 
+TEST(WeighedConditions, HoldAnOpeningThatMovesAlikeAndAreSolvedAsTheyAre) {
+  Model model = measured_box(0.5);
+  Measurement& measured = *model.conditions.measured;
+  measured.inner = Points::Constant(1, 3, model_side / 2);
+  measured.inner_displacement = Points::Zero(1, 3);
+  measured.inner_sigma = Points::Constant(1, 3, 0.5);
+  const MeasuredFit fit = fit_measured(model, quick());
+  ASSERT_GT(fit.smooth.length, 0);
+  const SolveResult whole = solve(model, quick());
+  model.conditions = weighed_conditions(model, fit);
+  const SolveResult again = solve(model, quick());
+  ASSERT_TRUE(again.failure.empty()) << again.failure;
+  EXPECT_LT((whole.solution.displacement - again.solution.displacement).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(WorstOutlier, IsThePointThatContradictsTheOthersAndNoneWhereAllAgree) {
   Model model = measured_box(0.5);
   EXPECT_FALSE(worst_outlier(model, quick()));
