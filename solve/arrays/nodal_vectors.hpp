@@ -2,10 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <vector>
+
+#include "solve/arrays/shared_work.hpp"
 
 namespace brainshift::solve {
 
@@ -25,14 +29,15 @@ template <class Term, class Sum = double>
 Sum sum_over_nodes(std::size_t nodes, const Term& term, const Sum& zero = 0.0) {
   constexpr std::size_t chunks = 64;
   std::array<Sum, chunks> partial;
-#pragma omp parallel for schedule(static)
-  for (std::size_t c = 0; c < chunks; ++c) {
+  const auto chunks_a_part = static_cast<std::int64_t>(chunks * nodes_a_part / std::max<std::size_t>(nodes, 1)) + 1;
+  share_work(chunks, chunks_a_part, [&](std::int64_t i) {
+    const auto c = static_cast<std::size_t>(i);
     Sum sum = zero;
     for (std::size_t a = c * nodes / chunks; a < (c + 1) * nodes / chunks; ++a) {
       sum += term(a);
     }
     partial[c] = sum;
-  }
+  });
   return std::accumulate(partial.begin(), partial.end(), zero);
 }
 

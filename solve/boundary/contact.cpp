@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "solve/arrays/shared_work.hpp"
+
 namespace brainshift::solve {
 
 Contact::Contact(SignedDistance skull, const Points& positions, std::span<const std::int32_t> nodes,
@@ -21,14 +23,13 @@ Contact::Contact(std::shared_ptr<const SignedDistance> skull, const Points& posi
 void Contact::apply(NodalVectors& parameters) {
   nodes_.begin();
   const auto nodes = static_cast<std::int64_t>(allowed_.size());
-#pragma omp parallel for schedule(static)
-  for (std::int64_t a = 0; a < nodes; ++a) {
+  share_work(nodes, places_a_part, [&](std::int64_t a) {
     const auto i = static_cast<std::size_t>(a);
     const Eigen::Vector3d x = nodes_.place(i, parameters);
     const double outside = skull_->value(x) - allowed_[i];
     const bool penetrates = outside > 0;
     nodes_.set_push(i, penetrates ? -outside : 0, penetrates ? skull_->gradient(x) : Eigen::Vector3d::Zero());
-  }
+  });
   nodes_.apply(parameters);
 }
 

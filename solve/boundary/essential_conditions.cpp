@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/shape/shape_matrix.hpp"
 #include "solve/shape/too_few_nodes.hpp"
 
@@ -184,11 +185,10 @@ void EssentialConditions::Factor::solve(Eigen::VectorXd& x, Eigen::VectorXd& scr
 
 void EssentialConditions::apply(double fraction, NodalVectors& parameters) {
   fraction_ = {fraction_[1], fraction};
-#pragma omp parallel for schedule(static, 1)
-  for (int axis = 0; axis < 3; ++axis) {
+  share_work(3, 1, [&](std::int64_t axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
     if (c.prescribed.size() == 0) {
-      continue;
+      return;
     }
     if (c.multiplier_before.size() > 0) {
       std::swap(c.multiplier, c.multiplier_before);
@@ -211,7 +211,7 @@ void EssentialConditions::apply(double fraction, NodalVectors& parameters) {
         parameters[4 * node + static_cast<std::size_t>(axis)] += inverse_mass_[node] * entry.value() * c.multiplier[i];
       }
     }
-  }
+  });
 }
 
 Points EssentialConditions::reactions(double step_squared, std::size_t nodes) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/shape/shape_matrix.hpp"
 
 namespace brainshift::solve {
@@ -72,12 +73,11 @@ void FaceContact::weigh(std::span<const double> mass) {
 
 Points FaceContact::places(const NodalVectors& parameters) const {
   Points now = gaps_.undeformed();
-#pragma omp parallel for schedule(static)
-  for (Eigen::Index f = 0; f < shape_.rows(); ++f) {
+  share_work(shape_.rows(), places_a_part, [&](Eigen::Index f) {
     for (RowMatrix::InnerIterator entry(shape_, f); entry; ++entry) {
       now.row(f) += entry.value() * at(parameters, static_cast<std::size_t>(entry.col())).head<3>();
     }
-  }
+  });
   return now;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/arrays/shared_work.hpp"
 
 namespace brainshift::solve {
 
@@ -141,8 +142,7 @@ void FaceGaps::look_for_opposite() {
   looked_at_ = now_;
   opposite_.assign(static_cast<std::size_t>(now_.rows()), {});
   const PointTree tree(looked_at_);
-#pragma omp parallel for schedule(static)
-  for (Eigen::Index f = 0; f < now_.rows(); ++f) {
+  share_work(now_.rows(), places_a_part, [&](Eigen::Index f) {
     std::array<std::size_t, looked_at> index{};
     std::array<double, looked_at> squared{};
     const std::size_t found = tree.nearest(now_.row(f).data(), looked_at, index.data(), squared.data());
@@ -153,7 +153,7 @@ void FaceGaps::look_for_opposite() {
       }
     }
     std::ranges::sort(opposite_[static_cast<std::size_t>(f)]);
-  }
+  });
 }
 
 /// Calls visit(opposite, weight, direction) for the nodes within opposite_within.
@@ -198,14 +198,8 @@ void FaceGaps::move(Points now) {
   if (kind_ == Faces::of_cavity && (looked_at_.rows() == 0 || has_come_near())) {
     look_for_opposite();
   }
-#pragma omp parallel for schedule(static)
-  for (Eigen::Index f = 0; f < gap_.size(); ++f) {
-    normal_.row(f) = outward_normal(f);
-  }
-#pragma omp parallel for schedule(static)
-  for (Eigen::Index f = 0; f < gap_.size(); ++f) {
-    gap_[f] = mean_gap(f);
-  }
+  share_work(gap_.size(), places_a_part, [&](Eigen::Index f) { normal_.row(f) = outward_normal(f); });
+  share_work(gap_.size(), places_a_part, [&](Eigen::Index f) { gap_[f] = mean_gap(f); });
 }
 
 void FaceGaps::append_links(Eigen::Index face, std::vector<Link>& links) const {

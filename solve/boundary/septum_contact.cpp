@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "solve/arrays/shared_work.hpp"
+
 namespace brainshift::solve {
 
 namespace {
@@ -39,13 +41,12 @@ void SeptumContact::apply(NodalVectors& parameters) {
 
 void SeptumContact::sweep(NodalVectors& parameters) {
   const auto nodes = static_cast<std::int64_t>(nodes_.size());
-#pragma omp parallel for schedule(static)
-  for (std::int64_t a = 0; a < nodes; ++a) {
+  share_work(nodes, places_a_part, [&](std::int64_t a) {
     const auto i = static_cast<std::size_t>(a);
     const auto foot = walls_.foot(nodes_.place(i, parameters), panel_[i]);
     const bool behind = foot && foot->gap < 0;
     nodes_.set_push(i, behind ? -foot->gap : 0, behind ? foot->normal : Eigen::Vector3d::Zero());
-  }
+  });
   nodes_.apply(parameters);
 }
 

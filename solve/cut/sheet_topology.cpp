@@ -12,7 +12,7 @@
 namespace brainshift::solve {
 namespace {
 
-using Edge = std::pair<std::int32_t, std::int32_t>;  // the lower vertex first
+using VertexPair = std::pair<std::int32_t, std::int32_t>;  // the lower vertex first
 
 /// The side of a triangle from that corner to the next.
 struct Side {
@@ -20,7 +20,7 @@ struct Side {
   int corner;
 };
 
-using Edges = std::map<Edge, std::vector<Side>>;
+using Edges = std::map<VertexPair, std::vector<Side>>;
 
 std::int32_t from(const Surface& sheet, const Side& side) {
   return sheet.triangles(side.triangle, side.corner);

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/shape/nodal_displacement.hpp"
 #include "solve/shape/too_few_nodes.hpp"
 
@@ -111,11 +112,10 @@ void Motion::step(const PointLaws& laws, std::span<const double> mass, double al
   add_swelling_work(laws, fraction);
   body.external.subtract(fraction_, force);
   const auto nodes = static_cast<std::int64_t>(body.nodes());
-#pragma omp parallel for schedule(static)
-  for (std::int64_t i = 0; i < nodes; ++i) {
+  share_work(nodes, nodes_a_part, [&](std::int64_t i) {
     const auto a = static_cast<std::size_t>(i);
     at(next, a) = at(now, a) + beta * (at(now, a) - at(before, a)) - alpha / mass[a] * at(force, a);
-  }
+  });
   body.touch(next);
   body.essential.apply(fraction, next);
   if (rigid_modes) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/arrays/shared_work.hpp"
 
 namespace brainshift::solve {
 
@@ -135,11 +136,10 @@ void RigidModes::add(std::span<const double> mass, double beta, const NodalVecto
                            return mass[a] * (at(next, a) - at(now, a) - beta * (at(now, a) - at(before, a))).head<3>();
                          });
   const auto nodes = static_cast<std::int64_t>(nodes_.size());
-#pragma omp parallel for schedule(static)
-  for (std::int64_t i = 0; i < nodes; ++i) {
+  share_work(nodes, nodes_a_part, [&](std::int64_t i) {
     const auto a = static_cast<std::size_t>(i);
     at(next, a).head<3>() += motion(a, weights);
-  }
+  });
 }
 
 double RigidModes::less_inertia(std::span<const double> mass, const NodalVectors& x, const NodalVectors& y) const {

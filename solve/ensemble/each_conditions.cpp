@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solve/arrays/lanes.hpp"
+#include "solve/arrays/shared_work.hpp"
 
 namespace brainshift::solve {
 
@@ -151,12 +152,12 @@ void EachConditions::apply(double fraction, EachVectors& parameters) {
     }
   }
   constexpr std::size_t parts = members / members_at_once;
-#pragma omp parallel for schedule(static, 1)
-  for (std::size_t task = 0; task < 3 * parts; ++task) {
+  share_work(3 * parts, 1, [&](std::int64_t i) {
+    const auto task = static_cast<std::size_t>(i);
     if (component_[task / parts].factor) {
       apply_to(task / parts, task % parts * members_at_once, fraction, parameters);
     }
-  }
+  });
 }
 
 void EachConditions::let_go(std::size_t member) {

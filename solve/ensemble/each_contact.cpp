@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/ensemble/each_distance.hpp"
 
 namespace brainshift::solve {
@@ -101,17 +102,10 @@ void EachContact::apply(const Chosen& chosen, EachVectors& parameters) {
   const auto nodes = static_cast<std::int64_t>(push_.size());
   Numbers one_where_chosen;
   std::copy(chosen.begin(), chosen.end(), one_where_chosen.begin());
-#pragma omp parallel
-  {
-#pragma omp for schedule(static)
-    for (std::int64_t i = 0; i < nodes; ++i) {
-      find_push(static_cast<std::size_t>(i), one_where_chosen, parameters);
-    }
-#pragma omp for schedule(static, 1)
-    for (std::size_t first = 0; first < members; first += members_at_once) {
-      push(first, parameters);
-    }
-  }
+  share_work(nodes, places_a_part,
+             [&](std::int64_t i) { find_push(static_cast<std::size_t>(i), one_where_chosen, parameters); });
+  share_work(members / members_at_once, 1,
+             [&](std::int64_t i) { push(static_cast<std::size_t>(i) * members_at_once, parameters); });
 }
 
 }  // namespace brainshift::solve

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/force/force_scratch.hpp"
 #include "solve/force/patch_dilatation.hpp"
 
@@ -192,19 +193,13 @@ void EachForceIn<Scalar>::find(const EachVectors& parameters, EachVectors& force
   const auto nodes = static_cast<std::int64_t>(points_.nodes());
   parameters_ = parameters;
   rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()), rooms_.empty() ? room() : rooms_.front());
-#pragma omp parallel
-  {
-    EachRoom<Scalar>& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
-#pragma omp for schedule(dynamic)
-    for (std::int64_t b = 0; b < blocks; ++b) {
-      block_force(points_.blocks[static_cast<std::size_t>(b)], room);
-    }
-#pragma omp for schedule(static)
-    for (std::int64_t a = 0; a < nodes; ++a) {
-      const auto node = static_cast<std::size_t>(a);
-      sum_at_node(points_, slot_force_, node, force[node]);
-    }
-  }
+  share_work(blocks, 1, [&](std::int64_t b, int worker) {
+    block_force(points_.blocks[static_cast<std::size_t>(b)], rooms_[static_cast<std::size_t>(worker)]);
+  });
+  share_work(nodes, places_a_part, [&](std::int64_t a) {
+    const auto node = static_cast<std::size_t>(a);
+    sum_at_node(points_, slot_force_, node, force[node]);
+  });
 }
 
 template <class Scalar>

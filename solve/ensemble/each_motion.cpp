@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solve/arrays/lanes.hpp"
+#include "solve/arrays/shared_work.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
 
 namespace brainshift::solve {
@@ -129,11 +130,11 @@ void EachMotion::step(const EachNumbers& mass, const NumberOfEach<double>& beta,
   find_force();
   constexpr std::size_t chunks = 64;
   const VectorOfEach<double>* external = external_.empty() ? nullptr : external_.data();
-#pragma omp parallel for schedule(static)
-  for (std::size_t c = 0; c < chunks; ++c) {
+  share_work(chunks, 1, [&](std::int64_t i) {
+    const auto c = static_cast<std::size_t>(i);
     move_nodes(c * now.size() / chunks, (c + 1) * now.size() / chunks, now.data(), before.data(), external, fraction_,
                mass.data(), beta, force.data(), next.data());
-  }
+  });
   if (contact_) {
     contact_->apply(active, next);
   }

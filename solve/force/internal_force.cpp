@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/force/batch_stress.hpp"
 
 namespace brainshift::solve {
@@ -92,23 +93,15 @@ void force_of(const PointBlocks& points, const PointLaws& laws, const NodalVecto
   const auto blocks = static_cast<std::int64_t>(points.blocks.size());
   const auto nodes = static_cast<std::int64_t>(points.nodes());
   scratch.batches.resize(static_cast<std::size_t>(omp_get_max_threads()), scratch.batches.front());
-#pragma omp parallel
-  {
-#pragma omp for schedule(static) nowait
-    for (std::int64_t a = 0; a < nodes; ++a) {
-      at(scratch.parameters, static_cast<std::size_t>(a)) = at(parameters, static_cast<std::size_t>(a));
-    }
-    Batch& room = scratch.batches[static_cast<std::size_t>(omp_get_thread_num())];
-#pragma omp for schedule(dynamic)
-    for (std::int64_t b = 0; b < blocks; ++b) {
-      block_force<Scalar>(points, points.blocks[static_cast<std::size_t>(b)], laws, parameters, scratch, room);
-    }
-#pragma omp for schedule(static)
-    for (std::int64_t a = 0; a < nodes; ++a) {
-      const auto node = static_cast<std::size_t>(a);
-      sum_at_node(points, scratch.force.of<Scalar>(), node, force.data() + 4 * node);
-    }
-  }
+  share_work(blocks, 1, [&](std::int64_t b, int worker) {
+    block_force<Scalar>(points, points.blocks[static_cast<std::size_t>(b)], laws, parameters, scratch,
+                        scratch.batches[static_cast<std::size_t>(worker)]);
+  });
+  share_work(nodes, nodes_a_part, [&](std::int64_t a) {
+    const auto node = static_cast<std::size_t>(a);
+    at(scratch.parameters, node) = at(parameters, node);
+    sum_at_node(points, scratch.force.of<Scalar>(), node, force.data() + 4 * node);
+  });
 }
 
 template <class Scalar>

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/force/internal_force.hpp"
 #include "solve/force/patch_dilatation.hpp"
 #include "solve/interface/result.hpp"
@@ -47,15 +48,14 @@ PointState point_state(const PointBlocks& points, const PointLaws& laws, const F
   const std::vector<double> none(laws.elastic.size(), 0.0);
   std::vector<BlockState> partial(points.blocks.size(), {.volume = none, .pressed = none});
   const auto blocks = static_cast<std::int64_t>(points.blocks.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::int64_t b = 0; b < blocks; ++b) {
+  share_work(blocks, 1, [&](std::int64_t b) {
     const auto i = static_cast<std::size_t>(b);
     for (std::int32_t k = points.blocks[i].first_patch; k < points.blocks[i].last_patch; ++k) {
       const Patch& patch = points.patches[static_cast<std::size_t>(k)];
       std::visit([&](const auto& law) { add_patch(points, patch, law, scratch, partial[i]); },
                  laws.elastic[static_cast<std::size_t>(patch.material)]);
     }
-  }
+  });
   PointState state;
   std::vector<double> of_tissue = none, pressed = none;
   for (const auto& [part, part_of_tissue, part_pressed] : partial) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/force/internal_force.hpp"
 #include "solve/force/patch_dilatation.hpp"
 
@@ -109,8 +110,7 @@ std::vector<double> sum_at_nodes(const PointBlocks& points, const std::vector<do
 std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& laws, const ForceScratch& scratch) {
   std::vector<double> slot_bound(points.slots(), 0.0);
   const auto blocks = static_cast<std::int64_t>(points.blocks.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::int64_t i = 0; i < blocks; ++i) {
+  share_work(blocks, 1, [&](std::int64_t i) {
     const Block& block = points.blocks[static_cast<std::size_t>(i)];
     BlockSums sums(block, slot_bound.data());
     for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
@@ -124,7 +124,7 @@ std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& 
           },
           laws.elastic[static_cast<std::size_t>(patch.material)]);
     }
-  }
+  });
   return sum_at_nodes(points, slot_bound);
 }
 
