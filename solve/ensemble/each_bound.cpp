@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What EachForce says of the stiffness and the energy of its members, between steps.
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/ensemble/each_force.hpp"
 #include "solve/force/patch_dilatation.hpp"
 #include "solve/force/stiffness_bound.hpp"
@@ -186,22 +190,19 @@ template <class Scalar>
 EachNumbers EachForceIn<Scalar>::stiffness_bound(const Chosen& asked) const {
   EachNumbers at_slots(points_.slots(), NumberOfEach<double>{});
   const auto blocks = static_cast<std::int64_t>(points_.blocks.size());
-#pragma omp parallel
-  {
-    EachRoom<Scalar> room = this->room();
-#pragma omp for schedule(dynamic)
-    for (std::int64_t i = 0; i < blocks; ++i) {
-      const Block& block = points_.blocks[static_cast<std::size_t>(i)];
-      NumberOfEach<double>* bound = at_slots.data() + block.first_slot;
-      PatchNodes nodes(block);
-      gather(block, room);
-      for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
-        const Patch& patch = points_.patches[static_cast<std::size_t>(k)];
-        find_gradients(patch, room);
-        add_patch_bound(points_, patch, law_of(patch), asked, room, nodes, bound);
-      }
+  std::vector<EachRoom<Scalar>> rooms(static_cast<std::size_t>(omp_get_max_threads()), room());
+  share_work(blocks, 1, [&](std::int64_t i, int worker) {
+    EachRoom<Scalar>& room = rooms[static_cast<std::size_t>(worker)];
+    const Block& block = points_.blocks[static_cast<std::size_t>(i)];
+    NumberOfEach<double>* bound = at_slots.data() + block.first_slot;
+    PatchNodes nodes(block);
+    gather(block, room);
+    for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
+      const Patch& patch = points_.patches[static_cast<std::size_t>(k)];
+      find_gradients(patch, room);
+      add_patch_bound(points_, patch, law_of(patch), asked, room, nodes, bound);
     }
-  }
+  });
   EachNumbers sum(points_.nodes(), NumberOfEach<double>{});
   for (std::size_t slot = 0; slot < at_slots.size(); ++slot) {
     auto total = numbers(sum[static_cast<std::size_t>(points_.slot_node[slot])].of);
@@ -214,20 +215,17 @@ template <class Scalar>
 Numbers EachForceIn<Scalar>::strain_energy() const {
   std::vector<Numbers> of_block(points_.blocks.size(), Numbers::Zero());
   const auto blocks = static_cast<std::int64_t>(points_.blocks.size());
-#pragma omp parallel
-  {
-    EachRoom<Scalar> room = this->room();
-#pragma omp for schedule(dynamic)
-    for (std::int64_t i = 0; i < blocks; ++i) {
-      const Block& block = points_.blocks[static_cast<std::size_t>(i)];
-      gather(block, room);
-      for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
-        const Patch& patch = points_.patches[static_cast<std::size_t>(k)];
-        find_gradients(patch, room);
-        of_block[static_cast<std::size_t>(i)] += patch_energy(points_, patch, law_of(patch), room);
-      }
+  std::vector<EachRoom<Scalar>> rooms(static_cast<std::size_t>(omp_get_max_threads()), room());
+  share_work(blocks, 1, [&](std::int64_t i, int worker) {
+    EachRoom<Scalar>& room = rooms[static_cast<std::size_t>(worker)];
+    const Block& block = points_.blocks[static_cast<std::size_t>(i)];
+    gather(block, room);
+    for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
+      const Patch& patch = points_.patches[static_cast<std::size_t>(k)];
+      find_gradients(patch, room);
+      of_block[static_cast<std::size_t>(i)] += patch_energy(points_, patch, law_of(patch), room);
     }
-  }
+  });
   Numbers sum = Numbers::Zero();
   for (const Numbers& part : of_block) {
     sum += part;
