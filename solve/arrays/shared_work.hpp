@@ -13,9 +13,9 @@ using PartOfWork = void (*)(const void* body, std::int64_t first, std::int64_t l
 void share_parts(std::int64_t count, std::int64_t part_length, PartOfWork part, const void* body);
 
 /// Calls body(i) or body(i, worker) for i in [0, count) on omp_get_max_threads() threads, in parts of at most
-/// part_length (on one thread, all at once). Whichever thread is awake takes the next part: a thread that another
-/// program keeps waiting holds up nothing but the part that it has in hand. Made for the loops of a step; body may not
-/// throw.
+/// part_length; on one thread, or within a parallel region, the caller does all. Whichever thread is awake takes the
+/// next part: a thread that another program keeps waiting holds up nothing but the part that it has in hand. For the
+/// loops of a step, none of which may be OpenMP's: threads of both would take processors from each other.
 template <class Body>
 void share_work(std::int64_t count, std::int64_t part_length, const Body& body) {
   share_parts(
