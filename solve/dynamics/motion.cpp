@@ -107,7 +107,6 @@ void Motion::add_swelling_work(const PointLaws& laws, double next_fraction) {
 
 void Motion::step(const PointLaws& laws, std::span<const double> mass, double alpha, double beta, double end,
                   double fraction) {
-  threads_.begin_step();
   find_force(laws);
   add_swelling_work(laws, fraction);
   body.external.subtract(fraction_, force);
@@ -128,7 +127,6 @@ void Motion::step(const PointLaws& laws, std::span<const double> mass, double al
   beta_ = beta;
   time = end;
   ++result.steps;
-  threads_.end_step();
 }
 
 /// Work of the reactions and the forces by the trapezoidal rule. Lost is what the skull's push takes, and the damping,

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "solve/dynamics/rigid_modes.hpp"
-#include "solve/dynamics/step_threads.hpp"
 #include "solve/dynamics/stepping.hpp"
 
 namespace brainshift::solve {
@@ -109,7 +108,6 @@ class Motion {
   double squeezed_to_ = 1;       // J
   int snapshot_every_;
   int next_snapshot_;
-  StepThreads threads_;
 };
 
 }  // namespace brainshift::solve
