@@ -44,11 +44,11 @@ class GridCell {
   /// Σ weight · value(offset) over the corners.
   template <class Value>
   double interpolate(const Value& value) const {
-    double sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      sum += weight(corner) * value(offset(corner));
-    }
-    return sum;
+    const auto along_x = [&](std::size_t at) { return (1 - share_[0]) * value(at) + share_[0] * value(at + step_[0]); };
+    const auto along_y = [&](std::size_t at) {
+      return (1 - share_[1]) * along_x(at) + share_[1] * along_x(at + step_[1]);
+    };
+    return (1 - share_[2]) * along_y(base_) + share_[2] * along_y(base_ + step_[2]);
   }
 
  private:

@@ -48,6 +48,10 @@ class SignedDistance {
   /// (continuous); the zero vector where there is none.
   Eigen::Vector3d gradient(const Eigen::Vector3d& position) const;
 
+  /// Has the samples that value() and gradient() read at a position on their way to the cache. The samples about a head
+  /// are larger than it, so who asks at many places fetches some of them first.
+  void fetch(const Eigen::Vector3d& position) const;
+
   /// Where the surface is at least so far away only that is known, mm; infinite where all is sampled.
   double horizon() const { return samples_.horizon; }
 

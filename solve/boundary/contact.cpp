@@ -8,6 +8,12 @@
 
 namespace brainshift::solve {
 
+namespace {
+
+constexpr std::size_t fetched_together = 8;  // places, about as many as a processor waits for at once
+
+}  // namespace
+
 Contact::Contact(SignedDistance skull, const Points& positions, std::span<const std::int32_t> nodes,
                  const ShapeRows& rows)
     : Contact(std::make_shared<const SignedDistance>(std::move(skull)), positions, nodes, rows) {}
@@ -22,13 +28,21 @@ Contact::Contact(std::shared_ptr<const SignedDistance> skull, const Points& posi
 
 void Contact::apply(NodalVectors& parameters) {
   nodes_.begin();
-  const auto nodes = static_cast<std::int64_t>(allowed_.size());
-  share_work(nodes, places_a_part, [&](std::int64_t a) {
-    const auto i = static_cast<std::size_t>(a);
-    const Eigen::Vector3d x = nodes_.place(i, parameters);
-    const double outside = skull_->value(x) - allowed_[i];
-    const bool penetrates = outside > 0;
-    nodes_.set_push(i, penetrates ? -outside : 0, penetrates ? skull_->gradient(x) : Eigen::Vector3d::Zero());
+  const std::size_t nodes = allowed_.size(), groups = (nodes + fetched_together - 1) / fetched_together;
+  share_work(static_cast<std::int64_t>(groups), places_a_part / fetched_together, [&](std::int64_t group) {
+    const std::size_t first = static_cast<std::size_t>(group) * fetched_together;
+    const std::size_t last = std::min(first + fetched_together, nodes);
+    Eigen::Vector3d place[fetched_together];
+    for (std::size_t i = first; i < last; ++i) {
+      place[i - first] = nodes_.place(i, parameters);
+      skull_->fetch(place[i - first]);
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      const Eigen::Vector3d& x = place[i - first];
+      const double outside = skull_->value(x) - allowed_[i];
+      const bool penetrates = outside > 0;
+      nodes_.set_push(i, penetrates ? -outside : 0, penetrates ? skull_->gradient(x) : Eigen::Vector3d::Zero());
+    }
   });
   nodes_.apply(parameters);
 }

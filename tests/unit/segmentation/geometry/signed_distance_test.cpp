@@ -174,6 +174,22 @@ TEST(SignedDistance, OutsideItsGridGrowsWithTheDistanceToTheGrid) {
   EXPECT_TRUE(std::isnan(distance.value({std::numeric_limits<double>::quiet_NaN(), 0, 0})));
 }
 
+TEST(SignedDistance, HasTheGradientOfItsValuesUpToAndBeyondTheGridsBorder) {
+  const SignedDistance distance(box({-10, -6, -8}, {10, 6, 8}), {.spacing = 1.5, .margin = 5});
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-20, 20);
+  for (int n = 0; n < 5000; ++n) {
+    const Eigen::Vector3d p(uniform(random), uniform(random), uniform(random));
+    Eigen::Vector3d difference;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d half = 0.75 * Eigen::Vector3d::Unit(axis);
+      difference[axis] = distance.value(p + half) - distance.value(p - half);
+    }
+    distance.fetch(p);  // wherever it lies
+    EXPECT_LT((distance.gradient(p) - difference.normalized()).norm(), 1e-6) << p.transpose();
+  }
+}
+
 TEST(SignedDistance, DoesNotDependOnTheNumberOfThreads) {
   const Surface surface = sphere({3, 4, 5}, 20, 3);
   const int threads = omp_get_max_threads();
