@@ -3,8 +3,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <system_error>
 
 #include "pipelines/commands/printable.hpp"
 
@@ -21,9 +23,7 @@ std::string duration(double seconds) {
   return text;
 }
 
-// between two words of how far the work is
-constexpr std::chrono::milliseconds on_terminal{100};
-constexpr std::chrono::minutes in_file{1};
+constexpr std::chrono::milliseconds on_terminal{100};  // between two words of how far the work is
 
 std::string percent(double fraction) {
   return std::to_string(static_cast<int>(std::floor(100 * fraction))) + " %";
@@ -31,10 +31,51 @@ std::string percent(double fraction) {
 
 }  // namespace
 
-Console::Console(bool quiet, bool verbose) : quiet_(quiet), verbose_(verbose), terminal_(isatty(STDERR_FILENO) == 1) {}
+Console::Console(bool quiet, bool verbose, std::chrono::milliseconds every)
+    : quiet_(quiet), verbose_(verbose), terminal_(isatty(STDERR_FILENO) == 1), every_(terminal_ ? on_terminal : every) {
+  if (quiet_) {
+    return;
+  }
+  try {
+    clock_ = std::jthread([this](const std::stop_token& stop) { keep_showing(stop); });
+  } catch (const std::system_error&) {  // a run is worth more than a word of how far it is
+  }
+}
 
 Console::~Console() {
+  clock_ = {};  // ends it
   clear();
+}
+
+void Console::keep_showing(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    end_.wait_for(lock, stop, std::min(every_, std::chrono::milliseconds{1000}), [] { return false; });
+    if (work_ && Clock::now() - shown_ >= every_) {
+      show();
+    }
+  }
+}
+
+void Console::show() {
+  shown_ = Clock::now();
+  const double seconds = work_->seconds();
+  std::string text = std::string(stage_name(work_->stage)) + " " + percent(work_->fraction) +
+                     (work_->what.empty() ? "" : ", " + work_->what) + ", " + duration(seconds) + " so far";
+  if (const auto left = work_->left.at(seconds)) {
+    text += ", about " + duration(std::ceil(*left)) + " left";
+  }
+  line(text, terminal_ ? "" : "\n");
+  on_line_ = terminal_;
+}
+
+/// Over the line that is only meant to be seen for a while.
+void Console::line(const std::string& text, const char* end) {
+  if (!quiet_) {
+    clear();
+    std::fprintf(stderr, "%s%s", printable(text).c_str(), end);
+    std::fflush(stderr);
+  }
 }
 
 void Console::clear() {
@@ -44,70 +85,55 @@ void Console::clear() {
   }
 }
 
-void Console::line(const std::string& text) {
-  if (!quiet_) {
-    clear();
-    std::fprintf(stderr, "%s\n", printable(text).c_str());
-  }
-}
-
 void Console::state(std::string_view name) {
+  const std::lock_guard lock(mutex_);
   line("state " + std::string(name));
 }
 
 void Console::started(StageId stage) {
-  last_what_.clear();
+  const std::lock_guard lock(mutex_);
+  work_ = Work{.stage = stage};
+  shown_ = Clock::now();
   if (!terminal_) {
     line(std::string(stage_name(stage)) + " ...");
-    shown_ = Clock::now();
   }
 }
 
-void Console::progress(StageId stage, double fraction, double total, std::string_view what) {
-  const auto now = Clock::now();
-  if (start_fraction_ < 0) {
-    start_fraction_ = total;
-    begin_ = now;
+void Console::progress(StageId stage, double fraction, std::string_view what) {
+  const std::lock_guard lock(mutex_);
+  if (!work_) {
+    work_ = Work{.stage = stage};
+    shown_ = Clock::now();
   }
-  const bool new_what = verbose_ && what != last_what_;
-  last_what_ = what;
-  if (new_what) {
+  if (verbose_ && what != work_->what) {
     line(std::string(stage_name(stage)) + ": " + std::string(what));
   }
-  if (quiet_ || now - shown_ < (terminal_ ? on_terminal : in_file)) {
-    return;
-  }
-  shown_ = now;
-  std::string text = std::string(stage_name(stage)) + " " + percent(fraction) + ", " + std::string(what);
-  const double elapsed = std::chrono::duration<double>(now - begin_).count();
-  const double done = total - start_fraction_;
-  if (elapsed > 1 && done > 0.02) {
-    text += ", about " + duration(std::ceil(elapsed * (1 - total) / done)) + " left";
-  }
-  if (!terminal_) {
-    line(text);
-    return;
-  }
-  std::fprintf(stderr, "\r\033[K%s", text.c_str());
-  std::fflush(stderr);
-  on_line_ = true;
+  work_->fraction = fraction;
+  work_->what = what;
+  work_->left.note(fraction, work_->seconds());
+}
+
+void Console::end(StageId stage, const std::string& how) {
+  const std::lock_guard lock(mutex_);
+  work_.reset();
+  line(std::string(stage_name(stage)) + ": " + how);
 }
 
 void Console::finished(StageId stage, double seconds) {
-  line(std::string(stage_name(stage)) + ": done in " + duration(seconds));
-}
-
-void Console::kept(StageId stage, std::string_view edited) {
-  line(std::string(stage_name(stage)) + ": " +
-       (edited.empty() ? "unchanged, kept" : "kept, with " + std::string(edited) + " as edited since"));
-}
-
-void Console::note(StageId stage, std::string_view sentence) {
-  line(std::string(stage_name(stage)) + ": " + std::string(sentence));
+  end(stage, "done in " + duration(seconds));
 }
 
 void Console::failed(StageId stage) {
-  line(std::string(stage_name(stage)) + ": did not converge");
+  end(stage, "did not converge");
+}
+
+void Console::kept(StageId stage, std::string_view edited) {
+  end(stage, edited.empty() ? "unchanged, kept" : "kept, with " + std::string(edited) + " as edited since");
+}
+
+void Console::note(StageId stage, std::string_view sentence) {
+  const std::lock_guard lock(mutex_);
+  line(std::string(stage_name(stage)) + ": " + std::string(sentence));
 }
 
 }  // namespace brainshift::pipelines

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <sys/stat.h>
-
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <memory>
-#include <thread>
 
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/console.hpp"
+#include "pipelines/commands/file_watch.hpp"
 #include "pipelines/commands/printable.hpp"
 #include "pipelines/runner/live_run.hpp"
 
@@ -16,33 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds pause{5};  // between looks at the file
-constexpr std::chrono::milliseconds rest{20};  // unchanged for so long, it is whole
-
 struct LiveArguments {
   fs::path run;
   fs::path load;
   bool image = false;
 };
-
-/// What changes when a file is written.
-struct FileState {
-  bool there = false;
-  ino_t file = 0;
-  off_t size = 0;
-  time_t second = 0;
-  long nanosecond = 0;
-
-  bool operator==(const FileState&) const = default;
-};
-
-FileState state_of(const fs::path& file) {
-  struct stat status {};
-  if (stat(file.c_str(), &status) != 0) {
-    return {};
-  }
-  return {true, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
-}
 
 /// Seconds from a file's last change until now.
 double age_of(const FileState& state) {
@@ -71,27 +47,22 @@ void answer(LiveRun& run, const LiveArguments& arguments, const FileState& state
   }
 }
 
-/// Until the program is interrupted.
-[[noreturn]] void watch(const LiveArguments& arguments, const Settings& settings) {
+LiveRun prepared(const LiveArguments& arguments, const Settings& settings) {
   Console console(settings.quiet, settings.verbose);
-  LiveRun run(arguments.run, arguments.image, *settings.interruption, [&](double fraction, std::string_view what) {
-    console.progress(StageId::solve, fraction, fraction, what);
-  });
+  return {arguments.run, arguments.image, *settings.interruption,
+          [&](double fraction, std::string_view what) { console.progress(StageId::solve, fraction, what); }};
+}
+
+/// Until the program is interrupted.
+[[noreturn]] void answer_all(const LiveArguments& arguments, const Settings& settings) {
+  LiveRun run = prepared(arguments, settings);
+  FileWatch watch(arguments.load);
   if (!settings.quiet) {
     std::printf("watching %s; Ctrl-C ends it\n", printable(arguments.load.string()).c_str());
     std::fflush(stdout);
   }
-  FileState seen, answered;
-  auto since = std::chrono::steady_clock::now();
-  for (;; std::this_thread::sleep_for(pause)) {
-    const FileState now = state_of(arguments.load);
-    if (now != seen) {
-      seen = now;
-      since = std::chrono::steady_clock::now();
-    } else if (now.there && now != answered && std::chrono::steady_clock::now() - since >= rest) {
-      answer(run, arguments, now, settings.quiet);
-      answered = now;
-    }
+  for (;;) {
+    answer(run, arguments, watch.next(), settings.quiet);
   }
 }
 
@@ -108,7 +79,7 @@ void add_live_command(CLI::App& program, const Settings& settings) {
       ->required()
       ->type_name("FILE");
   command->add_flag("--image", arguments->image, "warp the T1, too, after the transforms");
-  command->callback([arguments, &settings] { watch(*arguments, settings); });
+  command->callback([arguments, &settings] { answer_all(*arguments, settings); });
 }
 
 }  // namespace brainshift::pipelines

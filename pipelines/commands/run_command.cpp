@@ -29,7 +29,7 @@ void show(Console& console, const RunEvent& event) {
     case RunEvent::Kind::started:
       return console.started(event.stage);
     case RunEvent::Kind::progress:
-      return console.progress(event.stage, event.fraction, event.total_fraction, event.what);
+      return console.progress(event.stage, event.fraction, event.what);
     case RunEvent::Kind::finished:
       return console.finished(event.stage, event.seconds);
     case RunEvent::Kind::kept:

@@ -16,9 +16,8 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
   StageFolder folder(out, *settings.interruption);
   reset_peak_memory();
   const auto begin = std::chrono::steady_clock::now();
-  const StageReport report = work(folder.path(), [&](double fraction, std::string_view what) {
-    console.progress(stage, fraction, fraction, what);
-  });
+  const StageReport report =
+      work(folder.path(), [&](double fraction, std::string_view what) { console.progress(stage, fraction, what); });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   write_stage_record(folder.path(),
                      {.stamp = "", .failure = report.failure, .entry = stage_entry(report, seconds, peak_memory_mb())});

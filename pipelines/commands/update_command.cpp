@@ -62,7 +62,7 @@ StageReport answer_or_nothing(UpdatedRun& run, const fs::path& load, const fs::p
 void update(const UpdateArguments& arguments, const Settings& settings) {
   Console console(settings.quiet, settings.verbose);
   const Progress progress = [&](double fraction, std::string_view what) {
-    console.progress(StageId::solve, fraction, fraction, what);
+    console.progress(StageId::solve, fraction, what);
   };
   const auto begin = std::chrono::steady_clock::now();
   if (arguments.load.empty()) {

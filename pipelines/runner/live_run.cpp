@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <future>
 #include <stdexcept>
 
 #include "pipelines/runner/own_folder.hpp"
@@ -85,13 +86,16 @@ LiveRun::Answer LiveRun::answer(const fs::path& file) {
     throw std::runtime_error(file.string() + ": " + result.failure);
   }
   const VectorImage forward = field_->forward(updated().parameters());
-  resampling_ = registration::resampling_field(forward, options_.inverse_tolerance).field;
   const fs::path place = live_ / name_of(number_ + 1);
   StageFolder folder(place, interruption_);
   const auto inside = [&](const char* name) { return folder.path() / (std::string(name) + ".h5"); };
   const auto plain = registration::Packing::plain;  // to deflate them takes longer than to write them
+  std::future<void> point_transform = std::async(std::launch::async, [&] {  // a disk's time beside the processors'
+    registration::write_transform(inside(registration::point_transform), registration::moving_part(forward), plain);
+  });
+  resampling_ = registration::resampling_field(forward, options_.inverse_tolerance).field;
+  point_transform.get();
   registration::write_transform(inside(registration::image_transform), registration::moving_part(resampling_), plain);
-  registration::write_transform(inside(registration::point_transform), registration::moving_part(forward), plain);
   solve::write_craniotomy_csv(folder.path() / "load.csv", load);
   folder.replace();
   ++number_;
