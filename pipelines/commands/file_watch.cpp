@@ -45,12 +45,12 @@ FileWatch::~FileWatch() {
 FileState FileWatch::next() {
   for (;; wait()) {
     const FileState now = state_of(file_);
+    closed_ = closed_ && now != returned_;  // else the event tells of what is known
     if (now != seen_) {
       seen_ = now;
       since_ = Clock::now();
     }
     if (now.there && now != returned_ && (closed_ || Clock::now() - since_ >= rest)) {
-      closed_ = false;
       returned_ = now;
       return now;
     }

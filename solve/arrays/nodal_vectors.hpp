@@ -51,6 +51,16 @@ inline double largest_difference(const NodalVectors& a, const NodalVectors& b) {
   return largest;
 }
 
+/// Largest |a_i − b_i| of a node; NaN where one is.
+inline double longest_difference(const NodalVectors& a, const NodalVectors& b) {
+  double longest = 0;
+  for (std::size_t i = 0; i < a.size() / 4; ++i) {
+    const double moved = (at(a, i) - at(b, i)).squaredNorm();
+    longest = moved <= longest ? longest : moved;  // a NaN stays
+  }
+  return std::sqrt(longest);
+}
+
 /// Largest |component|.
 inline double largest_component(const NodalVectors& v) {
   return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())).lpNorm<Eigen::Infinity>();

@@ -7,16 +7,16 @@
 
 namespace brainshift::solve {
 
-/// The bound of the error that relaxation leaves open, ρ/(1 − ρ) |û⁺ − û|∞ with ρ the slower of the measured rate a
-/// step and of the rate that the damping stands for. A passing low, as when the body swings through a turning point, is
-/// no rest: the largest of the last windows counts, for the rate and for the bound.
+/// The bound of the error that relaxation leaves open, ρ/(1 − ρ) max |û⁺ − û| of a node, with ρ the slower of the
+/// measured rate a step and of the rate that the damping stands for. A passing low, as when the body swings through a
+/// turning point, is no rest: the largest of the last windows counts, for the rate and for the bound.
 class ErrorBound {
  public:
   /// window: steps between two calls of add().
   explicit ErrorBound(int window) : window_(window) {}
 
-  /// moved: |û⁺ − û|∞ of the last step, mm; damping_rate: √β; loaded: the whole load is on; rounding: what no longer
-  /// moves than this, mm, has no rate that could be measured.
+  /// moved: the longest |û⁺ − û| of a node in the last step, mm; damping_rate: √β; loaded: the whole load is on;
+  /// rounding: what no longer moves than this, mm, has no rate that could be measured.
   void add(double moved, double damping_rate, bool loaded, double rounding = 0);
 
   /// mm; infinite until there are enough windows under the whole load.

@@ -167,7 +167,7 @@ class Relaxation {
     }
     estimate_lowest_eigenvalue();
     farthest_ = std::max(farthest_, largest_component(motion_.now));
-    bound_.add(largest_difference(motion_.now, motion_.before), std::sqrt(critical_beta(lowest_)), motion_.time >= 1,
+    bound_.add(longest_difference(motion_.now, motion_.before), std::sqrt(critical_beta(lowest_)), motion_.time >= 1,
                rounding_of_places());
     if (only_glances()) {
       return;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "solve/force/point_laws.hpp"
 #include "solve/interface/options.hpp"
@@ -38,9 +39,10 @@ inline int windows_to_stiffness(bool loaded) {
   return loaded ? 10 : 3;
 }
 
-/// A step that is no longer than this is made of rounding, mm: of differences of sums of ten terms and more.
+/// A step of a node that is no longer than this is made of rounding, mm: along each axis of differences of sums of ten
+/// terms and more. farthest: largest |component| of û.
 inline double rounding_of_step(double farthest, Precision precision) {
-  constexpr double terms = 10;
+  constexpr double terms = 10 * std::numbers::sqrt3;
   return terms * farthest *
          (precision == Precision::single_precision ? double{std::numeric_limits<float>::epsilon()}
                                                    : std::numeric_limits<double>::epsilon());

@@ -152,31 +152,23 @@ void EachMotion::step(const EachNumbers& mass, const NumberOfEach<double>& beta,
   ++steps;
 }
 
-namespace {
-
-/// Largest |component| of each member over all nodes, NaN where one is.
-template <class Component>
-Numbers largest_of_each(std::size_t nodes, const Component& component) {
-  Numbers largest = Numbers::Zero();
-  for (std::size_t a = 0; a < nodes; ++a) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      largest = -lesser_of_each(-largest, -component(a, axis).abs());
-    }
+Numbers EachMotion::longest_step() const {
+  Numbers squared = Numbers::Zero();
+  for (std::size_t a = 0; a < now.size(); ++a) {
+    const VectorOfEach<double> moved = difference(now[a], before[a]);
+    squared = -lesser_of_each(-squared, -dot(moved, moved));
   }
-  return largest;
-}
-
-}  // namespace
-
-Numbers EachMotion::largest_step() const {
-  return largest_of_each(now.size(), [&](std::size_t a, std::size_t axis) -> Numbers {
-    return numbers(now[a].of[axis]) - numbers(before[a].of[axis]);
-  });
+  return squared.sqrt();
 }
 
 Numbers EachMotion::farthest() const {
-  return largest_of_each(now.size(),
-                         [&](std::size_t a, std::size_t axis) -> Numbers { return numbers(now[a].of[axis]); });
+  Numbers largest = Numbers::Zero();
+  for (const VectorOfEach<double>& node : now) {
+    for (const auto& component : node.of) {
+      largest = -lesser_of_each(-largest, -numbers(component).abs());
+    }
+  }
+  return largest;
 }
 
 Numbers EachMotion::lowest_eigenvalue(const EachNumbers& mass) const {

@@ -32,8 +32,9 @@ class EachMotion {
   /// As Motion::start_from(), each its own.
   void start_from(std::span<const Member> loads);
 
-  /// Of the last step of each member: |û⁺ − û|∞ and |û|∞, mm; NaN where one is.
-  Numbers largest_step() const;
+  /// Of each member, mm: the longest |û⁺ − û| of a node in the last step, and the largest |component| of û; NaN where
+  /// one is.
+  Numbers longest_step() const;
   Numbers farthest() const;
 
   /// A_0 from the last increments: `before` and the force are one step after `next` and force_before. 0: they do not

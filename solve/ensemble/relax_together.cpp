@@ -110,7 +110,7 @@ class Ensemble {
 
   /// Once a window: as Relaxation does it.
   void look() {
-    const Numbers smallest = motion_.force_law.smallest_jacobian(), moved = motion_.largest_step();
+    const Numbers smallest = motion_.force_law.smallest_jacobian(), moved = motion_.longest_step();
     const Numbers lowest = motion_.lowest_eigenvalue(mass_), farthest = motion_.farthest();
     const Numbers too_lively = motion_.motion_over_work(mass_);
     const int windows = motion_.steps / usual_window;

@@ -40,7 +40,7 @@ TEST(EachMotion, StepsAsOneMotionDoes) {
   EXPECT_LT(largest_difference(member_of(each.now, 1), alone.now), 1e-12);
   EXPECT_LT(largest_difference(member_of(each.next, 1), alone.next), 1e-12);
   EXPECT_LT(largest_difference(member_of(each.force, 1), alone.force), 1e-9 * largest_component(alone.force));
-  EXPECT_NEAR(each.largest_step()[1], largest_difference(alone.now, alone.before), 1e-12);
+  EXPECT_NEAR(each.longest_step()[1], longest_difference(alone.now, alone.before), 1e-12);
   EXPECT_NEAR(each.farthest()[1], largest_component(alone.now), 1e-12);
   EXPECT_EQ(each.farthest()[2], 0);  // that member is not there
   each.let_go(1);
