@@ -92,8 +92,7 @@ void Console::state(std::string_view name) {
 
 void Console::started(StageId stage) {
   const std::lock_guard lock(mutex_);
-  work_ = Work{.stage = stage};
-  shown_ = Clock::now();
+  begin(stage);
   if (!terminal_) {
     line(std::string(stage_name(stage)) + " ...");
   }
@@ -102,8 +101,7 @@ void Console::started(StageId stage) {
 void Console::progress(StageId stage, double fraction, std::string_view what) {
   const std::lock_guard lock(mutex_);
   if (!work_) {
-    work_ = Work{.stage = stage};
-    shown_ = Clock::now();
+    begin(stage);
   }
   if (verbose_ && what != work_->what) {
     line(std::string(stage_name(stage)) + ": " + std::string(what));
@@ -111,6 +109,11 @@ void Console::progress(StageId stage, double fraction, std::string_view what) {
   work_->fraction = fraction;
   work_->what = what;
   work_->left.note(fraction, work_->seconds());
+}
+
+void Console::begin(StageId stage) {
+  work_ = Work{.stage = stage};
+  shown_ = Clock::now();
 }
 
 void Console::end(StageId stage, const std::string& how) {

@@ -14,8 +14,9 @@
 
 namespace brainshift::pipelines {
 
-/// Shows how far the work is, on standard error: one line that is written over on a terminal; otherwise plain lines, of
-/// a long stage each minute, also while it has nothing new to say; nothing when quiet.
+/// Shows how far a stage is and how long it still takes, on standard error: one line that is written over on a
+/// terminal; otherwise plain lines, of a long stage each minute, also while it has nothing new to say; nothing when
+/// quiet.
 class Console {
  public:
   /// every: between two plain lines of a stage.
@@ -49,6 +50,7 @@ class Console {
 
   void keep_showing(const std::stop_token& stop);
   void show();
+  void begin(StageId stage);
   void end(StageId stage, const std::string& how);
   void line(const std::string& text, const char* end = "\n");
   void clear();

@@ -218,16 +218,12 @@ SignedDistance::SignedDistance(const Surface& surface, const SignedDistanceOptio
               .value = signed_samples(frames, normals, grid, band, horizon, nearest)};
 }
 
-double SignedDistance::value(const Eigen::Vector3d& position) const {
-  const Eigen::Array3d wanted = (position - samples_.origin).array() / samples_.spacing;
-  const Eigen::Array3d inside = wanted.max(0.0).min((samples_.size - 1).cast<double>());
-  const GridCell cell(samples_.size, wanted);
-  const double sampled = cell.interpolate([this](std::size_t offset) { return samples_.value[offset]; });
-  const bool within = (wanted == inside).all();  // as nearly always: spares a root
-  return within ? sampled : sampled + samples_.spacing * (wanted - inside).matrix().norm();
-}
-
 namespace {
+
+/// Of a position, in grid steps.
+Eigen::Array3d grid_index(const SignedDistance::Samples& samples, const Eigen::Vector3d& position) {
+  return (position - samples.origin).array() / samples.spacing;
+}
 
 /// Whether all samples within one and a half grid steps are there. index: in grid steps.
 bool is_inner(const Eigen::Array3d& index, const Eigen::Array3i& size) {
@@ -236,8 +232,17 @@ bool is_inner(const Eigen::Array3d& index, const Eigen::Array3i& size) {
 
 }  // namespace
 
+double SignedDistance::value(const Eigen::Vector3d& position) const {
+  const Eigen::Array3d wanted = grid_index(samples_, position);
+  const Eigen::Array3d inside = wanted.max(0.0).min((samples_.size - 1).cast<double>());
+  const GridCell cell(samples_.size, wanted);
+  const double sampled = cell.interpolate([this](std::size_t offset) { return samples_.value[offset]; });
+  const bool within = (wanted == inside).all();  // as nearly always: spares a root
+  return within ? sampled : sampled + samples_.spacing * (wanted - inside).matrix().norm();
+}
+
 Eigen::Vector3d SignedDistance::gradient(const Eigen::Vector3d& position) const {
-  const Eigen::Array3d index = (position - samples_.origin).array() / samples_.spacing;
+  const Eigen::Array3d index = grid_index(samples_, position);
   const bool inner = is_inner(index, samples_.size);
   Eigen::Vector3d difference;
   std::size_t stride = 1;
@@ -257,7 +262,7 @@ Eigen::Vector3d SignedDistance::gradient(const Eigen::Vector3d& position) const 
 }
 
 void SignedDistance::fetch(const Eigen::Vector3d& position) const {
-  const Eigen::Array3d index = (position - samples_.origin).array() / samples_.spacing;
+  const Eigen::Array3d index = grid_index(samples_, position);
   if (!is_inner(index, samples_.size)) {
     return;
   }
