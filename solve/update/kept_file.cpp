@@ -216,6 +216,7 @@ std::optional<KeptRun> read_kept(const fs::path& file, const std::string& key,
     ArchiveReader reader(payload);
     KeptRun run;
     kept_run(reader, run);
+    run.origin = {run.fine.parameters, run.displacement};
     run.options = options;
     run.options.precision = run.fine.body.points.precision();
     read_forces(reader, run.fine.body);

@@ -67,14 +67,23 @@ void take(SteppingResult& stepped, KeptBody& kept) {
 }
 
 /// What the new load moves the loaded nodes by; 0 elsewhere.
-Points change_of(const Points& prescribed, const KeptRun& run) {
+Points change_of(const Points& prescribed, const Points& displacement) {
   Points change = Points::Zero(prescribed.rows(), 3);
   for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
     if (!std::isnan(prescribed.data()[i])) {
-      change.data()[i] = prescribed.data()[i] - run.displacement.data()[i];
+      change.data()[i] = prescribed.data()[i] - displacement.data()[i];
     }
   }
   return change;
+}
+
+/// û to begin with. The responses are of the run's own load: with a the change from it and b that from the last one,
+/// what the first order leaves open goes with a² from the one and with b (2 a − b) from the other.
+NodalVectors start_of(const Points& prescribed, const KeptRun& run) {
+  const Points from_last = change_of(prescribed, run.displacement);
+  const Points from_origin = change_of(prescribed, run.origin.displacement);
+  const bool last = from_last.norm() * (2 * from_origin - from_last).norm() < from_origin.squaredNorm();
+  return answered(last ? run.fine.parameters : run.origin.parameters, run.responses, last ? from_last : from_origin);
 }
 
 bool knows_responses(const KeptRun& run) {
@@ -153,8 +162,10 @@ KeptRun keep(const Model& model, const SolveOptions& given, const Points& displa
               .prescribed = model.conditions.displacement,
               .displacement = nodal_displacement(stepped.body.nodal_rows, stepped.parameters, stepped.body.original),
               .fine = {},
+              .origin = {},
               .responses = {}};
   take(stepped, run.fine);
+  run.origin = {run.fine.parameters, run.displacement};
   run.responses = responses_of(run.fine, run.prescribed, options, progress);
   return run;
 }
@@ -164,7 +175,7 @@ SolveResult update(KeptRun& run, const Points& prescribed, const Progress& progr
   SolveMeasures measures = sizes_of(run, prescribed);
   const Stopwatch stepping;
   Course course;
-  course.start = answered(run.fine, run.responses, change_of(prescribed, run));
+  course.start = start_of(prescribed, run);
   course.settled = run.fine.settled;
   if (knows_responses(run)) {
     course.settled->lowest = std::max(course.settled->lowest, local_eigenvalue);

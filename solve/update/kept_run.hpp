@@ -16,6 +16,12 @@
 
 namespace brainshift::solve {
 
+/// Where a body came to rest.
+struct RestState {
+  NodalVectors parameters;  ///< û in the body's order, mm
+  Points displacement;      ///< (n × 3) mm
+};
+
 /// A solved run with all that is expensive to make: shape functions, fictitious masses, the state of rest,
 /// responses to changes.
 struct KeptRun {
@@ -24,6 +30,7 @@ struct KeptRun {
   Points prescribed;                     ///< (n × 3) mm, NaN: free; of the load that the body is at rest under
   Points displacement;                   ///< (n × 3) mm, at rest
   KeptBody fine;                         ///< at rest
+  RestState origin;                      ///< under the run's own load; responses are of it
   Responses responses;
 };
 
@@ -36,7 +43,7 @@ std::string cannot_keep(const Model& model, const SolveOptions& options);
 KeptRun keep(const Model& model, const SolveOptions& options, const Points& displacement,
              const Progress& progress = {});
 
-/// The answer to another load, from the state of the last one; the kept run is at rest under it afterwards. Stops as
+/// The answer to another load, from the state of the last one or of the run's own load, whichever is nearer; the kept run is at rest under it afterwards. Stops as
 /// solve() does. prescribed (n × 3) mm, NaN: free. Throws std::invalid_argument where it loads other nodes than before,
 /// by more than half; TooFewNodes where its conditions contradict each other. After a throw or a failure the kept run
 /// must be read or made again.

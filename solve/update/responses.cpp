@@ -118,15 +118,15 @@ Responses responses_of(const KeptBody& kept, const Points& prescribed, const Sol
   return responses;
 }
 
-NodalVectors answered(const KeptBody& kept, const Responses& responses, const Points& change) {
+NodalVectors answered(const NodalVectors& at_rest, const Responses& responses, const Points& change) {
   const auto count = static_cast<Eigen::Index>(responses.count()),
              loaded = static_cast<Eigen::Index>(responses.nodes.size());
   const Eigen::Map<const Eigen::MatrixXd> waves(responses.waves.data(), loaded, count);
   const Eigen::MatrixXd shares = change(responses.nodes, Eigen::all).transpose() * waves;  // (3 × waves)
-  const auto nodes = static_cast<Eigen::Index>(kept.body.nodes());
+  const auto nodes = static_cast<Eigen::Index>(at_rest.size() / 4);
   const Eigen::Map<const Eigen::MatrixXf> of_waves(responses.parameters.data(), 3 * nodes, 3 * count);
   const Eigen::VectorXf sum = of_waves * Eigen::Map<const Eigen::VectorXd>(shares.data(), shares.size()).cast<float>();
-  NodalVectors parameters = kept.parameters;
+  NodalVectors parameters = at_rest;
   for (Eigen::Index a = 0; a < nodes; ++a) {
     at(parameters, static_cast<std::size_t>(a)).head<3>() += sum.segment<3>(3 * a).cast<double>();
   }

@@ -38,7 +38,7 @@ struct Responses {
 Responses responses_of(const KeptBody& kept, const Points& prescribed, const SolveOptions& options,
                        const Progress& progress);
 
-/// û of the body at rest, and what a change, (n × 3) mm at the cloud's nodes, adds to it in the first order.
-NodalVectors answered(const KeptBody& kept, const Responses& responses, const Points& change);
+/// û at rest, and what a change, (n × 3) mm at the cloud's nodes, adds to it in the first order.
+NodalVectors answered(const NodalVectors& at_rest, const Responses& responses, const Points& change);
 
 }  // namespace brainshift::solve
