@@ -116,7 +116,8 @@ void write_plain(hid_t parent, std::span<const float> numbers) {
 /// The bytes of the file that ITK's reader of HDF5 transforms expects. It is made in memory: where HDF5 itself meets a
 /// full disk, it keeps the file open, and crashes when the program ends.
 std::vector<char> hdf5_file(const VectorImage& field, Packing packing) {
-  constexpr std::size_t growth = std::size_t{1} << 20;
+  const std::span numbers(field.voxels.front().data(), 3 * field.voxels.size());
+  const std::size_t growth = std::max(numbers.size_bytes(), std::size_t{1} << 20);  // each time it grows it is copied
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   Handle::check(H5Pset_fapl_core(access, growth, false));
   const Handle out(H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
@@ -125,7 +126,6 @@ std::vector<char> hdf5_file(const VectorImage& field, Packing packing) {
   const Handle one(H5Gcreate2(all, "0", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   write_text(one, "TransformType", "DisplacementFieldTransform_float_3_3");
   write_grid(one, field.geometry);
-  const std::span numbers(field.voxels.front().data(), 3 * field.voxels.size());
   packing == Packing::deflated ? write_packed(one, numbers) : write_plain(one, numbers);
   Handle::check(H5Fflush(out, H5F_SCOPE_LOCAL));
   const ssize_t size = H5Fget_file_image(out, nullptr, 0);

@@ -11,7 +11,6 @@ namespace brainshift::solve {
 namespace {
 
 constexpr std::size_t points_used = 30;
-constexpr double overshoot = 0.1;
 
 std::vector<Eigen::Index> nearest(const PlanePoints& points, const Eigen::Vector2d& place) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));

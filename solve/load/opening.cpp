@@ -10,6 +10,7 @@
 #include "segmentation/geometry/distinct_points.hpp"
 #include "segmentation/geometry/neighbour_distance.hpp"
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/arrays/shared_work.hpp"
 #include "solve/load/convex_hull.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/load/extension.hpp"
@@ -115,20 +116,19 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
   known << measured.col(2), load.displacement;
 
   Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
-  std::size_t loaded = 0;
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const Eigen::RowVector3d place = candidates.row(static_cast<Eigen::Index>(n));
-    const double beside = distance_to_hull(hull, place.head<2>());
-    if (beside > margin) {
-      continue;
+  const double lowest = known.col(0).minCoeff(), highest = known.col(0).maxCoeff();
+  const double far = options.depth + overshoot * (highest - lowest);  // from all that the splines can be there
+  share_work(candidates.rows(), places_a_part, [&](std::int64_t n) {
+    const Eigen::RowVector3d place = candidates.row(n);
+    if (place[2] < lowest - far || place[2] > highest + far || distance_to_hull(hull, place.head<2>()) > margin) {
+      return;
     }
     const Eigen::VectorXd height_and_displacement = extended(in_plane, known, place.head<2>());
     if (std::abs(place[2] - height_and_displacement[0]) <= options.depth) {
-      prescribed.row(nodes[n]) = height_and_displacement.tail<3>();
-      ++loaded;
+      prescribed.row(nodes[static_cast<std::size_t>(n)]) = height_and_displacement.tail<3>();
     }
-  }
-  if (loaded == 0) {
+  });
+  if (prescribed.array().isNaN().all()) {
     const Points places = distinct_points(load.positions);
     const PointTree tree(places);
     double nearest_miss = std::numeric_limits<double>::infinity();
