@@ -9,6 +9,7 @@
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
 #include "solve/dynamics/motion.hpp"
+#include "solve/dynamics/node_bound.hpp"
 #include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr int settled_window = 2;     // steps between looks of a start that is near the end
 constexpr int windows_of_a_row = 60;  // every so manieth of its looks is at the points, too, which costs half a step
-constexpr int settled_steps = 60;     // in which the A_0 of a start near the end is not estimated anew
+constexpr int settled_steps = 120;    // in which the A_0 of a start near the end is not estimated anew
 constexpr double alpha = relaxation_alpha;
 
 /// By how much swelling stiffens the body in the end: a tissue that has grown by a stretch s has s times its tangent.
@@ -82,12 +83,13 @@ class Relaxation {
       if (result.steps % window_ == 0) {
         look();
         report_progress(progress);
-        if (motion_.time >= 1 && bound_.value() <= tolerance() && no_change_is_left() && ends_soundly()) {
+        if (motion_.time >= 1 && error_bound() <= tolerance() && no_change_is_left() && ends_soundly()) {
           return finish();
         }
         if (bound_.stands_still(rounding())) {
           if (bound_.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue))) <= tolerance() &&
               no_change_is_left()) {
+            nodes_.reset();  // of rounding nothing can be read
             return finish();
           }
           fail_at_standstill();
@@ -96,8 +98,8 @@ class Relaxation {
     }
     if (result.failure.empty()) {
       std::ostringstream text;
-      text << "not converged after " << result.steps << " steps: the error bound is " << bound_.value()
-           << " mm, wanted " << tolerance() << " mm; allow more steps or a larger tolerance; it moves most";
+      text << "not converged after " << result.steps << " steps: the error bound is " << error_bound() << " mm, wanted "
+           << tolerance() << " mm; allow more steps or a larger tolerance; it moves most";
       result.failure = text.str();
       result.fault = restless_node({motion_.now, motion_.before, motion_.next});
       result.fault->explained = true;
@@ -129,6 +131,7 @@ class Relaxation {
     }
     weigh();
     bound_.reset();
+    nodes_.reset();
     calm_ = 0;
     pace_.wait();
   }
@@ -169,6 +172,7 @@ class Relaxation {
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     bound_.add(longest_difference(motion_.now, motion_.before), std::sqrt(critical_beta(lowest_)), motion_.time >= 1,
                rounding_of_places());
+    nodes_.add(motion_.now);
     if (only_glances()) {
       return;
     }
@@ -186,7 +190,7 @@ class Relaxation {
     HistoryRow& row = motion_.result.history.back();
     row.residual = residual();
     calm_ = calm_rows(calm_, row.residual);
-    row.error_bound = bound_.value();
+    row.error_bound = error_bound();
   }
 
   /// A_0 from the last increments: `before` and the force are one step after `next` and the force before.
@@ -214,6 +218,11 @@ class Relaxation {
       return 0;
     }
     return work / m.inertia(mass_, m.now, m.before);
+  }
+
+  /// Of the whole body; once that is small enough, of each node.
+  double error_bound() const {
+    return bound_.value() > tolerance() ? bound_.value() : std::max(bound_.value(), nodes_.value());
   }
 
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
@@ -273,20 +282,21 @@ class Relaxation {
     quickening_.weigh(motion_, mass_, critical_beta(lowest_));
   }
 
-  void report_progress(const Progress& progress) const {
+  void report_progress(const Progress& progress) {
     std::ostringstream text;
     text << "step " << motion_.result.steps;
     double done = 0.3 * motion_.time;
-    if (std::isfinite(bound_.value())) {
-      text << ", error bound " << bound_.value() << " mm";
-      const double decades = std::log10(std::max(bound_.value() / tolerance(), 1.0));
+    if (const double bound = error_bound(); std::isfinite(bound)) {
+      text << ", error bound " << bound << " mm";
+      const double decades = std::log10(std::max(bound / tolerance(), 1.0));
       done = 1 - 0.7 * std::min(decades / 3, 1.0);
     }
-    report(progress, done, text.str());
+    done_ = std::max(done_, done);  // a bound may rise
+    report(progress, done_, text.str());
   }
 
   SteppingResult finish() {
-    motion_.result.error_bound = bound_.value();
+    motion_.result.error_bound = error_bound();
     motion_.result.settled = {
         .mass = std::move(mass_), .mass_scale = mass_scale_, .lowest = lowest_, .smallest_jacobian = mass_jacobian_};
     return motion_.finish();
@@ -302,9 +312,11 @@ class Relaxation {
   double lowest_ = 1e-4;      // A_0: a guess until there are increments
   double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow
   ErrorBound bound_{window_};
+  NodeBound nodes_{window_};
   LoadPace pace_;
   Quickening quickening_{alpha};
   bool cautious_;
+  double done_ = 0;           // reported
   double farthest_ = 0;       // largest |û| on the way, mm
   double force_at_rest_ = 0;  // largest sum of |f_int| of a state at rest, µN
   int calm_ = 0;              // last rows of the history with a residual as at rest

@@ -8,6 +8,7 @@
 
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
+#include "solve/dynamics/node_bound.hpp"
 #include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
@@ -26,6 +27,7 @@ struct Way {
   double mass_scale = 1;
   double lowest = 1e-4;  // A_0: a guess until there are increments
   ErrorBound bound{usual_window};
+  NodeBound nodes{usual_window};
   double farthest = 0;     // largest |û| on the way, mm
   double squeezed_to = 1;  // J
 };
@@ -131,6 +133,7 @@ class Ensemble {
       way.farthest = std::max(way.farthest, farthest[i]);
       way.bound.add(moved[i], std::sqrt(critical_beta(way.lowest)), motion_.time >= 1,
                     rounding_of_step(way.farthest, Precision::double_precision));
+      way.nodes.add(member_of(motion_.now, m));
     }
     if (windows % windows_to_stiffness(motion_.time >= 1) == 0) {
       follow_stiffness(active_);
@@ -148,10 +151,11 @@ class Ensemble {
     if (!patient_ && motion_.time >= 1 && way.bound.value() > far_from_rest * wanted &&
         Quickening::wanted(way.lowest)) {
       end(m, MemberResult::End::left);
-    } else if (motion_.time >= 1 && way.bound.value() <= wanted) {
+    } else if (motion_.time >= 1 && way.bound.value() <= wanted && way.nodes.value() <= wanted) {
       end(m, MemberResult::End::rest);
     } else if (way.bound.stands_still(rounding_of_step(way.farthest, body_.points.precision()))) {
       const double left = way.bound.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue)));
+      way.nodes.reset();
       end(m, left <= wanted ? MemberResult::End::rest : MemberResult::End::not_converged);
     }
   }
@@ -159,7 +163,7 @@ class Ensemble {
   void end(std::size_t m, MemberResult::End how) {
     results_[m] = {.end = how,
                    .parameters = how == MemberResult::End::rest ? member_of(motion_.now, m) : NodalVectors(),
-                   .error_bound = way_[m].bound.value(),
+                   .error_bound = std::max(way_[m].bound.value(), way_[m].nodes.value()),
                    .steps = motion_.steps};
     active_[m] = false;
     motion_.let_go(m);

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/update/kept_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include "solve/solve.hpp"
+#include "tests/unit/solve/models.hpp"
+
+namespace brainshift::solve::kept_run_test {
+
+constexpr double tolerance = 0.001;  // mm
+
+SolveOptions options() {
+  SolveOptions options;
+  options.tolerance = tolerance;
+  return options;
+}
+
+KeptRun kept(const Model& model) {
+  return keep(model, options(), solve(model, options()).solution.displacement);
+}
+
+double distance(const Points& a, const Points& b) {
+  return (a - b).rowwise().norm().maxCoeff();
+}
+
+TEST(KeptRun, AnswersAnotherLoadAsARunFromTheBeginning) {
+  KeptRun run = kept(uniaxial(0.9, 5));
+  const Model other = uniaxial(0.85, 5);
+  const SolveResult answer = update(run, other.conditions.displacement);
+  EXPECT_TRUE(answer.measures.converged) << answer.failure;
+  EXPECT_LE(answer.measures.error_bound, tolerance);
+  EXPECT_LE(distance(answer.solution.displacement, solve(other, options()).solution.displacement), 2 * tolerance);
+}
+
+/// The responses are of the run's own load: back at it nothing is left to do, wherever the last answer lies.
+TEST(KeptRun, IsAtOnceBackAtItsOwnLoad) {
+  const Model own = uniaxial(0.9, 5);
+  KeptRun run = kept(own);
+  const Points before = run.displacement;
+  const int there = update(run, uniaxial(0.7, 5).conditions.displacement).measures.steps;
+  const SolveResult back = update(run, own.conditions.displacement);
+  EXPECT_LE(distance(back.solution.displacement, before), tolerance);
+  EXPECT_LT(back.measures.steps, there);
+}
+
+}  // namespace brainshift::solve::kept_run_test
