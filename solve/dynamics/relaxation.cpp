@@ -83,13 +83,12 @@ class Relaxation {
       if (result.steps % window_ == 0) {
         look();
         report_progress(progress);
-        if (motion_.time >= 1 && error_bound() <= tolerance() && no_change_is_left() && ends_soundly()) {
+        if (motion_.time >= 1 && error_bound_ <= tolerance() && no_change_is_left() && ends_soundly()) {
           return finish();
         }
         if (bound_.stands_still(rounding())) {
-          if (bound_.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue))) <= tolerance() &&
-              no_change_is_left()) {
-            nodes_.reset();  // of rounding nothing can be read
+          error_bound_ = bound_.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue)));
+          if (error_bound_ <= tolerance() && no_change_is_left()) {
             return finish();
           }
           fail_at_standstill();
@@ -98,7 +97,7 @@ class Relaxation {
     }
     if (result.failure.empty()) {
       std::ostringstream text;
-      text << "not converged after " << result.steps << " steps: the error bound is " << error_bound() << " mm, wanted "
+      text << "not converged after " << result.steps << " steps: the error bound is " << error_bound_ << " mm, wanted "
            << tolerance() << " mm; allow more steps or a larger tolerance; it moves most";
       result.failure = text.str();
       result.fault = restless_node({motion_.now, motion_.before, motion_.next});
@@ -132,6 +131,7 @@ class Relaxation {
     weigh();
     bound_.reset();
     nodes_.reset();
+    error_bound_ = bound_.value();
     calm_ = 0;
     pace_.wait();
   }
@@ -173,6 +173,7 @@ class Relaxation {
     bound_.add(longest_difference(motion_.now, motion_.before), std::sqrt(critical_beta(lowest_)), motion_.time >= 1,
                rounding_of_places());
     nodes_.add(motion_.now);
+    find_error_bound();
     if (only_glances()) {
       return;
     }
@@ -190,7 +191,7 @@ class Relaxation {
     HistoryRow& row = motion_.result.history.back();
     row.residual = residual();
     calm_ = calm_rows(calm_, row.residual);
-    row.error_bound = error_bound();
+    row.error_bound = error_bound_;
   }
 
   /// A_0 from the last increments: `before` and the force are one step after `next` and the force before.
@@ -221,8 +222,8 @@ class Relaxation {
   }
 
   /// Of the whole body; once that is small enough, of each node.
-  double error_bound() const {
-    return bound_.value() > tolerance() ? bound_.value() : std::max(bound_.value(), nodes_.value());
+  void find_error_bound() {
+    error_bound_ = bound_.value() > tolerance() ? bound_.value() : std::max(bound_.value(), nodes_.value());
   }
 
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
@@ -286,9 +287,9 @@ class Relaxation {
     std::ostringstream text;
     text << "step " << motion_.result.steps;
     double done = 0.3 * motion_.time;
-    if (const double bound = error_bound(); std::isfinite(bound)) {
-      text << ", error bound " << bound << " mm";
-      const double decades = std::log10(std::max(bound / tolerance(), 1.0));
+    if (std::isfinite(error_bound_)) {
+      text << ", error bound " << error_bound_ << " mm";
+      const double decades = std::log10(std::max(error_bound_ / tolerance(), 1.0));
       done = 1 - 0.7 * std::min(decades / 3, 1.0);
     }
     done_ = std::max(done_, done);  // a bound may rise
@@ -296,7 +297,7 @@ class Relaxation {
   }
 
   SteppingResult finish() {
-    motion_.result.error_bound = error_bound();
+    motion_.result.error_bound = error_bound_;
     motion_.result.settled = {
         .mass = std::move(mass_), .mass_scale = mass_scale_, .lowest = lowest_, .smallest_jacobian = mass_jacobian_};
     return motion_.finish();
@@ -313,6 +314,7 @@ class Relaxation {
   double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow
   ErrorBound bound_{window_};
   NodeBound nodes_{window_};
+  double error_bound_ = std::numeric_limits<double>::infinity();  // at the last look, mm
   LoadPace pace_;
   Quickening quickening_{alpha};
   bool cautious_;

@@ -57,7 +57,7 @@ Eigen::VectorXd extended(const PlanePoints& points, const Values& values, const 
   decomposition.setThreshold(1e-10);
   const Eigen::VectorXd value = (row.transpose() * decomposition.compute(system).solve(right)).transpose();
   const Eigen::VectorXd least = known.colwise().minCoeff(), most = known.colwise().maxCoeff();
-  const Eigen::VectorXd room = overshoot * (most - least);
+  const Eigen::VectorXd room = extension_overshoot * (most - least);
   return value.cwiseMax(least - room).cwiseMin(most + room);
 }
 

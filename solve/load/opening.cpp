@@ -117,7 +117,8 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
 
   Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
   const double lowest = known.col(0).minCoeff(), highest = known.col(0).maxCoeff();
-  const double far = options.depth + overshoot * (highest - lowest);  // from all that the splines can be there
+  const double far =
+      options.depth + extension_overshoot * (highest - lowest);  // from all that the splines can be there
   share_work(candidates.rows(), places_a_part, [&](std::int64_t n) {
     const Eigen::RowVector3d place = candidates.row(n);
     if (place[2] < lowest - far || place[2] > highest + far || distance_to_hull(hull, place.head<2>()) > margin) {

@@ -22,7 +22,7 @@ namespace {
 constexpr double closer_at_rest = 0.1;  // of the tolerance: what is open here every answer begins with
 
 /// A_0 of what responses leave open: it is local. Lower takes more steps; at a higher one a few nodes that slide along
-/// the skull end far off, as those of 0.003 by twice the bound of the error.
+/// the skull end far off, as with 0.0025 by twice the bound of the error.
 constexpr double local_eigenvalue = 0.0015;
 
 /// Surface nodes of the whole cloud that nothing prescribes.
