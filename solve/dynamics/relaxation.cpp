@@ -9,9 +9,9 @@
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
 #include "solve/dynamics/motion.hpp"
-#include "solve/dynamics/node_bound.hpp"
 #include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
+#include "solve/dynamics/span_bound.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/force/stiffness_bound.hpp"
 
@@ -130,7 +130,8 @@ class Relaxation {
     }
     weigh();
     bound_.reset();
-    nodes_.reset();
+    spans_.reset();
+    place_at_look_.clear();
     error_bound_ = bound_.value();
     calm_ = 0;
     pace_.wait();
@@ -168,11 +169,11 @@ class Relaxation {
     if (!only_glances() && !is_sound()) {
       return;
     }
-    estimate_lowest_eigenvalue();
+    const double moved = longest_difference(motion_.now, motion_.before);
     farthest_ = std::max(farthest_, largest_component(motion_.now));
-    bound_.add(longest_difference(motion_.now, motion_.before), std::sqrt(critical_beta(lowest_)), motion_.time >= 1,
-               rounding_of_places());
-    nodes_.add(motion_.now);
+    estimate_lowest_eigenvalue(moved);
+    bound_.add(moved, std::sqrt(critical_beta(lowest_)), motion_.time >= 1, rounding_of_places());
+    spans_.add(motion_.now);
     find_error_bound();
     if (only_glances()) {
       return;
@@ -194,21 +195,35 @@ class Relaxation {
     row.error_bound = error_bound_;
   }
 
-  /// A_0 from the last increments: `before` and the force are one step after `next` and the force before.
-  void estimate_lowest_eigenvalue() {
+  /// A_0 from the last increments, and where these feel rounding from those of the last window, too.
+  void estimate_lowest_eigenvalue(double moved) {
     const Motion& m = motion_;
     if (course_.settled && m.result.steps < settled_steps) {
       return;
     }
-    const double stiffness = sum_over_nodes(nodes(), [&](std::size_t a) {
-      return (at(m.before, a) - at(m.next, a)).dot(at(m.force, a) - at(force_before_, a));
-    });
-    const double inertia = m.inertia(mass_, m.before, m.next);
-    if (inertia > 0 && stiffness > 0) {
-      const double estimate = bounded_eigenvalue(stiffness / inertia + spring_stiffness());
+    double estimate = eigenvalue_since(m.next, force_before_);
+    if (feels_rounding(moved, farthest_, points().precision()) && !place_at_look_.empty()) {
+      estimate = std::min(estimate, eigenvalue_since(place_at_look_, force_at_look_));
+    }
+    if (m.time >= 1) {
+      place_at_look_ = m.before;
+      force_at_look_ = m.force;
+    }
+    if (estimate > 0) {
+      estimate = bounded_eigenvalue(estimate + spring_stiffness());
       // More damping makes steps shorter, but not what is left: near the end that would pass for rest.
       lowest_ = course_.settled ? std::min(lowest_, estimate) : estimate;
     }
+  }
+
+  /// Rayleigh's quotient of the way from an earlier place, and its force, to `before`, and the force there; not above
+  /// 0: it does not tell.
+  double eigenvalue_since(const NodalVectors& place, const NodalVectors& force) const {
+    const Motion& m = motion_;
+    const double stiffness = sum_over_nodes(
+        nodes(), [&](std::size_t a) { return (at(m.before, a) - at(place, a)).dot(at(m.force, a) - at(force, a)); });
+    const double inertia = m.inertia(mass_, m.before, place);
+    return inertia > 0 ? stiffness / inertia : 0;
   }
 
   /// The share of conditions that give way in A_0; 0 where there are none.
@@ -221,9 +236,9 @@ class Relaxation {
     return work / m.inertia(mass_, m.now, m.before);
   }
 
-  /// Of the whole body; once that is small enough, of each node.
+  /// By the last steps; once that is small enough, by the last spans, too.
   void find_error_bound() {
-    error_bound_ = bound_.value() > tolerance() ? bound_.value() : std::max(bound_.value(), nodes_.value());
+    error_bound_ = bound_.value() > tolerance() ? bound_.value() : std::max(bound_.value(), spans_.value());
   }
 
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
@@ -306,14 +321,15 @@ class Relaxation {
   const int window_;
   const Course& course_;
   const SolveOptions& options_;
-  Motion motion_;  // its time runs from 0 to 1 while the load's curve is run through, then stays
-  NodalVectors force_before_;
+  Motion motion_;              // its time runs from 0 to 1 while the load's curve is run through, then stays
+  NodalVectors force_before_;  // one step before the force of a look
+  NodalVectors place_at_look_, force_at_look_;  // `before` and the force there of the last look under the whole load
   std::vector<double> mass_;
   double mass_scale_ = 1;
   double lowest_ = 1e-4;      // A_0: a guess until there are increments
   double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow
   ErrorBound bound_{window_};
-  NodeBound nodes_{window_};
+  SpanBound spans_{window_};
   double error_bound_ = std::numeric_limits<double>::infinity();  // at the last look, mm
   LoadPace pace_;
   Quickening quickening_{alpha};

@@ -171,29 +171,31 @@ Numbers EachMotion::farthest() const {
   return largest;
 }
 
-Numbers EachMotion::lowest_eigenvalue(const EachNumbers& mass) const {
-  const std::size_t nodes = now.size();
-  const Numbers stiffness = sum_of_each(
-      nodes, [&](std::size_t a) { return dot(difference(before[a], next[a]), difference(force[a], force_before[a])); });
-  const auto inertia = [&](const EachVectors& x, const EachVectors& y) {
-    return sum_of_each(nodes, [&](std::size_t a) -> Numbers {
-      const VectorOfEach<double> moved = difference(x[a], y[a]);
-      return numbers(mass[a].of) * dot(moved, moved);
-    });
-  };
-  const Numbers weight = inertia(before, next);
+Numbers EachMotion::eigenvalue_since(const EachVectors& place, const EachVectors& force_there,
+                                     const EachNumbers& mass) const {
+  const Numbers stiffness = sum_of_each(now.size(), [&](std::size_t a) {
+    return dot(difference(before[a], place[a]), difference(force[a], force_there[a]));
+  });
+  const Numbers weight = inertia(mass, before, place);
+  return (weight > 0).select(stiffness / weight, 0.0);
+}
+
+Numbers EachMotion::spring_stiffness(const EachNumbers& mass) const {
   const Numbers springs = essential_.spring_work(before, now) / relaxation_alpha;
-  const Numbers share = (springs > 0).any() ? Numbers((springs > 0).select(springs / inertia(now, before), 0.0))
-                                            : Numbers(Numbers::Zero());
-  return (weight > 0 && stiffness > 0).select(stiffness / weight + share, 0.0);
+  return (springs > 0).any() ? Numbers((springs > 0).select(springs / inertia(mass, now, before), 0.0))
+                             : Numbers(Numbers::Zero());
+}
+
+Numbers EachMotion::inertia(const EachNumbers& mass, const EachVectors& x, const EachVectors& y) const {
+  return sum_of_each(now.size(), [&](std::size_t a) -> Numbers {
+    const VectorOfEach<double> moved = difference(x[a], y[a]);
+    return numbers(mass[a].of) * dot(moved, moved);
+  });
 }
 
 Numbers EachMotion::motion_over_work(const EachNumbers& mass) {
   constexpr double most_motion = 2;  // an undamped motion holds at most what was put in, known to a few percent
-  const Numbers doubled = sum_of_each(now.size(), [&](std::size_t a) -> Numbers {
-    const VectorOfEach<double> moved = difference(now[a], next[a]);
-    return numbers(mass[a].of) * dot(moved, moved);
-  });
+  const Numbers doubled = inertia(mass, now, next);
   const Numbers kinetic = doubled * (1 + numbers(beta_.of)) / (16 * relaxation_alpha);
   largest_work_ = largest_work_.max(external_work_.abs());
   return kinetic / (most_motion * largest_work_.max(rounding_energy_));

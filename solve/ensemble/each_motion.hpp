@@ -37,9 +37,12 @@ class EachMotion {
   Numbers longest_step() const;
   Numbers farthest() const;
 
-  /// A_0 from the last increments: `before` and the force are one step after `next` and force_before. 0: they do not
-  /// tell.
-  Numbers lowest_eigenvalue(const EachNumbers& mass) const;
+  /// Rayleigh's quotient of the way from an earlier place, and the force there, to `before` and its force; not above 0:
+  /// it does not tell.
+  Numbers eigenvalue_since(const EachVectors& place, const EachVectors& force_there, const EachNumbers& mass) const;
+
+  /// The share of conditions that give way in A_0; 0 where there are none.
+  Numbers spring_stiffness(const EachNumbers& mass) const;
 
   /// Energy of the motion over the most that it can have.
   Numbers motion_over_work(const EachNumbers& mass);
@@ -55,6 +58,7 @@ class EachMotion {
 
  private:
   Numbers force_work(double share) const;
+  Numbers inertia(const EachNumbers& mass, const EachVectors& x, const EachVectors& y) const;  // Σ m |x − y|²
 
   EachConditions essential_;
   std::optional<EachContact> contact_;

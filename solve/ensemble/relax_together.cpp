@@ -8,10 +8,10 @@
 
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
-#include "solve/dynamics/node_bound.hpp"
 #include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
+#include "solve/dynamics/span_bound.hpp"
 #include "solve/ensemble/each_conditions.hpp"
 #include "solve/ensemble/each_contact.hpp"
 #include "solve/ensemble/each_eigenvalue.hpp"
@@ -27,7 +27,7 @@ struct Way {
   double mass_scale = 1;
   double lowest = 1e-4;  // A_0: a guess until there are increments
   ErrorBound bound{usual_window};
-  NodeBound nodes{usual_window};
+  SpanBound spans{usual_window};
   double farthest = 0;     // largest |û| on the way, mm
   double squeezed_to = 1;  // J
 };
@@ -113,7 +113,7 @@ class Ensemble {
   /// Once a window: as Relaxation does it.
   void look() {
     const Numbers smallest = motion_.force_law.smallest_jacobian(), moved = motion_.longest_step();
-    const Numbers lowest = motion_.lowest_eigenvalue(mass_), farthest = motion_.farthest();
+    const Numbers farthest = motion_.farthest(), lowest = lowest_eigenvalue(moved, farthest);
     const Numbers too_lively = motion_.motion_over_work(mass_);
     const int windows = motion_.steps / usual_window;
     for (std::size_t m = 0; m < members; ++m) {
@@ -133,7 +133,7 @@ class Ensemble {
       way.farthest = std::max(way.farthest, farthest[i]);
       way.bound.add(moved[i], std::sqrt(critical_beta(way.lowest)), motion_.time >= 1,
                     rounding_of_step(way.farthest, Precision::double_precision));
-      way.nodes.add(member_of(motion_.now, m));
+      way.spans.add(member_of(motion_.now, m));
     }
     if (windows % windows_to_stiffness(motion_.time >= 1) == 0) {
       follow_stiffness(active_);
@@ -145,17 +145,36 @@ class Ensemble {
     }
   }
 
+  /// A_0 of each member as Relaxation estimates it; not above 0: the increments do not tell.
+  Numbers lowest_eigenvalue(const Numbers& moved, const Numbers& farthest) {
+    Numbers lowest = motion_.eigenvalue_since(motion_.next, motion_.force_before, mass_);
+    if (!place_at_look_.empty()) {
+      const Numbers of_window = motion_.eigenvalue_since(place_at_look_, force_at_look_, mass_);
+      for (std::size_t m = 0; m < members; ++m) {
+        const auto i = static_cast<Eigen::Index>(m);
+        if (feels_rounding(moved[i], std::max(way_[m].farthest, farthest[i]), body_.points.precision())) {
+          lowest[i] = std::min(lowest[i], of_window[i]);
+        }
+      }
+    }
+    if (motion_.time >= 1) {
+      place_at_look_ = motion_.before;
+      force_at_look_ = motion_.force;
+    }
+    return (lowest > 0).select(lowest + motion_.spring_stiffness(mass_), 0.0);
+  }
+
   void end_if_due(std::size_t m) {
     Way& way = way_[m];
     const double wanted = wanted_bound(options_.tolerance, way.farthest);
     if (!patient_ && motion_.time >= 1 && way.bound.value() > far_from_rest * wanted &&
         Quickening::wanted(way.lowest)) {
       end(m, MemberResult::End::left);
-    } else if (motion_.time >= 1 && way.bound.value() <= wanted && way.nodes.value() <= wanted) {
+    } else if (motion_.time >= 1 && way.bound.value() <= wanted && way.spans.value() <= wanted) {
       end(m, MemberResult::End::rest);
     } else if (way.bound.stands_still(rounding_of_step(way.farthest, body_.points.precision()))) {
       const double left = way.bound.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue)));
-      way.nodes.reset();
+      way.spans.reset();
       end(m, left <= wanted ? MemberResult::End::rest : MemberResult::End::not_converged);
     }
   }
@@ -163,7 +182,7 @@ class Ensemble {
   void end(std::size_t m, MemberResult::End how) {
     results_[m] = {.end = how,
                    .parameters = how == MemberResult::End::rest ? member_of(motion_.now, m) : NodalVectors(),
-                   .error_bound = std::max(way_[m].bound.value(), way_[m].nodes.value()),
+                   .error_bound = std::max(way_[m].bound.value(), way_[m].spans.value()),
                    .steps = motion_.steps};
     active_[m] = false;
     motion_.let_go(m);
@@ -200,6 +219,7 @@ class Ensemble {
   bool patient_;
   EachMotion motion_;
   EachNumbers mass_;
+  EachVectors place_at_look_, force_at_look_;  // `before` and its force of the last look under the whole load
   std::array<Way, members> way_;
   LoadPace pace_;
   Chosen active_ = {};

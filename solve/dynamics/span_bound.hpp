@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <deque>
+
+#include "solve/arrays/nodal_vectors.hpp"
+
+namespace brainshift::solve {
+
+/// What is still to go, read off where all nodes were a span and two spans of steps ago. ErrorBound goes by what moved
+/// most in single steps. Slow motions hide there behind quick ones: those of a few nodes, as beside the rim of what
+/// touches the skull, and those of a whole body that hardly changes its volume. Over a span of eight steps or more
+/// quick motions cancel.
+class SpanBound {
+ public:
+  /// window: steps between two calls of add().
+  explicit SpanBound(int window);
+
+  /// now: û, mm; of as many nodes as before.
+  void add(const NodalVectors& now);
+
+  /// The larger of two, mm; 0 until two spans are known.
+  /// Of a node that went d in the last span and d' in the one before: d q/(1 − q) with q = d/d', at most 0.9, as
+  /// nothing can be read off a node that hardly moves. Of all nodes: a third more than max d q/(1 − q) with q = Σ d·d'
+  /// / Σ d'·d', at most 0.98. The third is for motions of several rates together, of which the slowest has more to go
+  /// than their mean tells.
+  double value() const;
+
+  /// What was seen so far says nothing any more.
+  void reset() { states_.clear(); }
+
+ private:
+  std::size_t windows_;              // of a span
+  std::deque<NodalVectors> states_;  // the latest last
+};
+
+}  // namespace brainshift::solve
