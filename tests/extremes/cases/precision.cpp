@@ -26,6 +26,20 @@ solve::Model layers(int n, double poisson_ratio, double contrast) {
   return model;
 }
 
+/// A core in the middle third, `contrast` times as stiff, that soft tissue alone holds: it moves as a rigid body, slowly.
+solve::Model core(int n, double contrast) {
+  const Block block{Eigen::Vector3d::Constant(side), 0.8, {3000, 0.45, 1000}};
+  solve::Model model = block.model(test::irregular_box(n, side), test::box_cells(n, side));
+  for (std::size_t c = 0; c < model.cells.size(); ++c) {
+    const Eigen::RowVector3d low = model.cells.vertices.row(model.cells.connectivity[8 * c]);
+    const bool inside = ((low.array() - side / 2 + side / (2 * n)).abs() < side / 6).all();
+    model.cells.label[c] = inside ? 2 : 1;
+  }
+  model.materials[1] = block.material;
+  model.materials[2] = {contrast * 3000, 0.49, 1000};
+  return model;
+}
+
 /// Default options but single precision, against twenty times tighter from rest in double.
 Row honest_bound(const std::string& what, const solve::Model& model) {
   solve::SolveOptions options;
@@ -66,6 +80,11 @@ std::vector<Row> precision(bool small) {
     std::ostringstream what;
     what << "layers 1 : " << contrast;
     rows.push_back(honest_bound(what.str(), layers(n, 0.45, contrast)));
+  }
+  for (const double contrast : {100, 467, 990}) {
+    std::ostringstream what;
+    what << "a core 1 : " << contrast;
+    rows.push_back(honest_bound(what.str(), core(9, contrast)));
   }
   return rows;
 }
