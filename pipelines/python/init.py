@@ -44,6 +44,7 @@ from ._core import (  # noqa: F401  (the module's face)
     register,
     segment,
     set_threads,
+    solve_each,
     warp,
     warp_files,
     warp_points,

@@ -27,6 +27,7 @@
 #include "solve/material/material_options.hpp"
 #include "solve/material/named_materials.hpp"
 #include "solve/solve.hpp"
+#include "solve/solve_each.hpp"
 
 namespace brainshift::python {
 namespace {
@@ -97,27 +98,75 @@ solve::Material material_of(const py::handle& given) {
   return material;
 }
 
-solve::SolveResult solve_model(const discretise::Discretisation& body, const py::dict& materials,
-                               const solve::CraniotomyLoad& load, const LabelMap* labels, const Surface* skull,
-                               const Surface* boundary, const Listener& progress, const py::kwargs& named) {
+std::map<std::int32_t, solve::Material> materials_of(const py::dict& given) {
+  std::map<std::int32_t, solve::Material> materials;
+  for (const auto& [label, material] : given) {
+    materials[label.cast<std::int32_t>()] = material_of(material);
+  }
+  return materials;
+}
+
+solve::SolveOptions options_of(const py::kwargs& named) {
   solve::SolveOptions options = pipelines::quickest();  // as a scene
   set_options(solve::solve_options(), named, options);
+  return options;
+}
+
+/// Without materials.
+solve::Model model_of(const discretise::Discretisation& body, const solve::CraniotomyLoad& load, const LabelMap* labels,
+                      const Surface* skull, const Surface* boundary) {
   solve::Model model;
   model.cloud = body.cloud;
   model.cells = body.cells;
   model.labels = copy_if(labels);
-  for (const auto& [label, material] : materials) {
-    model.materials[label.cast<std::int32_t>()] = material_of(material);
-  }
   model.skull = copy_if(skull);
   model.boundary = copy_if(boundary);
-  const Free free;
   if (load.sigma.rows() > 0) {
     model.conditions = solve::noisy_conditions(model.cloud, load);
   } else {
     model.conditions.displacement = solve::prescribed_on_surface_nodes(model.cloud, load);
   }
+  return model;
+}
+
+solve::SolveResult solve_model(const discretise::Discretisation& body, const py::dict& materials,
+                               const solve::CraniotomyLoad& load, const LabelMap* labels, const Surface* skull,
+                               const Surface* boundary, const Listener& progress, const py::kwargs& named) {
+  const solve::SolveOptions options = options_of(named);
+  const std::map<std::int32_t, solve::Material> given = materials_of(materials);
+  const Free free;
+  solve::Model model = model_of(body, load, labels, skull, boundary);
+  model.materials = given;
   return solve::solve(model, options, attentive(progress));
+}
+
+/// The numbers of a matrix that nobody else holds, as an array without a copy.
+py::array_t<double> given_away(Points points) {
+  auto* kept = new Points(std::move(points));
+  return view(py::capsule(kept, [](void* p) { delete static_cast<Points*>(p); }), *kept);
+}
+
+/// A member of the answer is None where there is no rest.
+py::list solve_each(const discretise::Discretisation& body, const std::vector<py::dict>& materials,
+                    const solve::CraniotomyLoad& load, const LabelMap* labels, const Surface* skull,
+                    const Surface* boundary, const Listener& progress, const py::kwargs& named) {
+  const solve::SolveOptions options = options_of(named);
+  std::vector<solve::Constants> constants;
+  for (const py::dict& of_one : materials) {
+    constants.push_back({.materials = materials_of(of_one)});
+  }
+  std::vector<std::optional<Points>> moved;
+  if (!constants.empty()) {
+    const Free free;
+    solve::Model model = model_of(body, load, labels, skull, boundary);
+    model.materials = constants.front().materials;
+    moved = solve::solve_each(model, options, constants, attentive(progress));
+  }
+  py::list answer;
+  for (std::optional<Points>& u : moved) {
+    answer.append(u ? py::object(given_away(std::move(*u))) : py::none());
+  }
+  return answer;
 }
 
 registration::Registration register_images(const solve::SolveResult& moved, const Surface& brain, const ScalarImage& t1,
@@ -131,12 +180,6 @@ registration::Registration register_images(const solve::SolveResult& moved, cons
   }
   const Free free;
   return registration::register_images(input, options, attentive(progress));
-}
-
-/// The numbers of a matrix that nobody else holds, as an array without a copy.
-py::array_t<double> given_away(Points points) {
-  auto* kept = new Points(std::move(points));
-  return view(py::capsule(kept, [](void* p) { delete static_cast<Points*>(p); }), *kept);
 }
 
 registration::Interpolation interpolation_of(const std::string& name) {
@@ -215,6 +258,12 @@ PYBIND11_MODULE(_core, m) {
          "that holds the brain; boundary: the brain's own." +
          options_help(solve::solve_options(), pipelines::quickest()))
             .c_str());
+  m.def(
+      "solve_each", &solve_each, py::arg("body"), py::arg("materials"), py::arg("load"), py::arg("labels") = none,
+      py::arg("skull") = none, py::arg("boundary") = none, py::arg("progress") = none,
+      "A study of materials: solve() with each of a list of materials, prepared once and stepped together, sixteen in "
+      "2.5 times the time of one. Returns (n, 3) displacements, mm, the same as solve()'s to rounding; None where it "
+      "finds no rest. The load has no noise. Options are those of solve().");
   m.def("register", &register_images, py::arg("solution"), py::arg("brain"), py::arg("t1"), py::arg("labels") = none,
         py::arg("landmarks") = none, py::arg("progress") = none,
         ("A Solution to fields on the t1's grid and warped images. landmarks: (n, 3) preop, mm, LPS." +

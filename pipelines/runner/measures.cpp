@@ -87,6 +87,9 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                                             {"log_likelihood", row.log_likelihood}});
     }
   }
+  if (std::isfinite(m.fewest_points)) {
+    report.measures["fewest_points_a_node"] = m.fewest_points;
+  }
   if (m.estimated_error_95) {
     report.measures["estimated_error_95_mm"] = *m.estimated_error_95;
   }

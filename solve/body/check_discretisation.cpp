@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -61,14 +62,19 @@ void check_number(std::size_t nodes, std::size_t points) {
   }
 }
 
-/// The same about each node: the points that see the node against the nodes in the support there.
-void check_everywhere(const OrderedCloud& cloud, const ShapeRows& point_rows, const ShapeRows& nodal_rows) {
+/// The same about each node: the points that see the node against the nodes in the support there. Returns the fewest
+/// points a node about one inside.
+double check_everywhere(const OrderedCloud& cloud, const ShapeRows& point_rows, const ShapeRows& nodal_rows) {
   constexpr double least = 0.3;
   std::vector<double> seen(cloud.size(), 0);
   for (const std::int32_t a : point_rows.node) {
     ++seen[static_cast<std::size_t>(a)];
   }
+  double fewest = std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; a < seen.size(); ++a) {
+    if (cloud.on_surface[a] == 0) {
+      fewest = std::min(fewest, seen[a] / static_cast<double>(nodal_rows[a].size()));
+    }
     if (seen[a] > 0 && seen[a] < least * static_cast<double>(nodal_rows[a].size())) {
       const auto x = cloud.positions.row(static_cast<Eigen::Index>(a));
       std::ostringstream text;
@@ -78,6 +84,7 @@ void check_everywhere(const OrderedCloud& cloud, const ShapeRows& point_rows, co
       throw std::invalid_argument(text.str());
     }
   }
+  return fewest;
 }
 
 /// How far a place lies outside the box of the nodes, mm; negative inside.
@@ -146,12 +153,12 @@ void check_cloud(const NodeCloud& cloud) {
   check_spacing(cloud, nearest);
 }
 
-void check_points(const OrderedCloud& cloud, const IntegrationPoints& points, const ShapeRows& point_rows,
-                  const ShapeRows& nodal_rows) {
+double check_points(const OrderedCloud& cloud, const IntegrationPoints& points, const ShapeRows& point_rows,
+                    const ShapeRows& nodal_rows) {
   check_within(cloud, points, point_rows);
   check_box(cloud, points, point_rows);
   check_number(cloud.size(), points.size());
-  check_everywhere(cloud, point_rows, nodal_rows);
+  return check_everywhere(cloud, point_rows, nodal_rows);
 }
 
 }  // namespace brainshift::solve

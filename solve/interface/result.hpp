@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -127,7 +128,7 @@ inline constexpr double much_pressed = 0.1;
 
 /// Something that the nodes hardly resolve.
 struct ThinPart {
-  std::string what;  ///< "the moved patch", "tissue 2"
+  std::string what;  ///< "the moved patch", "the held patch", "tissue 2"
   double spacings;   ///< of the nodes, that it is across
 };
 
@@ -135,8 +136,10 @@ struct SolveMeasures {
   std::size_t nodes = 0;
   std::size_t integration_points = 0;
   std::size_t capped_points = 0;  ///< integration points that missed the integration tolerance
-  std::size_t pairs = 0;          ///< (integration point, node) pairs
-  double mean_support = 0;        ///< nodes an integration point
+  /// Integration points a node where they are fewest, inside the body.
+  double fewest_points = std::numeric_limits<double>::infinity();
+  std::size_t pairs = 0;    ///< (integration point, node) pairs
+  double mean_support = 0;  ///< nodes an integration point
   std::size_t grown_supports = 0;
   std::size_t outside_label = 0;  ///< integration points that took their cell's label
   std::size_t loaded_nodes = 0;
@@ -155,7 +158,7 @@ struct SolveMeasures {
   double largest_stretch = 0;                ///< largest principal stretch
   double compressed_share = 0;               ///< of the volume, pressed so far that its free faces may crease
   double pressed_share = 0;                  ///< of the volume, patches under a pressure above most_pressure
-  std::vector<ThinPart> thin;                ///< of few nodes, where there is no estimate of the error
+  std::vector<ThinPart> thin;                ///< see thin_parts(); tissues of few nodes alone
   std::optional<double> estimated_error_95;  ///< 95 % of the nodes' estimates, mm, see estimated_error()
   std::optional<CutMeasures> cut;            ///< absent: nothing was cut
   std::optional<SeptumMeasures> septum;

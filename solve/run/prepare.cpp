@@ -233,7 +233,7 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   }
   parts.points = std::move(placed.points);
   parts.point_rows = std::move(placed.rows);
-  check_points(parts.cloud, parts.points, parts.point_rows, parts.nodal_rows);
+  measures.fewest_points = check_points(parts.cloud, parts.points, parts.point_rows, parts.nodal_rows);
   parts.materials = material_table(model.materials, parts.points.label);
   measure_sizes(parts, placed.capped, measures);
   measures.single_precision = options.precision == Precision::single_precision;

@@ -27,26 +27,34 @@ double mean_spacing_at(const NodeCloud& cloud, const std::vector<std::int32_t>& 
   return sum / static_cast<double>(nodes.size());
 }
 
-/// Of the surface nodes that are moved, along the narrow side of their patch. Of n nodes in a row, evenly, the variance
-/// is (n² − 1) / 12 of the squared spacing.
-std::optional<double> patch_across(const Model& model) {
-  std::vector<std::int32_t> moved;
-  for (Eigen::Index a = 0; a < model.conditions.displacement.rows(); ++a) {
-    const auto u = model.conditions.displacement.row(a).array();
-    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0 && (u.abs() > 0).any()) {
-      moved.push_back(static_cast<std::int32_t>(a));
-    }
-  }
-  if (moved.empty()) {
-    return std::nullopt;
-  }
-  Points places = model.cloud.positions(moved, Eigen::all);
+/// Of surface nodes, along the narrow side of their patch. Of n nodes in a row, evenly, the variance is (n² − 1) / 12
+/// of the squared spacing.
+double patch_across(const Model& model, const std::vector<std::int32_t>& nodes) {
+  Points places = model.cloud.positions(nodes, Eigen::all);
   places.rowwise() -= places.colwise().mean().eval();
-  const Eigen::Matrix3d spread = places.transpose() * places / static_cast<double>(moved.size());
+  const Eigen::Matrix3d spread = places.transpose() * places / static_cast<double>(nodes.size());
   const Eigen::Vector3d variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
-  const double spacing = mean_spacing_at(model.cloud, moved);
+  const double spacing = mean_spacing_at(model.cloud, nodes);
   const double narrow = model.plane == Plane::none ? variance[1] : variance[2];
   return std::sqrt(12 * std::max(0.0, narrow) / (spacing * spacing) + 1) - 1;
+}
+
+/// The patch through which the load comes: what is moved, or where forces alone act what is held against them.
+std::optional<ThinPart> patch_of(const Model& model) {
+  std::vector<std::int32_t> moved, held;
+  for (Eigen::Index a = 0; a < model.conditions.displacement.rows(); ++a) {
+    const auto u = model.conditions.displacement.row(a).array();
+    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0 && !u.isNaN().all()) {
+      ((u.abs() > 0).any() ? moved : held).push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  if (!moved.empty()) {
+    return ThinPart{"the moved patch", patch_across(model, moved)};
+  }
+  if (!held.empty() && !model.conditions.measured) {
+    return ThinPart{"the held patch", patch_across(model, held)};
+  }
+  return std::nullopt;
 }
 
 /// Twice the farthest that a point of a tissue lies from other tissue and from the surface.
@@ -72,8 +80,8 @@ double across(const PlacedPoints& points, std::int32_t tissue, const Points& sur
 
 std::vector<ThinPart> thin_parts(const Model& model, const PlacedPoints& points) {
   std::vector<ThinPart> thin;
-  if (const std::optional<double> patch = patch_across(model); patch && *patch < enough) {
-    thin.push_back({"the moved patch", *patch});
+  if (const std::optional<ThinPart> patch = patch_of(model); patch && patch->spacings < enough) {
+    thin.push_back(*patch);
   }
   const Points surface = model.cloud.positions(surface_nodes(model.cloud), Eigen::all);
   const double spacing = mean_spacing(model.cloud);

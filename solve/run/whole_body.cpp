@@ -159,9 +159,8 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
   if (coarse && result.failure.empty()) {
     result.solution.estimated_error = estimated_error(model.cloud, result.solution.displacement, *coarse);
     result.measures.estimated_error_95 = percentile_95(result.solution.estimated_error);
-  } else if (model.cloud.size() < few_nodes) {
-    result.measures.thin = thin_parts(model, placed);
   }
+  result.measures.thin = thin_parts(model, placed);
   return result;
 }
 

@@ -153,6 +153,21 @@ class Chain(WithFolder):
         there = brainshift.warp_points(warped.forward, load.positions)
         self.assertLess(np.abs(there - load.positions - load.displacement).max(), 0.5)
 
+    def test_a_study_of_materials_is_each_of_them_alone(self):
+        labels = brainshift.read_label_map(self.head / "labels.nii.gz")
+        head = brainshift.segment(labels, edge_length=5)
+        body = brainshift.discretise(head.brain, labels, nodes=600)
+        load = brainshift.read_load(self.head / "craniotomy.csv")
+        usual = {1: "brain", 2: "ventricle", 3: "tumour"}
+        study = [usual, {**usual, 1: {"youngs_modulus": 1500, "poisson_ratio": 0.45}}]
+        moved = brainshift.solve_each(body, study, load, labels, head.skull, head.brain)
+        for displacement, materials in zip(moved, study):
+            alone = brainshift.solve(body, materials, load, labels, head.skull, head.brain)
+            np.testing.assert_allclose(displacement, alone.displacement, atol=1e-6)
+        self.assertGreater(np.abs(moved[0] - moved[1]).max(), 0.01)
+        with self.assertRaisesRegex(ValueError, "constants 1 have no material for label 3"):
+            brainshift.solve_each(body, [usual, {1: "brain", 2: "ventricle"}], load, labels)
+
     def test_files_are_taken_along(self):
         run = self.folder / "run"
         brainshift.run(self.head / "scene.xml", run, until="register", set={"discretise.nodes": 600})

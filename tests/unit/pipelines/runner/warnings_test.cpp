@@ -116,6 +116,18 @@ TEST(Warnings, TellOfFewPointsInAPressedBody) {
   expect_parts(warnings_of(measures).front(), {"only 1.2 integration points a node", "to 0.46"});
   measures.integration_points = 2000;
   EXPECT_TRUE(warnings_of(measures).empty());
+  measures.fewest_points = 0.43;
+  expect_parts(warnings_of(measures).front(), {"about some nodes", "only 0.43 integration points a node"});
+}
+
+TEST(Warnings, TellOfFewSpacingsAcrossAPatch) {
+  solve::SolveMeasures measures;
+  measures.nodes = 1000;
+  measures.integration_points = 8000;
+  measures.thin = {{"the held patch", 3.2}};
+  expect_parts(warnings_of(measures).front(), {"nothing says how far off", "the held patch 3.2"});
+  measures.estimated_error_95 = 0.3;
+  expect_parts(warnings_of(measures).front(), {"farther off than is estimated", "the held patch 3.2"});
 }
 
 TEST(Warnings, TellOfVolumeUnderHighPressure) {

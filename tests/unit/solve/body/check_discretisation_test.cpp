@@ -55,6 +55,23 @@ TEST(CheckDiscretisation, RefusesTooFewPointsInOnePlaceAlone) {
   EXPECT_THAT(refusal(model, 1), HasSubstr("give smaller background cells there"));
 }
 
+/// Of even nodes and cells, about the number of all; of nodes that are nearer to each other in the middle, fewer.
+TEST(CheckDiscretisation, CountsPointsWhereTheyAreFewest) {
+  Model model = uniaxial(0.95, 10);
+  model.cloud = test::irregular_box(10, model_side, 0);
+  model.cells = test::box_cells(12, model_side);
+  SolveOptions options;
+  options.points_per_cell = 1;
+  const double even = solve(model, options).measures.fewest_points;
+  EXPECT_GT(even, 1);
+  EXPECT_LT(even, 2);
+  for (double& x : model.cloud.positions.reshaped()) {
+    const double s = 2 * x / model_side - 1;
+    x = model_side / 2 * (1 + 0.8 * s + 0.2 * s * s * s);
+  }
+  EXPECT_LT(solve(model, options).measures.fewest_points, 0.7 * even);
+}
+
 TEST(CheckDiscretisation, RefusesCellsThatReachBeyondTheCloud) {
   EXPECT_THAT(refusal(pressed(8, 1.5 * model_side)), HasSubstr("the background cells reach beyond the node cloud"));
 }

@@ -40,6 +40,27 @@ TEST(ThinParts, AreNamedWhereNothingTellsTheErrorForWantOfNodes) {
   EXPECT_NEAR(thin[2].spacings, 2, 0.5);
 }
 
+/// A body that hangs by a few nodes: the estimate of the error does not know how little these resolve.
+TEST(ThinParts, AreWhatABodyHangsBy) {
+  Model model = box_model(test::box_cells(8, model_side), 9);
+  model.gravity = {0, 0, -1};
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    const Eigen::RowVector3d x = model.cloud.positions.row(a);
+    if (x[2] > model_side - 1e-9 && std::hypot(x[0] - 30, x[1] - 30) < 12) {
+      model.conditions.displacement.row(a).setZero();
+    }
+  }
+  SolveOptions options;
+  options.start = Start::coarse;
+  options.shape.basis = Basis::linear;
+  const SolveResult result = solve(model, options);
+  ASSERT_EQ(result.failure, "");
+  ASSERT_EQ(result.measures.thin.size(), 1U);
+  EXPECT_EQ(result.measures.thin.front().what, "the held patch");
+  EXPECT_LT(result.measures.thin.front().spacings, 3);
+  EXPECT_TRUE(result.measures.estimated_error_95);
+}
+
 /// It ends with a force several times too high.
 TEST(ThinParts, AreABodyOfEightNodes) {
   Model model = box_model(test::box_cells(1, model_side), 2);

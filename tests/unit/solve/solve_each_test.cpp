@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/solve_each.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "solve/solve.hpp"
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/solve/models.hpp"
+
+namespace brainshift::solve::solve_each_test {
+
+using testing::HasSubstr;
+
+/// A cube of two layers, pressed by a tenth.
+Model layered() {
+  Model model = uniaxial(0.9, 7);
+  for (std::size_t c = 0; c < model.cells.size(); ++c) {
+    const double low = model.cells.vertices(model.cells.connectivity[8 * c], 2);
+    model.cells.label[c] = low < model_side / 2 - 1e-6 ? 1 : 2;
+  }
+  model.materials[2] = model.materials[1];
+  return model;
+}
+
+std::vector<Constants> some_constants(const Model& model) {
+  std::vector<Constants> all(3, Constants{.materials = model.materials});
+  all[1].materials[2].youngs_modulus *= 3;
+  all[2].materials[1].poisson_ratio = 0.4;
+  return all;
+}
+
+TEST(SolveEach, IsSolveWithEachOfTheConstants) {
+  const Model model = layered();
+  const std::vector<Constants> constants = some_constants(model);
+  const auto each = solve_each(model, {}, constants);
+  ASSERT_EQ(each.size(), constants.size());
+  for (std::size_t m = 0; m < constants.size(); ++m) {
+    const SolveResult alone = solve(with_constants(model, constants[m]), {});
+    ASSERT_TRUE(each[m] && alone.failure.empty()) << alone.failure;
+    EXPECT_LT((*each[m] - alone.solution.displacement).cwiseAbs().maxCoeff(), 1e-7);
+  }
+  EXPECT_GT((*each[0] - *each[1]).cwiseAbs().maxCoeff(), 0.1);
+}
+
+TEST(SolveEach, RefusesConstantsThatLackAMaterial) {
+  const Model model = layered();
+  std::vector<Constants> constants = some_constants(model);
+  constants[1].materials.erase(2);
+  EXPECT_THAT(test::refusal([&] { solve_each(model, {}, constants); }),
+              HasSubstr("constants 1 have no material for label 2"));
+}
+
+TEST(SolveEach, RefusesWhatItDoesNotGoWith) {
+  SolveOptions in_time;
+  in_time.dynamics = Dynamics::transient;
+  const Model model = layered();
+  EXPECT_THAT(test::refusal([&] { solve_each(model, in_time, some_constants(model)); }), HasSubstr("motion in time"));
+}
+
+}  // namespace brainshift::solve::solve_each_test
