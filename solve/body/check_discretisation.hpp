@@ -16,6 +16,6 @@ void check_cloud(const NodeCloud& cloud);
 /// point_rows, nodal_rows: shape functions at the points and at the nodes. Returns how many points there are a node
 /// where they are fewest, inside the body; infinite where all nodes are on the surface.
 double check_points(const OrderedCloud& cloud, const IntegrationPoints& points, const ShapeRows& point_rows,
-                  const ShapeRows& nodal_rows);
+                    const ShapeRows& nodal_rows);
 
 }  // namespace brainshift::solve

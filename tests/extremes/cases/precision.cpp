@@ -26,7 +26,8 @@ solve::Model layers(int n, double poisson_ratio, double contrast) {
   return model;
 }
 
-/// A core in the middle third, `contrast` times as stiff, that soft tissue alone holds: it moves as a rigid body, slowly.
+/// A core in the middle third, `contrast` times as stiff, that soft tissue alone holds: it moves as a rigid body,
+/// slowly.
 solve::Model core(int n, double contrast) {
   const Block block{Eigen::Vector3d::Constant(side), 0.8, {3000, 0.45, 1000}};
   solve::Model model = block.model(test::irregular_box(n, side), test::box_cells(n, side));
