@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "solve/interface/option_table.hpp"
+#include "solve/material/check_material.hpp"
 #include "solve/run/together.hpp"
 
 namespace brainshift::solve {
@@ -33,6 +34,9 @@ void check_each(const Model& model, const SolveOptions& options, std::span<const
         throw std::invalid_argument("constants " + std::to_string(m) + " have no material for label " +
                                     std::to_string(label) + ", as the model has; give each the same labels");
       }
+    }
+    for (const auto& [label, material] : constants[m].materials) {
+      check_material("the material of label " + std::to_string(label) + " in constants " + std::to_string(m), material);
     }
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/measures.hpp"
 
+#include <cmath>
+
 namespace brainshift::pipelines {
 
 StageReport report_of(const segmentation::Segmentation& result) {

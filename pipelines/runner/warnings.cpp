@@ -132,19 +132,22 @@ namespace {
 /// that (an ellipsoid with 0.54 by two fifths), with 0.55 and more exact.
 Warnings warnings_of_points(const solve::SolveMeasures& measures) {
   constexpr double enough = 1.6, little_compression = 0.8, enough_everywhere = 0.6;
+  Warnings warnings;
   if (measures.fewest_points < enough_everywhere) {
-    return {"about some nodes there are only " + with_digits(measures.fewest_points) +
-            " integration points a node: nodes may have moved against each other there as no point sees, by tenths of "
-            "what is imposed; take smaller cells there or more points a cell"};
+    warnings.push_back(
+        "about some nodes there are only " + with_digits(measures.fewest_points) +
+        " integration points a node: nodes may have moved against each other there as no point sees, by tenths of "
+        "what is imposed; take smaller cells there or more points a cell");
   }
   const double points_per_node = static_cast<double>(measures.integration_points) / static_cast<double>(measures.nodes);
-  if (points_per_node >= enough || measures.smallest_jacobian >= little_compression) {
-    return {};
+  if (points_per_node < enough && measures.smallest_jacobian < little_compression) {
+    warnings.push_back("only " + with_digits(points_per_node) +
+                       " integration points a node where the body is pressed to " +
+                       with_digits(measures.smallest_jacobian) +
+                       " of its volume: motions that no point sees may have grown; take smaller cells or more points a "
+                       "cell, two points a node");
   }
-  return {"only " + with_digits(points_per_node) + " integration points a node where the body is pressed to " +
-          with_digits(measures.smallest_jacobian) +
-          " of its volume: motions that no point sees may have grown; take smaller cells or more points a cell, two "
-          "points a node"};
+  return warnings;
 }
 
 Warnings warnings_of_pressure(const solve::SolveMeasures& measures) {
@@ -181,7 +184,7 @@ Warnings warnings_of_few_nodes(const solve::SolveMeasures& measures) {
   }
   return {(measures.estimated_error_95
                ? "for want of nodes the answer may be farther off than is estimated"
-               : "of so few nodes nothing says how far off the answer is for want of nodes, and it may be far off") +
+               : "nothing says how far off the answer is for want of nodes, and it may be far off") +
           (": spacings across, where four are needed, " + parts) + "; take more nodes"};
 }
 

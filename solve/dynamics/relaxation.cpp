@@ -202,7 +202,7 @@ class Relaxation {
       return;
     }
     double estimate = eigenvalue_since(m.next, force_before_);
-    if (feels_rounding(moved, farthest_, points().precision()) && !place_at_look_.empty()) {
+    if (!course_.settled && !place_at_look_.empty() && feels_rounding(moved, farthest_, points().precision())) {
       estimate = std::min(estimate, eigenvalue_since(place_at_look_, force_at_look_));
     }
     if (m.time >= 1) {
@@ -216,8 +216,7 @@ class Relaxation {
     }
   }
 
-  /// Rayleigh's quotient of the way from an earlier place, and its force, to `before`, and the force there; not above
-  /// 0: it does not tell.
+  /// Rayleigh's quotient of the change from (place, force) to `before` and its force; not above 0: it does not tell.
   double eigenvalue_since(const NodalVectors& place, const NodalVectors& force) const {
     const Motion& m = motion_;
     const double stiffness = sum_over_nodes(

@@ -37,8 +37,8 @@ class EachMotion {
   Numbers longest_step() const;
   Numbers farthest() const;
 
-  /// Rayleigh's quotient of the way from an earlier place, and the force there, to `before` and its force; not above 0:
-  /// it does not tell.
+  /// Rayleigh's quotient of the change from a place and its force to `before` and its force; not above 0: it does not
+  /// tell.
   Numbers eigenvalue_since(const EachVectors& place, const EachVectors& force_there, const EachNumbers& mass) const;
 
   /// The share of conditions that give way in A_0; 0 where there are none.

@@ -175,7 +175,10 @@ class Ensemble {
     } else if (way.bound.stands_still(rounding_of_step(way.farthest, body_.points.precision()))) {
       const double left = way.bound.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue)));
       way.spans.reset();
-      end(m, left <= wanted ? MemberResult::End::rest : MemberResult::End::not_converged);
+      const bool single = body_.points.precision() == Precision::single_precision;  // double precision may get further
+      end(m, left <= wanted ? MemberResult::End::rest
+             : single       ? MemberResult::End::left
+                            : MemberResult::End::not_converged);
     }
   }
 

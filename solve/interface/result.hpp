@@ -136,7 +136,7 @@ struct SolveMeasures {
   std::size_t nodes = 0;
   std::size_t integration_points = 0;
   std::size_t capped_points = 0;  ///< integration points that missed the integration tolerance
-  /// Integration points a node where they are fewest, inside the body.
+  /// Integration points a node where they are fewest, inside the body; infinite where none is inside.
   double fewest_points = std::numeric_limits<double>::infinity();
   std::size_t pairs = 0;    ///< (integration point, node) pairs
   double mean_support = 0;  ///< nodes an integration point
@@ -158,7 +158,7 @@ struct SolveMeasures {
   double largest_stretch = 0;                ///< largest principal stretch
   double compressed_share = 0;               ///< of the volume, pressed so far that its free faces may crease
   double pressed_share = 0;                  ///< of the volume, patches under a pressure above most_pressure
-  std::vector<ThinPart> thin;                ///< see thin_parts(); tissues of few nodes alone
+  std::vector<ThinPart> thin;                ///< see thin_parts(); tissues below 500 nodes alone
   std::optional<double> estimated_error_95;  ///< 95 % of the nodes' estimates, mm, see estimated_error()
   std::optional<CutMeasures> cut;            ///< absent: nothing was cut
   std::optional<SeptumMeasures> septum;

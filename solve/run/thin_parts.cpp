@@ -51,7 +51,8 @@ std::optional<ThinPart> patch_of(const Model& model) {
   if (!moved.empty()) {
     return ThinPart{"the moved patch", patch_across(model, moved)};
   }
-  if (!held.empty() && !model.conditions.measured) {
+  const bool pulls = !model.gravity.isZero() || model.conditions.force.rows() > 0 || model.body_force;
+  if (!held.empty() && pulls && !model.skull) {
     return ThinPart{"the held patch", patch_across(model, held)};
   }
   return std::nullopt;

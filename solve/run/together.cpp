@@ -78,8 +78,17 @@ Displacements alone(const Model& model, std::span<const Constants> constants,
   return displacements;
 }
 
-std::optional<Points> whole_displacement(const Model& model, const SolveOptions& options) {
-  SolveResult result = solve_whole_body(model, options, {});
+/// Whether none of these constants needs what members of an ensemble do not have.
+bool have_plain_laws(std::span<const Constants> constants) {
+  return std::all_of(constants.begin(), constants.end(), [](const Constants& c) {
+    return std::all_of(c.materials.begin(), c.materials.end(), [](const auto& material) {
+      return material.second.swelling == 0 && material.second.prony.empty();
+    });
+  });
+}
+
+std::optional<Points> whole_displacement(const Model& model, const SolveOptions& options, const Progress& progress) {
+  SolveResult result = solve_whole_body(model, options, progress);
   return result.failure.empty() ? std::optional(std::move(result.solution.displacement)) : std::nullopt;
 }
 
@@ -89,7 +98,7 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
                                    std::span<const Constants> constants, const Progress& progress) {
   const auto one = [&](const Model& with) { return coarse_displacement(with, options, {}); };
   const std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
-  if (nodes.size() < fewest_coarse_nodes || !same_precision(model, options, constants)) {
+  if (nodes.size() < fewest_coarse_nodes || !have_plain_laws(constants) || !same_precision(model, options, constants)) {
     return alone(model, constants, one);
   }
   try {
@@ -121,8 +130,9 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
 Displacements whole_displacements(const Model& model, const SolveOptions& given, std::span<const Constants> constants,
                                   const Progress& progress) {
   const SolveOptions options = completed(given, model);
-  const auto one = [&](const Model& with) { return whole_displacement(with, given); };
-  if (!same_precision(model, given, constants)) {
+  const auto one = [&](const Model& with) { return whole_displacement(with, given, progress); };
+  const bool parts = !model.cuts.empty() || model.rupture;
+  if (parts || is_confined(model) || !have_plain_laws(constants) || !same_precision(model, given, constants)) {
     return alone(model, constants, one);
   }
   Displacements starts(constants.size());
@@ -131,7 +141,7 @@ Displacements whole_displacements(const Model& model, const SolveOptions& given,
   }
   SolveMeasures measures;
   const Prepared prepared = prepare(model, options, {}, measures, progress, forces_differ(model, constants));
-  if (!may_go_together(prepared.body, options)) {
+  if (!may_go_together(prepared.body, options) || too_thin_for_quadratic(options, measures)) {
     return alone(model, constants, one);
   }
   Model with = model;

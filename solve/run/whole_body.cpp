@@ -44,6 +44,22 @@ bool starts_coarse(const Model& model, const SolveOptions& options) {
   return has_coarse(model, options) && model.plane == Plane::none;
 }
 
+bool too_thin_for_quadratic(const SolveOptions& options, const SolveMeasures& measures) {
+  return options.shape.basis == Basis::modified_quadratic && 2 * measures.grown_supports > measures.integration_points;
+}
+
+bool is_confined(const Model& model) {
+  for (std::size_t a = 0; a < model.cloud.size(); ++a) {
+    const auto node = static_cast<Eigen::Index>(a);
+    const bool held = model.conditions.is_prescribed(node, 0) && model.conditions.is_prescribed(node, 1) &&
+                      (model.plane != Plane::none || model.conditions.is_prescribed(node, 2));
+    if (model.cloud.on_surface[a] != 0 && !held) {
+      return false;
+    }
+  }
+  return !model.conditions.measured;
+}
+
 SolveOptions of_coarse_start(SolveOptions options) {
   constexpr double factor = 5;  // what a coarse solution is wrong by is more
   options.tolerance *= factor;
@@ -86,13 +102,6 @@ bool may_be_tried_again(const Model& model, const SolveOptions& options) {
   constexpr double most_contrast = 1e5;
   return options.dynamics == Dynamics::relaxation && !model.rupture &&
          stiffness_contrast(model.materials) <= most_contrast;
-}
-
-/// Two layers of nodes determine no quadratic terms across them, however far supports grow. MMLS then leaves these to
-/// its penalty, on supports half as wide again: it bends a sheet as linear functions do, in three to eight times the
-/// steps.
-bool too_thin_for_quadratic(const SolveOptions& options, const SolveMeasures& measures) {
-  return options.shape.basis == Basis::modified_quadratic && 2 * measures.grown_supports > measures.integration_points;
 }
 
 /// The displacement of the last state at the body's nodes; nothing where they cannot be told apart: face nodes of a
@@ -162,19 +171,6 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
   }
   result.measures.thin = thin_parts(model, placed);
   return result;
-}
-
-/// Whether nothing of the surface is free: the load then says how the volume changes, and so the pressure.
-bool is_confined(const Model& model) {
-  for (std::size_t a = 0; a < model.cloud.size(); ++a) {
-    const auto node = static_cast<Eigen::Index>(a);
-    const bool held = model.conditions.is_prescribed(node, 0) && model.conditions.is_prescribed(node, 1) &&
-                      (model.plane != Plane::none || model.conditions.is_prescribed(node, 2));
-    if (model.cloud.on_surface[a] != 0 && !held) {
-      return false;
-    }
-  }
-  return !model.conditions.measured;
 }
 
 /// Under a high pressure what patches leave to their points alone gives way: of −9 % of volume at ν = 0.499 two thirds

@@ -19,4 +19,12 @@ SolveResult solve_whole_body(const Model& model, const SolveOptions& options, co
 bool starts_coarse(const Model& model, const SolveOptions& options);
 SolveOptions of_coarse_start(SolveOptions options);
 
+/// Two layers of nodes determine no quadratic terms across them, however far supports grow. MMLS then leaves these to
+/// its penalty, on supports half as wide again: it bends a sheet as linear functions do, in three to eight times the
+/// steps.
+bool too_thin_for_quadratic(const SolveOptions& options, const SolveMeasures& measures);
+
+/// Whether nothing of the surface is free: the load then says how the volume changes, and so the pressure.
+bool is_confined(const Model& model);
+
 }  // namespace brainshift::solve

@@ -30,9 +30,7 @@ std::vector<Constants> some_constants(const Model& model) {
   return all;
 }
 
-TEST(SolveEach, IsSolveWithEachOfTheConstants) {
-  const Model model = layered();
-  const std::vector<Constants> constants = some_constants(model);
+void expect_each_as_alone(const Model& model, const std::vector<Constants>& constants) {
   const auto each = solve_each(model, {}, constants);
   ASSERT_EQ(each.size(), constants.size());
   for (std::size_t m = 0; m < constants.size(); ++m) {
@@ -43,12 +41,26 @@ TEST(SolveEach, IsSolveWithEachOfTheConstants) {
   EXPECT_GT((*each[0] - *each[1]).cwiseAbs().maxCoeff(), 0.1);
 }
 
+TEST(SolveEach, IsSolveWithEachOfTheConstants) {
+  expect_each_as_alone(layered(), some_constants(layered()));
+}
+
+/// Members of an ensemble do not swell.
+TEST(SolveEach, TakesConstantsThatDoNotGoTogether) {
+  std::vector<Constants> constants = some_constants(layered());
+  constants[1].materials[1].swelling = 0.05;
+  expect_each_as_alone(layered(), constants);
+}
+
 TEST(SolveEach, RefusesConstantsThatLackAMaterial) {
   const Model model = layered();
   std::vector<Constants> constants = some_constants(model);
   constants[1].materials.erase(2);
   EXPECT_THAT(test::refusal([&] { solve_each(model, {}, constants); }),
               HasSubstr("constants 1 have no material for label 2"));
+  constants = some_constants(model);
+  constants[2].materials[1].poisson_ratio = 0.7;
+  EXPECT_THAT(test::refusal([&] { solve_each(model, {}, constants); }), HasSubstr("label 1 in constants 2"));
 }
 
 TEST(SolveEach, RefusesWhatItDoesNotGoWith) {
