@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/solve_each.hpp"
 
-#include <array>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "solve/interface/option_table.hpp"
+#include "solve/interface/unfit_parts.hpp"
 #include "solve/material/check_material.hpp"
 #include "solve/run/together.hpp"
 
@@ -16,18 +15,14 @@ namespace {
 
 void check_each(const Model& model, const SolveOptions& options, std::span<const Constants> constants) {
   check_options(options);
-  const std::array<std::pair<bool, const char*>, 4> unfit = {{
-      {model.conditions.measured.has_value(), "a load with noise"},
-      {options.dynamics == Dynamics::transient, "motion in time"},
-      {options.region > 0, "a region"},
-      {model.resection.has_value(), "a resection"},
-  }};
-  for (const auto& [there, what] : unfit) {
-    if (there) {
-      throw std::invalid_argument(std::string("many constants at once do not go with ") + what +
-                                  "; solve them one by one");
-    }
-  }
+  refuse_unfit("many constants at once do not go",
+               {
+                   {model.conditions.measured.has_value(), "a load with noise"},
+                   {options.dynamics == Dynamics::transient, "motion in time"},
+                   {options.region > 0, "a region"},
+                   {model.resection.has_value(), "a resection"},
+               },
+               "solve them one by one");
   for (std::size_t m = 0; m < constants.size(); ++m) {
     for (const auto& [label, material] : model.materials) {
       if (!constants[m].materials.contains(label)) {

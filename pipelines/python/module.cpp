@@ -133,10 +133,10 @@ solve::SolveResult solve_model(const discretise::Discretisation& body, const py:
                                const solve::CraniotomyLoad& load, const LabelMap* labels, const Surface* skull,
                                const Surface* boundary, const Listener& progress, const py::kwargs& named) {
   const solve::SolveOptions options = options_of(named);
-  const std::map<std::int32_t, solve::Material> given = materials_of(materials);
+  std::map<std::int32_t, solve::Material> given = materials_of(materials);
   const Free free;
   solve::Model model = model_of(body, load, labels, skull, boundary);
-  model.materials = given;
+  model.materials = std::move(given);
   return solve::solve(model, options, attentive(progress));
 }
 

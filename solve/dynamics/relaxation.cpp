@@ -202,10 +202,10 @@ class Relaxation {
       return;
     }
     double estimate = eigenvalue_since(m.next, force_before_);
-    if (!course_.settled && !place_at_look_.empty() && feels_rounding(moved, farthest_, points().precision())) {
+    if (!place_at_look_.empty() && feels_rounding(moved, farthest_, points().precision())) {
       estimate = std::min(estimate, eigenvalue_since(place_at_look_, force_at_look_));
     }
-    if (m.time >= 1) {
+    if (m.time >= 1 && !course_.settled) {  // windows of an update are too short to average rounding out
       place_at_look_ = m.before;
       force_at_look_ = m.force;
     }

@@ -148,13 +148,17 @@ class Ensemble {
   /// A_0 of each member as Relaxation estimates it; not above 0: the increments do not tell.
   Numbers lowest_eigenvalue(const Numbers& moved, const Numbers& farthest) {
     Numbers lowest = motion_.eigenvalue_since(motion_.next, motion_.force_before, mass_);
-    if (!place_at_look_.empty()) {
+    Chosen rounded = {};
+    for (std::size_t m = 0; m < members && !place_at_look_.empty(); ++m) {
+      const auto i = static_cast<Eigen::Index>(m);
+      const double most = std::max(way_[m].farthest, farthest[i]);
+      rounded[m] = active_[m] && feels_rounding(moved[i], most, body_.points.precision());
+    }
+    if (std::find(rounded.begin(), rounded.end(), true) != rounded.end()) {
       const Numbers of_window = motion_.eigenvalue_since(place_at_look_, force_at_look_, mass_);
       for (std::size_t m = 0; m < members; ++m) {
         const auto i = static_cast<Eigen::Index>(m);
-        if (feels_rounding(moved[i], std::max(way_[m].farthest, farthest[i]), body_.points.precision())) {
-          lowest[i] = std::min(lowest[i], of_window[i]);
-        }
+        lowest[i] = rounded[m] ? std::min(lowest[i], of_window[i]) : lowest[i];
       }
     }
     if (motion_.time >= 1) {
@@ -231,11 +235,14 @@ class Ensemble {
 
 }  // namespace
 
-bool may_go_together(const Body& body, const SolveOptions& options) {
+bool may_go_together(const Body& body, std::span<const Member> loads, const SolveOptions& options) {
+  const auto has_plain_laws = [](const Member& member) {
+    const PointLaws& laws = member.laws;
+    return laws.swelling.empty() && laws.prony.empty() && !laws.plane_stress && !laws.in_time;
+  };
   return options.dynamics == Dynamics::relaxation && options.imposition == Imposition::exact && options.region == 0 &&
          options.snapshot_every == 0 && body.cut.empty() && !body.face_contact && !body.wall_contact &&
-         !body.septum_contact && body.laws.swelling.empty() && body.laws.prony.empty() && !body.laws.plane_stress &&
-         !body.laws.in_time;
+         !body.septum_contact && std::all_of(loads.begin(), loads.end(), has_plain_laws);
 }
 
 std::vector<MemberResult> relax_together(const Body& body, std::span<const Member> loads, const LoadCurve& curve,

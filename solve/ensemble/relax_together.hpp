@@ -18,8 +18,8 @@ namespace brainshift::solve {
 struct MemberResult {
   enum class End : std::uint8_t {
     rest,           ///< as relax() ends
-    not_converged,  ///< relax() would not either: too many steps, or rounding
-    left,           ///< it wants what an ensemble does not have: relax() it alone
+    not_converged,  ///< relax() would not either: too many steps, or rounding in double precision
+    left,           ///< it wants what an ensemble does not have, as double precision: relax() it alone
   };
   End end = End::left;
   NodalVectors parameters = {};  ///< û at rest, mm
@@ -27,9 +27,10 @@ struct MemberResult {
   int steps = 0;
 };
 
-/// Whether a body can be stepped as an ensemble: at rest it may hold prescribed displacements, exact or with noise,
-/// touch a skull and have forces; it may not be cut, parted, planar, swollen or held by the simplified imposition.
-bool may_go_together(const Body& body, const SolveOptions& options);
+/// Whether these loads of a body can be stepped as an ensemble: at rest it may hold prescribed displacements, exact or
+/// with noise, touch a skull and have forces; it may not be cut, parted, planar or held by the simplified imposition,
+/// and no member may swell or relax in time.
+bool may_go_together(const Body& body, std::span<const Member> loads, const SolveOptions& options);
 
 /// relax() of up to `members` loads of one body at once. What a step reads of the body is read once for all of them.
 /// Each has masses, damping, error bound and end of its own, so that each ends, to rounding, where and when relax()

@@ -2,14 +2,12 @@
 #include "solve/run/measured.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "solve/cut/resection.hpp"
+#include "solve/interface/unfit_parts.hpp"
 #include "solve/load/noisy_load.hpp"
 #include "solve/load/spread_out.hpp"
 #include "solve/measured/inner_rows.hpp"
@@ -30,21 +28,17 @@ constexpr std::size_t most_nodes = 500;  // of the cloud on which the weight is 
 constexpr double nodes_a_patch = 8;
 
 void check_parts(const Model& model, const SolveOptions& options) {
-  const std::array<std::pair<bool, const char*>, 7> unfit = {{
-      {options.dynamics == Dynamics::transient, "motion in time"},
-      {options.imposition == Imposition::simplified, "the simplified imposition"},
-      {options.region > 0, "a region"},
-      {!model.cuts.empty() || model.rupture, "cuts and tears"},
-      {model.septum.has_value(), "a septum"},
-      {model.resection.has_value(), "a resection"},
-      {model.plane != Plane::none, "a plane problem"},
-  }};
-  for (const auto& [there, what] : unfit) {
-    if (there) {
-      throw std::invalid_argument(std::string("a load with noise does not go with ") + what +
-                                  "; leave the one or the other out");
-    }
-  }
+  refuse_unfit("a load with noise does not go",
+               {
+                   {options.dynamics == Dynamics::transient, "motion in time"},
+                   {options.imposition == Imposition::simplified, "the simplified imposition"},
+                   {options.region > 0, "a region"},
+                   {!model.cuts.empty() || model.rupture, "cuts and tears"},
+                   {model.septum.has_value(), "a septum"},
+                   {model.resection.has_value(), "a resection"},
+                   {model.plane != Plane::none, "a plane problem"},
+               },
+               "leave the one or the other out");
 }
 
 Points stacked(const Points& above, const Points& below) {

@@ -78,15 +78,6 @@ Displacements alone(const Model& model, std::span<const Constants> constants,
   return displacements;
 }
 
-/// Whether none of these constants needs what members of an ensemble do not have.
-bool have_plain_laws(std::span<const Constants> constants) {
-  return std::all_of(constants.begin(), constants.end(), [](const Constants& c) {
-    return std::all_of(c.materials.begin(), c.materials.end(), [](const auto& material) {
-      return material.second.swelling == 0 && material.second.prony.empty();
-    });
-  });
-}
-
 std::optional<Points> whole_displacement(const Model& model, const SolveOptions& options, const Progress& progress) {
   SolveResult result = solve_whole_body(model, options, progress);
   return result.failure.empty() ? std::optional(std::move(result.solution.displacement)) : std::nullopt;
@@ -98,17 +89,17 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
                                    std::span<const Constants> constants, const Progress& progress) {
   const auto one = [&](const Model& with) { return coarse_displacement(with, options, {}); };
   const std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
-  if (nodes.size() < fewest_coarse_nodes || !have_plain_laws(constants) || !same_precision(model, options, constants)) {
+  if (nodes.size() < fewest_coarse_nodes || !same_precision(model, options, constants)) {
     return alone(model, constants, one);
   }
   try {
     CoarseBody coarse = coarse_body(nodes, model, options, progress, forces_differ(model, constants));
     const Body& body = coarse.prepared.body;
-    if (!may_go_together(body, coarse.options)) {
+    const std::vector<Member> loads = members_of(coarse.model, coarse.prepared, constants);
+    if (!may_go_together(body, loads, coarse.options)) {
       return alone(model, constants, one);
     }
-    const std::vector<MemberResult> results =
-        relax_all(body, members_of(coarse.model, coarse.prepared, constants), model.curve, coarse.options, progress);
+    const std::vector<MemberResult> results = relax_all(body, loads, model.curve, coarse.options, progress);
     const ShapeFunctions shape(coarse.model.cloud.positions, coarse.model.cloud.spacing, coarse.options.shape);
     Displacements displacements(constants.size());
     for (std::size_t m = 0; m < results.size(); ++m) {
@@ -132,7 +123,7 @@ Displacements whole_displacements(const Model& model, const SolveOptions& given,
   const SolveOptions options = completed(given, model);
   const auto one = [&](const Model& with) { return whole_displacement(with, given, progress); };
   const bool parts = !model.cuts.empty() || model.rupture;
-  if (parts || is_confined(model) || !have_plain_laws(constants) || !same_precision(model, given, constants)) {
+  if (parts || is_confined(model) || !same_precision(model, given, constants)) {
     return alone(model, constants, one);
   }
   Displacements starts(constants.size());
@@ -141,11 +132,11 @@ Displacements whole_displacements(const Model& model, const SolveOptions& given,
   }
   SolveMeasures measures;
   const Prepared prepared = prepare(model, options, {}, measures, progress, forces_differ(model, constants));
-  if (!may_go_together(prepared.body, options) || too_thin_for_quadratic(options, measures)) {
-    return alone(model, constants, one);
-  }
   Model with = model;
   std::vector<Member> loads = members_of(with, prepared, constants);
+  if (!may_go_together(prepared.body, loads, options) || too_thin_for_quadratic(options, measures)) {
+    return alone(model, constants, one);
+  }
   std::vector<std::size_t> from_start, from_rest;
   for (std::size_t m = 0; m < loads.size(); ++m) {
     (starts[m] ? from_start : from_rest).push_back(m);

@@ -44,6 +44,13 @@ bool starts_coarse(const Model& model, const SolveOptions& options) {
   return has_coarse(model, options) && model.plane == Plane::none;
 }
 
+SolveOptions of_coarse_start(SolveOptions options) {
+  constexpr double factor = 5;  // what a coarse solution is wrong by is more
+  options.tolerance *= factor;
+  options.load_steps = std::min(options.load_steps, 100);
+  return options;
+}
+
 bool too_thin_for_quadratic(const SolveOptions& options, const SolveMeasures& measures) {
   return options.shape.basis == Basis::modified_quadratic && 2 * measures.grown_supports > measures.integration_points;
 }
@@ -58,13 +65,6 @@ bool is_confined(const Model& model) {
     }
   }
   return !model.conditions.measured;
-}
-
-SolveOptions of_coarse_start(SolveOptions options) {
-  constexpr double factor = 5;  // what a coarse solution is wrong by is more
-  options.tolerance *= factor;
-  options.load_steps = std::min(options.load_steps, 100);
-  return options;
 }
 
 namespace {

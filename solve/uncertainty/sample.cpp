@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/uncertainty/sample.hpp"
 
-#include <array>
-#include <stdexcept>
-#include <string>
-#include <utility>
-
+#include "solve/interface/unfit_parts.hpp"
 #include "solve/measured/weight.hpp"
 #include "solve/run/coarse.hpp"
 #include "solve/run/prepare.hpp"
@@ -15,20 +11,16 @@
 namespace brainshift::solve {
 
 void check_sampled(const Model& model, const SolveOptions& options) {
-  const std::array<std::pair<bool, const char*>, 6> unfit = {{
-      {options.dynamics == Dynamics::transient, "motion in time"},
-      {options.region > 0, "a region"},
-      {!model.cuts.empty() || model.rupture, "cuts and tears"},
-      {model.septum.has_value(), "a septum"},
-      {model.resection.has_value(), "a resection"},
-      {model.plane != Plane::none, "a plane problem"},
-  }};
-  for (const auto& [there, what] : unfit) {
-    if (there) {
-      throw std::invalid_argument(std::string("<uncertainty> does not go with ") + what +
-                                  "; leave the one or the other out");
-    }
-  }
+  refuse_unfit("<uncertainty> does not go",
+               {
+                   {options.dynamics == Dynamics::transient, "motion in time"},
+                   {options.region > 0, "a region"},
+                   {!model.cuts.empty() || model.rupture, "cuts and tears"},
+                   {model.septum.has_value(), "a septum"},
+                   {model.resection.has_value(), "a resection"},
+                   {model.plane != Plane::none, "a plane problem"},
+               },
+               "leave the one or the other out");
 }
 
 namespace {

@@ -99,9 +99,6 @@ Responses responses_of(const KeptBody& kept, const Points& prescribed, const Sol
   options.tolerance *= closer;
   options.max_steps = std::min(options.max_steps, most_steps);
   options.snapshot_every = 0;
-  if (!may_go_together(kept.body, options)) {
-    return responses;
-  }
   const std::vector<Column> columns = columns_of(waves);
   for (std::size_t first = 0; first < columns.size(); first += members) {
     report(progress, static_cast<double>(first) / static_cast<double>(columns.size()), "responses to changes");
@@ -109,6 +106,9 @@ Responses responses_of(const KeptBody& kept, const Points& prescribed, const Sol
     std::vector<Member> loads;
     for (std::size_t c = first; c < last; ++c) {
       loads.push_back(loaded_by(columns[c], responses, kept, prescribed));
+    }
+    if (!may_go_together(kept.body, loads, options)) {
+      return responses;
     }
     const std::vector<MemberResult> moved = relax_together(kept.body, loads, {}, options, {}, true);
     for (std::size_t c = first; c < last; ++c) {

@@ -13,32 +13,28 @@ namespace {
 
 constexpr double side = 50;  // mm
 
+/// Tissue 2 is where a cell's lowest corner says so.
+template <class IsStiff>
+solve::Model two_tissues(int n, const solve::Material& soft, const solve::Material& stiff, const IsStiff& is_stiff) {
+  const Block block{Eigen::Vector3d::Constant(side), 0.8, soft};
+  solve::Model model = block.model(test::irregular_box(n, side), test::box_cells(n, side));
+  test::label_cells(model.cells, [&](const Eigen::RowVector3d& low) { return is_stiff(low) ? 2 : 1; });
+  model.materials[2] = stiff;
+  return model;
+}
+
 /// The upper half is `contrast` times as stiff.
 solve::Model layers(int n, double poisson_ratio, double contrast) {
-  const Block block{Eigen::Vector3d::Constant(side), 0.8, {3000, poisson_ratio, 1000}};
-  solve::Model model = block.model(test::irregular_box(n, side), test::box_cells(n, side));
-  for (std::size_t c = 0; c < model.cells.size(); ++c) {
-    const double low = model.cells.vertices(model.cells.connectivity[8 * c], 2);
-    model.cells.label[c] = low < side / 2 - 1e-6 ? 1 : 2;
-  }
-  model.materials[1] = block.material;
-  model.materials[2] = {contrast * 3000, poisson_ratio, 1000};
-  return model;
+  return two_tissues(n, {3000, poisson_ratio, 1000}, {contrast * 3000, poisson_ratio, 1000},
+                     [](const Eigen::RowVector3d& low) { return low[2] >= side / 2 - 1e-6; });
 }
 
 /// A core in the middle third, `contrast` times as stiff, that soft tissue alone holds: it moves as a rigid body,
 /// slowly.
 solve::Model core(int n, double contrast) {
-  const Block block{Eigen::Vector3d::Constant(side), 0.8, {3000, 0.45, 1000}};
-  solve::Model model = block.model(test::irregular_box(n, side), test::box_cells(n, side));
-  for (std::size_t c = 0; c < model.cells.size(); ++c) {
-    const Eigen::RowVector3d low = model.cells.vertices.row(model.cells.connectivity[8 * c]);
-    const bool inside = ((low.array() - side / 2 + side / (2 * n)).abs() < side / 6).all();
-    model.cells.label[c] = inside ? 2 : 1;
-  }
-  model.materials[1] = block.material;
-  model.materials[2] = {contrast * 3000, 0.49, 1000};
-  return model;
+  return two_tissues(n, {3000, 0.45, 1000}, {contrast * 3000, 0.49, 1000}, [&](const Eigen::RowVector3d& low) {
+    return ((low.array() - side / 2 + side / (2 * n)).abs() < side / 6).all();
+  });
 }
 
 /// Default options but single precision, against twenty times tighter from rest in double.

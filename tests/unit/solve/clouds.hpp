@@ -64,6 +64,14 @@ inline BackgroundCells box_cells(int n, double side) {
   return box_cells(Eigen::Vector3i::Constant(n), Eigen::Vector3d::Constant(side));
 }
 
+/// Gives each hexahedron the label that label_at says of its lowest corner, (x, y, z) mm.
+template <class LabelAt>
+void label_cells(BackgroundCells& cells, const LabelAt& label_at) {
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    cells.label[c] = label_at(Eigen::RowVector3d(cells.vertices.row(cells.connectivity[8 * c])));
+  }
+}
+
 /// Tetrahedra whose vertices are the nodes of irregular_box(n): six a cube (Kuhn's division), conforming.
 inline BackgroundCells box_tetrahedra(const NodeCloud& cloud, int n) {
   BackgroundCells cells;

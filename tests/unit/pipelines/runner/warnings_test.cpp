@@ -106,6 +106,13 @@ TEST(Warnings, TellOfABodyThatNothingButItsLoadHolds) {
   EXPECT_TRUE(warnings_of(model, shift).empty());
 }
 
+solve::SolveMeasures of_many_points() {
+  solve::SolveMeasures measures;
+  measures.nodes = 1000;
+  measures.integration_points = 8000;
+  return measures;
+}
+
 TEST(Warnings, TellOfFewPointsInAPressedBody) {
   solve::SolveMeasures measures;
   measures.nodes = 1000;
@@ -121,9 +128,7 @@ TEST(Warnings, TellOfFewPointsInAPressedBody) {
 }
 
 TEST(Warnings, TellOfFewSpacingsAcrossAPatch) {
-  solve::SolveMeasures measures;
-  measures.nodes = 1000;
-  measures.integration_points = 8000;
+  solve::SolveMeasures measures = of_many_points();
   measures.thin = {{"the held patch", 3.2}};
   expect_parts(warnings_of(measures).front(), {"nothing says how far off", "the held patch 3.2"});
   measures.estimated_error_95 = 0.3;
@@ -131,9 +136,7 @@ TEST(Warnings, TellOfFewSpacingsAcrossAPatch) {
 }
 
 TEST(Warnings, TellOfVolumeUnderHighPressure) {
-  solve::SolveMeasures measures;
-  measures.nodes = 1000;
-  measures.integration_points = 8000;
+  solve::SolveMeasures measures = of_many_points();
   measures.pressed_share = 0.02;
   EXPECT_TRUE(warnings_of(measures).empty());
   measures.pressed_share = 0.41;
@@ -142,9 +145,7 @@ TEST(Warnings, TellOfVolumeUnderHighPressure) {
 }
 
 TEST(Warnings, TellOfACavityThatIsPressedFlat) {
-  solve::SolveMeasures measures;
-  measures.nodes = 1000;
-  measures.integration_points = 8000;
+  solve::SolveMeasures measures = of_many_points();
   measures.resection = solve::ResectionMeasures{.removed_volume = 2000, .wall_nodes = 50};
   EXPECT_TRUE(warnings_of(measures).empty()) << "it lies open";
   measures.resection->volume = 200;

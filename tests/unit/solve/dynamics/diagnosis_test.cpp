@@ -64,9 +64,7 @@ TEST(Diagnosis, NamesTheSoftTissueBesideAStiffOne) {
   model.materials[2] = {3e6, 0.3, 1000};
   model.materials[7] = {10, 0.3, 1000};
   model.materials.erase(1);
-  for (std::size_t c = 0; c < model.cells.size(); ++c) {
-    model.cells.label[c] = model.cells.vertices(model.cells.connectivity[8 * c], 2) > 1 ? 2 : 7;
-  }
+  test::label_cells(model.cells, [](const Eigen::RowVector3d& low) { return low[2] > 1 ? 2 : 7; });
   const SolveResult result = solve(model, {});
   EXPECT_NE(result.failure.find("tissue 7 is 300000 times softer than tissue 2"), std::string::npos) << result.failure;
   EXPECT_LE(model.cloud.positions(named_node(result.failure, model.cloud), 2), side / 2) << result.failure;

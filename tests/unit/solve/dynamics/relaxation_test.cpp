@@ -55,9 +55,7 @@ TEST(Relaxation, BalancesItsEnergiesWhileItsMassesGrow) {
 /// A stiff half upon a soft one, pushed aside: in single precision it ends three times its bound off.
 TEST(Relaxation, BoundsTheErrorOfAStiffPartThatWeighsOnASoftOne) {
   Model model = box_model(test::box_cells(4, side), 5);
-  for (std::size_t cell = 0; cell < model.cells.size(); ++cell) {
-    model.cells.label[cell] = model.cells.vertices(model.cells.connectivity[8 * cell], 2) < side / 2 - 1 ? 1 : 2;
-  }
+  test::label_cells(model.cells, [](const Eigen::RowVector3d& low) { return low[2] < side / 2 - 1 ? 1 : 2; });
   model.materials[2] = {1.5e6, 0.49, 1000};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     if (model.cloud.positions(a, 2) < 1e-9) {

@@ -142,13 +142,13 @@ TEST(RelaxTogether, IsTheSameBitForBitForAnyNumberOfThreads) {
 
 TEST(RelaxTogether, SaysWhatItDoesNotGoWith) {
   const Pressed pressed(0.003);
-  EXPECT_TRUE(may_go_together(pressed.body(), pressed.options));
+  std::vector<Member> loads = pressed.loads(2);
+  EXPECT_TRUE(may_go_together(pressed.body(), loads, pressed.options));
   SolveOptions simplified = pressed.options;
   simplified.imposition = Imposition::simplified;
-  EXPECT_FALSE(may_go_together(pressed.body(), simplified));
-  Body swelling = pressed.body();
-  swelling.laws.swelling = {0.1};
-  EXPECT_FALSE(may_go_together(swelling, pressed.options));
+  EXPECT_FALSE(may_go_together(pressed.body(), loads, simplified));
+  loads.back().laws.swelling = {0.1};
+  EXPECT_FALSE(may_go_together(pressed.body(), loads, pressed.options));
 }
 
 }  // namespace brainshift::solve::relax_together_test

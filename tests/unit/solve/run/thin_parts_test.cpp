@@ -13,9 +13,7 @@ namespace brainshift::solve::thin_parts_test {
 /// A cube of 6³ nodes, 12 mm apart, whose lower 24 mm are of another tissue, with a disc on its top moved.
 Model layered(double radius) {
   Model model = uniaxial(1, 6);
-  for (std::size_t cell = 0; cell < model.cells.size(); ++cell) {
-    model.cells.label[cell] = model.cells.vertices(model.cells.connectivity[8 * cell], 2) < 23 ? 2 : 1;
-  }
+  test::label_cells(model.cells, [](const Eigen::RowVector3d& low) { return low[2] < 23 ? 2 : 1; });
   model.materials[2] = {3000, 0.3, 1000};
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const Eigen::RowVector3d x = model.cloud.positions.row(a);

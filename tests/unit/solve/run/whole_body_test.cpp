@@ -188,10 +188,8 @@ TEST(WholeBody, IsPointwiseWhereThePrescribedVolumePutsItUnderHighPressure) {
 TEST(WholeBody, SaysThatATissueIsUnderHighPressureWhereTheSurfaceIsFree) {
   Model model = uniaxial(0.8, 7);
   EXPECT_EQ(solve_whole_body(model, {}, {}).measures.pressed_share, 0);
-  for (std::size_t cell = 0; cell < model.cells.size(); ++cell) {
-    const Eigen::RowVector3d low = model.cells.vertices.row(model.cells.connectivity[8 * cell]);
-    model.cells.label[cell] = low.minCoeff() > 19 && low.maxCoeff() < 31 ? 2 : 1;
-  }
+  test::label_cells(model.cells,
+                    [](const Eigen::RowVector3d& low) { return low.minCoeff() > 19 && low.maxCoeff() < 31 ? 2 : 1; });
   model.materials[1].poisson_ratio = 0.3;
   model.materials[2] = {0.3, 0.49, 1000};
   const SolveResult result = solve_whole_body(model, {}, {});
@@ -254,10 +252,7 @@ TEST(WholeBody, SaysWhatItDoesAndHowLongItTook) {
 
 TEST(WholeBody, WithoutItsResectionIsTheRest) {
   Model model = uniaxial(1.1, 7);
-  for (std::size_t cell = 0; cell < model.cells.size(); ++cell) {
-    const Eigen::Index corner = model.cells.connectivity[8 * cell];
-    model.cells.label[cell] = model.cells.vertices(corner, 2) > 0.7 * model_side ? 2 : 1;
-  }
+  test::label_cells(model.cells, [](const Eigen::RowVector3d& low) { return low[2] > 0.7 * model_side ? 2 : 1; });
   model.materials[2] = model.materials[1];
   EXPECT_FALSE(solve_whole_body(model, {}, {}).measures.resection);
   model.resection = Resection{.labels = {2}};
