@@ -8,6 +8,7 @@
 #include "segmentation/geometry/surface_tree.hpp"
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/fluid_force.hpp"
+#include "solve/force/firmness.hpp"
 #include "solve/force/stiffness_bound.hpp"
 #include "solve/shape/too_few_nodes.hpp"
 
@@ -192,6 +193,10 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
   PointBlocks blocks = point_blocks(parts.points, parts.point_rows, parts.materials.row_of_point, cloud.size(),
                                     parts.patches, options.precision);
   check_supported(blocks, cloud);
+  PointLaws laws = point_laws(parts.materials, model.plane, options.dynamics);
+  if (!in_time) {  // in time stiff nodes set the step, which is not to become shorter
+    blocks.felt = felt_tissues(blocks, laws.elastic.size());
+  }
   Body body{
       .original = cloud.original,
       .positions = in_original_order(cloud.positions, cloud.original),
@@ -200,7 +205,7 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
       .nodal_rows = parts.nodal_rows,
       .points = std::move(blocks),
       .placed = in_order(parts.points, parts.patches.order),
-      .laws = point_laws(parts.materials, model.plane, options.dynamics),
+      .laws = std::move(laws),
       .prony = in_time ? parts.materials.prony : std::vector<std::vector<PronyTerm>>(),
       .mass = {},
       .essential = essential_conditions(options, parts),

@@ -8,8 +8,7 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int recent_windows = 4;         // that the bound looks back on
-constexpr std::ptrdiff_t long_time = 10;  // windows of a standstill
+constexpr int recent_windows = 4;  // that the bound looks back on
 
 double largest_recent(const std::vector<double>& values) {
   return *std::max_element(values.end() - recent_windows, values.end());
@@ -33,16 +32,17 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded, double roun
 
 bool ErrorBound::stands_still(double rounding) const {
   constexpr double even = 0.9;
-  if (loaded_ < 2 * long_time) {
+  const std::ptrdiff_t half = standstill / 2 / window_;
+  if (loaded_ < 2 * half) {
     return false;
   }
-  const double now = *std::max_element(moved_.end() - long_time, moved_.end());
-  const double before = *std::max_element(moved_.end() - 2 * long_time, moved_.end() - long_time);
+  const double now = *std::max_element(moved_.end() - half, moved_.end());
+  const double before = *std::max_element(moved_.end() - 2 * half, moved_.end() - half);
   return now <= rounding && now >= even * before && before >= even * now;
 }
 
 double ErrorBound::at_standstill(double slowest_rate) {
-  value_ = slowest_rate / (1 - slowest_rate) * *std::max_element(moved_.end() - long_time, moved_.end());
+  value_ = slowest_rate / (1 - slowest_rate) * *std::max_element(moved_.end() - standstill / 2 / window_, moved_.end());
   return value_;
 }
 

@@ -22,8 +22,11 @@ class ErrorBound {
   /// mm; infinite until there are enough windows under the whole load.
   double value() const { return value_; }
 
-  /// Whether steps under the whole load have stopped growing shorter: for ten windows they are as large as in the ten
-  /// before, and no larger than `rounding`, mm. The bound then stays what it is.
+  /// Steps without progress that are a standstill.
+  static constexpr int standstill = 400;
+
+  /// Whether steps under the whole load have stopped growing shorter: in the last half of a standstill they are as
+  /// large as in the half before, and no larger than `rounding`, mm. The bound then stays what it is.
   bool stands_still(double rounding) const;
 
   /// Of steps that stand still: none but motions of this rate a step or slower can be left, so the bound is what such a

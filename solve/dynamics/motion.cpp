@@ -189,7 +189,7 @@ void Motion::start_from(const NodalVectors& parameters, double smallest_jacobian
   fraction_ = fraction_before_ = 1;
   time = 1;
   body.essential.apply(fraction_, now);
-  before = next = now;
+  before = next = good_ = now;
   squeezed_to_ = smallest_jacobian;
   looks_before_books_ = 2;
 }

@@ -43,7 +43,7 @@ class Relaxation {
         options_(options),
         motion_(std::move(body), options.snapshot_every),
         force_before_(motion_.force),
-        pace_(options.load_steps, course.change.by_state),
+        pace_(steps_of_load(options.load_steps, laws()), course.change.by_state),
         cautious_(cautious) {
     if (course_.settled) {
       mass_ = course_.settled->mass;
@@ -88,7 +88,7 @@ class Relaxation {
         }
         if (bound_.stands_still(rounding())) {
           error_bound_ = bound_.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue)));
-          if (error_bound_ <= tolerance() && no_change_is_left()) {
+          if (ends_soundly() && error_bound_ <= tolerance() && no_change_is_left()) {
             return finish();
           }
           fail_at_standstill();
@@ -248,9 +248,12 @@ class Relaxation {
   double rounding_of_places() const { return rounding_of_step(farthest_, Precision::double_precision); }
 
   void fail_at_standstill() {
+    if (!motion_.result.failure.empty()) {
+      return;
+    }
     motion_.result.rounded = points().precision() == Precision::single_precision;
     std::ostringstream text;
-    text << "not converged: since step " << motion_.result.steps - 20 * window_
+    text << "not converged: since step " << motion_.result.steps - ErrorBound::standstill
          << " the body moves by no more than rounding, with an error bound of " << bound_.value() << " mm where "
          << tolerance() << " mm are wanted; take a larger tolerance"
          << (motion_.result.rounded ? " or double precision" : "");

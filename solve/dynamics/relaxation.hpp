@@ -33,7 +33,7 @@ inline int calm_rows(int before, double residual) {
 /// with the bound of the stiffness as mass, scaled to the largest eigenvalue A_m = 1 that power iteration finds (should
 /// that prove unstable, once more with the bound itself). α is fixed, β = (1 − √(α A_0))² damps
 /// the lowest active eigenvalue A_0 critically; it is estimated from the increments, A_0 ≈ ΔûᵀΔf/(ΔûᵀMΔû). Masses
-/// follow the tangents of the state reached. The load's curve is run through in options.load_steps, of a body that may
+/// follow the tangents of the state reached. The load's curve is run through in steps_of_load(), of a body that may
 /// tear more slowly where it would else not be at rest, and hardly on while a tear runs. Stops when the bound of the
 /// remaining error, ρ/(1 − ρ) |û⁺ − û|∞ with ρ the slower of the measured rate and √β, is below the tolerance.
 SteppingResult relax(Body body, const Course& course, const SolveOptions& options, const Progress& progress);

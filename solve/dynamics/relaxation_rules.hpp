@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <variant>
 
 #include "solve/force/point_laws.hpp"
 #include "solve/interface/options.hpp"
@@ -37,6 +38,19 @@ inline double bounded_eigenvalue(double eigenvalue) {
 /// Windows between looks at the stiffness.
 inline int windows_to_stiffness(bool loaded) {
   return loaded ? 10 : 3;
+}
+
+/// Steps over the load's curve. Tissue that hardly changes its volume gives way by shear, √(K/µ) slower than by volume,
+/// by which steps are measured. A load that comes sooner may fold it: a plate at ν = 0.499, pressed by a quarter in 400
+/// steps, came to rest with a corner turned in, in 600 as it should. In plane stress the volume is free.
+inline int steps_of_load(int asked, const PointLaws& laws) {
+  constexpr double in_time = 100, slowest = 500;  // K / µ; beyond it, as measured, nothing is gained
+  double bulk = in_time;
+  for (const auto& elastic : laws.elastic) {
+    bulk = std::max(bulk, std::visit([](const auto& law) { return law.bulk_modulus / law.shear_modulus; }, elastic));
+  }
+  const double times = laws.plane_stress ? 1.0 : std::sqrt(std::min(bulk, slowest) / in_time);
+  return static_cast<int>(std::min(asked * times, double{std::numeric_limits<int>::max()}));
 }
 
 /// A step of a node that is no longer than this is made of rounding, mm: along each axis of differences of sums of ten

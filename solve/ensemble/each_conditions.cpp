@@ -53,7 +53,9 @@ EachConditions::EachConditions(const EssentialConditions& essential, std::span<c
     for (std::size_t i = 0; i < size; ++i) {
       numbers(c.prescribed[i].of) = all.prescribed[static_cast<Eigen::Index>(i)];
       for (std::size_t m = 0; m < prescribed.size() && i < all.node.size(); ++m) {
-        c.prescribed[i].of[m] = prescribed[m](all.node[i], static_cast<Eigen::Index>(axis));
+        if (prescribed[m].rows() > 0) {
+          c.prescribed[i].of[m] = prescribed[m](all.node[i], static_cast<Eigen::Index>(axis));
+        }
       }
     }
   }

@@ -16,8 +16,8 @@ namespace brainshift::solve {
 /// pattern, so one order of elimination serves them all, and a column of L is read once.
 class EachConditions {
  public:
-  /// prescribed: one a member, (n × 3) mm as `essential` was made from, NaN at the same components; none: those of
-  /// `essential`.
+  /// prescribed: one a member, (n × 3) mm as `essential` was made from, NaN at the same components; none, or of a
+  /// member no rows: those of `essential`.
   EachConditions(const EssentialConditions& essential, std::span<const Points> prescribed);
 
   /// EssentialConditions::factorise() of the chosen members. Throws as that does.

@@ -24,9 +24,7 @@ std::vector<PointLaws> laws_of(std::span<const Member> loads) {
 std::vector<Points> prescribed_of(std::span<const Member> loads) {
   std::vector<Points> prescribed;
   for (const Member& load : loads) {
-    if (load.prescribed.rows() > 0) {
-      prescribed.push_back(load.prescribed);
-    }
+    prescribed.push_back(load.prescribed);
   }
   return prescribed;
 }

@@ -41,7 +41,7 @@ class Ensemble {
         options_(options),
         patient_(patient),
         motion_(body, loads),
-        pace_(options.load_steps, false),
+        pace_(steps_of_load(options.load_steps, loads.front().laws), false),
         results_(loads.size()) {
     std::fill_n(active_.begin(), loads.size(), true);
     motion_.find_force();
@@ -60,6 +60,12 @@ class Ensemble {
       motion_.start_from(loads);
       pace_.skip();
       follow_stiffness(active_);
+      return;
+    }
+    for (std::size_t m = 0; m < loads.size(); ++m) {  // one pace is for all
+      if (steps_of_load(options.load_steps, loads[m].laws) != steps_of_load(options.load_steps, loads.front().laws)) {
+        end(m, MemberResult::End::left);
+      }
     }
   }
 

@@ -46,6 +46,7 @@ struct PointBlocks {
   std::vector<std::int32_t> slot_node;   ///< one a slot: node
   std::vector<std::int64_t> node_begin;  ///< (nodes + 1) offsets into node_slot
   std::vector<std::int32_t> node_slot;   ///< the slots of a node, in block order
+  std::vector<double> felt;              ///< felt_tissues() of a body that comes to rest; empty in time
 
   std::size_t points() const { return volume.size(); }
   std::size_t nodes() const { return node_begin.size() - 1; }
@@ -53,6 +54,9 @@ struct PointBlocks {
   std::span<const std::uint16_t> slots_of(std::int32_t point) const {
     return std::span(pair_slot).subspan(static_cast<std::size_t>(pair_begin[static_cast<std::size_t>(point)]),
                                         support_size(point));
+  }
+  std::int32_t node_of(const Block& block, std::uint16_t slot) const {
+    return slot_node[static_cast<std::size_t>(block.first_slot) + slot];
   }
   std::size_t support_size(std::int32_t point) const { return support[static_cast<std::size_t>(point)]; }
   Eigen::Vector4d modes_of(std::int32_t point) const {

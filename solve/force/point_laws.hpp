@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "solve/material/elastic_law.hpp"
@@ -17,5 +18,14 @@ struct PointLaws {
   bool plane_stress = false;          ///< F_33 follows from P_33 = 0; patches are then single points
   bool in_time = false;               ///< a transient run: it follows how fast J falls at each point
 };
+
+/// µ of each row, Pa.
+inline std::vector<double> shear_moduli(const PointLaws& laws) {
+  std::vector<double> moduli;
+  for (const ElasticLaw& elastic : laws.elastic) {
+    moduli.push_back(std::visit([](const auto& law) { return double{law.shear_modulus}; }, elastic));
+  }
+  return moduli;
+}
 
 }  // namespace brainshift::solve

@@ -24,9 +24,7 @@ struct Measurement {
   Points inner_sigma = Points(0, 3);          ///< mm, > 0
   Points cortex = Points(0, 3);               ///< the points of the cortex, undeformed, mm
   Points cortex_displacement = Points(0, 3);  ///< as measured there, before it was extended, mm
-  /// What lessen_outliers() left of each point's weight, those of the cortex first, 0 to 1; empty: not asked.
-  Eigen::VectorXd trust = {};
-  double weight = 0;                  ///< s, mJ; 0: chosen by choose_weight()
+  double weight = 0;                          ///< s, mJ; 0: chosen by choose_weight()
   bool registration_unknown = false;  ///< what was measured may hold a rigid motion of the patient against the image
   Points asked = Points(0, 3);        ///< undeformed places whose spread is wanted, mm
 };

@@ -57,7 +57,7 @@ struct SolveOptions {
   Dynamics dynamics = Dynamics::relaxation;
   /// Relaxation: stop when the bound of the remaining error is below this, mm, and below 1/50 of the displacement.
   double tolerance = 0.01;
-  int load_steps = 400;  ///< relaxation: steps over the load's curve; more where a body may tear
+  int load_steps = 400;  ///< relaxation: steps over the load's curve; more by steps_of_load(), or where a body may tear
   /// Relaxation of a whole body in space. A coarse start is one from Model::last where there is one. It is one from
   /// rest all the same for a body that is cut or torn, where snapshots are wanted or the load's curve does not end at
   /// 1; and without a last state for a body that is resected or parted by a septum, and where the coarse cloud cannot

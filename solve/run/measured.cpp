@@ -267,7 +267,6 @@ LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const 
       opening);
   weighed.force = std::move(model.conditions.force);
   weighed.measured->weight = weight;
-  weighed.measured->trust = trust(kept);
   model.conditions = std::move(weighed);
   return {seen.positions(lessened, Eigen::all), trust.size()};
 }

@@ -51,8 +51,8 @@ Conditions weighed_conditions(const Model& model, const MeasuredFit& fit);
 
 /// solve() of a model whose conditions were measured with noise: the prior is chosen on a cloud of some hundred of the
 /// nodes, choose_weight(), unless the conditions name a weight. Throws as solve() does, and std::invalid_argument with
-/// a part that noise does not go with: motion in time, the simplified imposition, a region, cuts, tears, a resection, a
-/// plane problem.
+/// a part that noise does not go with: motion in time, the simplified imposition, a region, cuts, tears, a septum, a
+/// resection, a plane problem.
 SolveResult solve_measured(const Model& model, const SolveOptions& options, const Progress& progress);
 
 }  // namespace brainshift::solve

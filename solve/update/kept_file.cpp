@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view format = "brainshift kept run 3\n";
+constexpr std::string_view format = "brainshift kept run 4\n";
 constexpr std::size_t head_size = 256;
 
 /// Tells damage; eight bytes at a time, every fourth in a sum of its own, which do not wait for each other.
@@ -92,6 +92,7 @@ void blocks(Archive& archive, Blocks& points) {
   archive.many(points.slot_node);
   archive.many(points.node_begin);
   archive.many(points.node_slot);
+  archive.many(points.felt);
 }
 
 /// But laws, conditions, contact and forces.

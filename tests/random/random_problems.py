@@ -6,10 +6,12 @@
 
 Each seed is written as files and solved by `brainshift solve`, then once more on a finer regular cloud with cells that
 conform (or by CalculiX, or on paper), and on its own nodes to a fiftieth of the bound, from rest, in double precision.
-DIR/problems.csv has a row a seed; seeds that are in it are not run again. Ends with 1 when a verdict is not "good".
+DIR/problems.csv has a row a seed; seeds that this program has solved are not run again. Ends with 1 when a verdict is
+neither "good" nor one that says that the reference or the state at rest could not be had.
 """
 import argparse
 import csv
+import hashlib
 import json
 import math
 import os
@@ -117,8 +119,8 @@ def judge(seed, arguments):
     part = 20 if problem.small else 50
     tight = Run(arguments.program, [*given, "--precision", "double", "--tolerance", max(bound / part, 1e-7), "--start",
                                     "rest"], folder / "tight", 4 * arguments.seconds)
-    if tight.exit not in (0, 3):
-        faults.append("tight")
+    if tight.exit != 0:
+        faults.append("tight" if tight.exit != 3 else "bound unknown")
     if tight.exit == 0:
         row["off_by"] = max(distances(displacement, tight.solution()["displacement"], n))
         if row["off_by"] > bound:
@@ -155,8 +157,11 @@ def main():
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     file_of_rows = arguments.out / "problems.csv"
-    if arguments.anew:
+    made_by = arguments.out / "made_by"  # rows of another program or of other options say nothing of this one
+    key = f"{hashlib.sha256(open(arguments.program, 'rb').read()).hexdigest()} {arguments.small} {arguments.calculix}"
+    if arguments.anew or not made_by.exists() or made_by.read_text() != key:
         file_of_rows.unlink(missing_ok=True)
+    made_by.write_text(key)
     rows = list(csv.DictReader(open(file_of_rows))) if file_of_rows.exists() else []
     done = {int(row["seed"]) for row in rows}
     with open(file_of_rows, "a", newline="") as file:
@@ -176,7 +181,7 @@ def main():
                   flush=True)
             if row["verdict"] == "good" and not arguments.keep:
                 shutil.rmtree(arguments.out / str(seed))
-    bad = [row for row in rows if row["verdict"] not in ("good", "neither solves")]
+    bad = [row for row in rows if row["verdict"] not in ("good", "neither solves", "bound unknown")]
     return 1 if bad else 0
 
 

@@ -57,7 +57,7 @@ TEST(ErrorBound, DoesNotCountUntilTheWholeLoadIsOn) {
 TEST(ErrorBound, StandsStillWhereRoundingKeepsTheStepsAlike) {
   constexpr double rounding = 1e-6;
   ErrorBound bound = after(10, 0.9);
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < ErrorBound::standstill / window; ++k) {
     EXPECT_FALSE(bound.stands_still(rounding)) << k;
     bound.add(k % 3 == 0 ? 0.9e-6 : 0.5e-6, 0, true);
   }
@@ -66,9 +66,20 @@ TEST(ErrorBound, StandsStillWhereRoundingKeepsTheStepsAlike) {
   EXPECT_FALSE(after(100, 0.998).stands_still(1)) << "slow, but it comes nearer";
 }
 
+/// Windows of an update are short: forty steps alike are no standstill.
+TEST(ErrorBound, StandsStillAfterAsManyStepsWhateverTheWindow) {
+  constexpr int short_window = 2;
+  ErrorBound bound(short_window);
+  for (int step = 0; step < ErrorBound::standstill; step += short_window) {
+    EXPECT_FALSE(bound.stands_still(1e-6)) << step;
+    bound.add(1e-6, 0, true);
+  }
+  EXPECT_TRUE(bound.stands_still(1e-6));
+}
+
 TEST(ErrorBound, AtAStandstillIsWhatTheSlowestMotionHasStillToGo) {
   ErrorBound bound = after(10, 1.0);
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < ErrorBound::standstill / window; ++k) {
     bound.add(k % 3 == 0 ? 2e-9 : 1e-9, 0.9, true);
   }
   EXPECT_NEAR(bound.at_standstill(0.999), 999 * 2e-9, 1e-12);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solve/force/firmness.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/material/material_table.hpp"
 #include "tests/unit/solve/chapter_critical_step.hpp"
@@ -153,6 +154,13 @@ INSTANTIATE_TEST_SUITE_P(Laws, StiffnessBound,
                          });
 
 TEST_P(StiffnessBound, BoundsTheStiffnessInEveryDirection) {
+  for (const NodalVectors& u : states()) {
+    expect_bounded(body, u);
+  }
+}
+
+TEST_P(StiffnessBound, BoundsItWhereFirmNodesTakeMoreOfItToo) {
+  body.points.felt = felt_tissues(body.points, body.laws.elastic.size());
   for (const NodalVectors& u : states()) {
     expect_bounded(body, u);
   }

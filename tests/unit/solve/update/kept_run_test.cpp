@@ -44,4 +44,22 @@ TEST(KeptRun, IsAtOnceBackAtItsOwnLoad) {
   EXPECT_LT(back.measures.steps, there);
 }
 
+/// Steps are then made of rounding from the first on.
+TEST(KeptRun, AnswersTheSameLoadAgainInSinglePrecision) {
+  const Model own = uniaxial(0.9, 5);
+  SolveOptions single = options();
+  single.tolerance = 0.005;
+  single.precision = Precision::single_precision;
+  KeptRun run = keep(own, single, solve(own, single).solution.displacement);
+  ASSERT_EQ(run.options.precision, Precision::single_precision);
+  const Points before = run.displacement;
+  for (int again = 0; again < 12; ++again) {
+    const double factor = 1 + again * 1e-9;
+    const SolveResult answer = update(run, factor * own.conditions.displacement);
+    ASSERT_TRUE(answer.measures.converged) << answer.failure;
+    EXPECT_LE(distance(answer.solution.displacement, before), single.tolerance) << again;
+    EXPECT_FALSE(answer.history.empty());
+  }
+}
+
 }  // namespace brainshift::solve::kept_run_test

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/dynamics/relaxation_rules.hpp"
+
+#include <gtest/gtest.h>
+
+#include "solve/material/material_table.hpp"
+
+namespace brainshift::solve::relaxation_rules_test {
+
+/// Of a body of these tissues.
+int steps(std::vector<double> poisson_ratios, bool plane_stress = false, int asked = 400) {
+  PointLaws laws;
+  for (const double ratio : poisson_ratios) {
+    laws.elastic.push_back(elastic_law({.poisson_ratio = ratio}));
+  }
+  laws.plane_stress = plane_stress;
+  return steps_of_load(asked, laws);
+}
+
+TEST(StepsOfLoad, AreThoseThatAreAskedForWhereVolumeAndShapeGiveWayAlike) {
+  EXPECT_EQ(steps({0.0}), 400);
+  EXPECT_EQ(steps({0.49}), 400);
+  EXPECT_EQ(steps({0.495}), 400);
+}
+
+TEST(StepsOfLoad, AreMoreWhereShearIsSlowerUpToABound) {
+  EXPECT_NEAR(steps({0.45, 0.498}), 400 * std::sqrt(2.497), 1);  // K / µ = 2 (1 + ν) / 3 (1 − 2ν) = 249.7
+  EXPECT_NEAR(steps({0.4999}), 400 * std::sqrt(5.0), 1);
+  EXPECT_EQ(steps({0.4999}), steps({0.49999}));
+  EXPECT_EQ(steps({0.4999}, false, std::numeric_limits<int>::max()), std::numeric_limits<int>::max());
+}
+
+TEST(StepsOfLoad, AreThoseThatAreAskedForInPlaneStress) {
+  EXPECT_EQ(steps({0.4999}, true), 400);
+}
+
+}  // namespace brainshift::solve::relaxation_rules_test
