@@ -56,6 +56,9 @@ LiveRun prepared(const LiveArguments& arguments, const Settings& settings) {
 /// Until the program is interrupted.
 [[noreturn]] void answer_all(const LiveArguments& arguments, const Settings& settings) {
   LiveRun run = prepared(arguments, settings);
+  if (!run.not_kept().empty()) {
+    std::fprintf(stderr, "brainshift: the next start prepares the run again: %s\n", printable(run.not_kept()).c_str());
+  }
   FileWatch watch(arguments.load);
   if (!settings.quiet) {
     std::printf("watching %s; Ctrl-C ends it\n", printable(arguments.load.string()).c_str());

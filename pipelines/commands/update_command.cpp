@@ -66,7 +66,9 @@ void update(const UpdateArguments& arguments, const Settings& settings) {
   };
   const auto begin = std::chrono::steady_clock::now();
   if (arguments.load.empty()) {
-    const UpdatedRun prepared(arguments.run, *settings.interruption, progress);
+    if (const UpdatedRun prepared(arguments.run, *settings.interruption, progress); !prepared.not_kept().empty()) {
+      throw std::runtime_error(prepared.not_kept());
+    }
     return;
   }
   const fs::path out = out_of(arguments) / stage_name(StageId::solve);

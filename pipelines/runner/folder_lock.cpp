@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <stdexcept>
+#include <string>
 
 #include "segmentation/files/make_folder.hpp"
 
@@ -24,7 +25,7 @@ bool is_still(const std::filesystem::path& folder, int file) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder) : file_(-1) {
+FolderLock::FolderLock(const std::filesystem::path& folder, std::string_view advice) : file_(-1) {
   while (file_ < 0) {
     make_folder(folder);
     file_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -34,8 +35,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(-1) {
     // Some network file systems know no locks: there the folder is taken without one.
     if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(file_);
-      throw std::runtime_error(folder.string() +
-                               ": another run is working in this folder; wait for it or choose another --out");
+      throw std::runtime_error(folder.string() + ": another run is working in this folder; " + std::string(advice));
     }
     if (file_ >= 0 && !is_still(folder, file_)) {
       close(file_);

@@ -13,7 +13,6 @@
 #include "register/files/transform_files.hpp"
 #include "register/files/write_transform.hpp"
 #include "register/warp/warp.hpp"
-#include "segmentation/files/make_folder.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/output/solution_file.hpp"
@@ -49,6 +48,7 @@ std::string name_of(int number) {
 LiveRun::LiveRun(const fs::path& run, bool with_image, Interruption& interruption, const Progress& progress)
     : run_(fs::absolute(run).lexically_normal()), live_(run_ / "live"), interruption_(interruption) {
   updated_.emplace(run_, interruption_, progress);
+  not_kept_ = updated_->not_kept();
   const Scene& scene = updated_->scene();
   options_ = scene.registration;
   const fs::path image = !scene.image.t1.empty() ? scene.image.t1 : run_ / "segment" / "labels.nii.gz";
@@ -64,7 +64,7 @@ LiveRun::LiveRun(const fs::path& run, bool with_image, Interruption& interruptio
   if (with_image) {
     t1_ = std::move(t1);
   }
-  make_folder(live_);
+  lock_.emplace(live_, "end it first");
   number_ = last_number(live_);
 }
 

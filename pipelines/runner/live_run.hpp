@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "pipelines/runner/folder_lock.hpp"
 #include "pipelines/runner/interruption.hpp"
 #include "pipelines/runner/update_run.hpp"
 #include "register/field/repeated_field.hpp"
@@ -13,7 +14,8 @@
 namespace brainshift::pipelines {
 
 /// A finished run in memory that answers one load after another with transforms, each in a folder of its own,
-/// RUN/live/NUMBER, that appears when it is whole. Numbers go on from those that are there.
+/// RUN/live/NUMBER, that appears when it is whole. Numbers go on from those that are there; it holds RUN/live against
+/// other processes, whose numbers would be the same.
 class LiveRun {
  public:
   /// with_image: the T1 is warped, too. Throws as UpdatedRun does, and where there is no T1 to warp.
@@ -29,6 +31,9 @@ class LiveRun {
   /// not be answered. The run is then read again before the next answer.
   Answer answer(const std::filesystem::path& load);
 
+  /// UpdatedRun::not_kept() of the run as it was read first.
+  const std::string& not_kept() const { return not_kept_; }
+
   /// Adds warped.nii.gz to the last answer. Only with an image.
   void warp_image();
 
@@ -37,10 +42,12 @@ class LiveRun {
 
   std::filesystem::path run_, live_;
   Interruption& interruption_;
+  std::optional<FolderLock> lock_;
   std::optional<UpdatedRun> updated_;
   std::optional<registration::RepeatedField> field_;
   std::optional<ScalarImage> t1_;
   registration::RegisterOptions options_;
+  std::string not_kept_;
   int number_ = 0;          ///< of the last answer
   VectorImage resampling_;  ///< of the last answer
 };

@@ -19,23 +19,23 @@ solve::RigidMotion motion_of(const solve::MeasuredFit& fit) {
 
 }  // namespace
 
-solve::RigidMotion patient_registration(const solve::CraniotomyLoad& load, const solve::SolveOptions& options,
-                                        const std::function<void(const solve::CraniotomyLoad&, solve::Model&)>& impose,
-                                        solve::Model& model) {
+PatientRegistration patient_registration(const solve::CraniotomyLoad& load, const solve::SolveOptions& options,
+                                         const std::function<void(const solve::CraniotomyLoad&, solve::Model&)>& impose,
+                                         solve::Model& model) {
   constexpr int most_rounds = 6;
-  constexpr double at_rest = 0.01;  // mm
-  solve::RigidMotion whole = solve::fit_rigid(load.positions, load.positions + load.displacement, load.sigma);
-  for (int round = 0; round < most_rounds; ++round) {
+  PatientRegistration found{.motion = solve::fit_rigid(load.positions, load.positions + load.displacement, load.sigma)};
+  solve::RigidMotion& whole = found.motion;
+  for (int round = 0;; ++round) {
     impose(solve::registered(load, whole), model);
     model.conditions.measured->registration_unknown = true;
     const solve::MeasuredFit fit = solve::fit_measured(model, options);
-    if (fit.motion.cwiseAbs().maxCoeff() <= at_rest) {
-      break;
+    found.open = fit.motion.cwiseAbs().maxCoeff();
+    if (found.open <= registration_at_rest || round == most_rounds) {
+      return found;
     }
     const solve::RigidMotion more = motion_of(fit);
     whole = {whole.rotation * more.rotation, whole.rotation * more.translation + whole.translation};
   }
-  return whole;
 }
 
 }  // namespace brainshift::pipelines

@@ -8,11 +8,20 @@
 
 namespace brainshift::pipelines {
 
+/// mm: a registration that moves by less has come to rest.
+inline constexpr double registration_at_rest = 0.01;
+
+struct PatientRegistration {
+  solve::RigidMotion motion;
+  double open = 0;  ///< mm that the last round would have moved it by
+};
+
 /// The rigid transform T between image and tracker that a load with noise tells: what is measured at y lies at T⁻¹ y in
 /// the frame of the image. Begins with the best fit of the points and goes on by the motion that fit_measured() finds
-/// beside the deformation, until it rests. impose: sets the conditions of the model from a load.
-solve::RigidMotion patient_registration(const solve::CraniotomyLoad& load, const solve::SolveOptions& options,
-                                        const std::function<void(const solve::CraniotomyLoad&, solve::Model&)>& impose,
-                                        solve::Model& model);
+/// beside the deformation, until it rests or for six rounds. impose: sets the conditions of the model from a load; at
+/// the end they are those of the T that is returned.
+PatientRegistration patient_registration(const solve::CraniotomyLoad& load, const solve::SolveOptions& options,
+                                         const std::function<void(const solve::CraniotomyLoad&, solve::Model&)>& impose,
+                                         solve::Model& model);
 
 }  // namespace brainshift::pipelines

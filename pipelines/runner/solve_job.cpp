@@ -11,6 +11,7 @@
 #include "register/field/nodal_values.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/cut/septum.hpp"
+#include "solve/load/near_surface.hpp"
 #include "solve/load/noisy_load.hpp"
 #include "solve/output/field_difference.hpp"
 #include "solve/output/solution_file.hpp"
@@ -232,8 +233,13 @@ SolveInput read_input(const SolveJob& job) {
         return;
       }
       need_noise(load);
-      input.registration = patient_registration(
+      const PatientRegistration found = patient_registration(
           load, job.options, [&](const auto& l, solve::Model& m) { impose(l, *job.load, m); }, model);
+      input.registration = found.motion;
+      if (found.open > registration_at_rest) {
+        input.notes.push_back("warning: the registration has not come to rest: it would still move by " +
+                              solve::rounded(found.open) + " mm; measure more points, best inside the brain, too");
+      }
     });
   }
   if (job.load && job.load->robust) {

@@ -230,9 +230,20 @@ Eigen::MatrixXd spread_of_constants(const UncertaintyJob& job, const Solved& sol
     }
   }
   table.close();
-  sampler.clear_others();
+  if (options.shares == 1) {  // else others may be of other shares
+    sampler.clear_others();
+  }
   said.measures["uncertainty"]["samples"] = samples.size();
   const std::size_t drawn = numbers.size() - 1;
+  if (drawn == 0) {
+    said.notes.push_back("warning: share " + std::to_string(options.share) + " has none of the " +
+                         std::to_string(options.samples) + " samples: that its uncertainty is 0 says nothing");
+  } else if (samples.empty()) {
+    throw std::runtime_error(
+        "none of the " + std::to_string(drawn) +
+        " samples could be solved, so nothing is known of the uncertainty; leave <uncertainty> out "
+        "or let it vary less");
+  }
   if (const std::size_t failed = drawn - samples.size(); failed > 0) {
     said.notes.push_back("warning: " + std::to_string(failed) + " of " + std::to_string(drawn) +
                          " samples could not be solved and are left out of the uncertainty; see samples.csv");

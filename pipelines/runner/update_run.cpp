@@ -78,12 +78,23 @@ StageRecord finished_solve(const fs::path& run) {
   return *record;
 }
 
-void refuse_what_cannot(const fs::path& run, const Scene& scene) {
+/// What the solve took beyond its options; empty: nothing.
+std::string took_of(const StageRecord& solved) {
+  const auto measures = solved.entry.find("measures");
+  return measures != solved.entry.end() ? measures->value("took", "") : "";
+}
+
+void refuse_what_cannot(const fs::path& run, const Scene& scene, const StageRecord& solved) {
   if (!is_ours(scene, StageId::solve)) {
     refuse(run, "the run cannot be updated: another program solved it");
   }
   if (!scene.load || scene.load->empty()) {
     refuse(run, "the run cannot be updated: its scene has no <load>");
+  }
+  const std::string took = took_of(solved);
+  if (!took.empty() && !took.ends_with(" load steps")) {  // an update has no load that comes slowly
+    refuse(run,
+           "the run cannot be updated: it took " + took + ", which an update would not; run a scene with the new load");
   }
 }
 
@@ -94,7 +105,7 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
   const nlohmann::ordered_json record = record_of(run_);
   const StageRecord solved = finished_solve(run_);
   scene_ = scene_of(record);
-  refuse_what_cannot(run_, scene_);
+  refuse_what_cannot(run_, scene_, solved);
   InputStates states;
   if (stamp(plan_stage(StageId::solve, scene_, run_, interruption), states) != solved.stamp) {
     refuse(run_, "the scene or a file of the run has changed since it was solved; run the scene again");
@@ -122,7 +133,7 @@ void UpdatedRun::make_kept(const SolveJob& job, const Progress& progress) {
     make_folder(file_.parent_path());
     solve::write_kept(file_, kept_, key_);
   } catch (const std::runtime_error& error) {
-    notes_.push_back("warning: the next update prepares the run again: " + std::string(error.what()));
+    not_kept_ = error.what();
   }
 }
 
@@ -157,7 +168,9 @@ StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const 
   solve::write_solve(out, result);
   solve::write_craniotomy_csv(out / "load.csv", load);
   StageReport said = report_of(result, solve::Dynamics::relaxation);
-  said.notes = std::move(notes_);
+  if (!not_kept_.empty()) {
+    said.notes.push_back("warning: the next update prepares the run again: " + not_kept_);
+  }
   warn(warnings_of(result.measures), said);
   warn(warnings_of(load, cloud(), kept_.prescribed), said);
   return said;

@@ -34,6 +34,9 @@ class UpdatedRun {
 
   const Scene& scene() const { return scene_; }
 
+  /// Why what was prepared could not be kept on disk, so that the next update prepares it again; empty: it is kept.
+  const std::string& not_kept() const { return not_kept_; }
+
   /// Answers the displacements of a CSV and writes solution.vtu, history.csv and load.csv into an existing folder.
   /// Throws std::invalid_argument, naming the file, where it is at fault.
   StageReport answer(const std::filesystem::path& load, const std::filesystem::path& out, const Progress& progress);
@@ -48,7 +51,7 @@ class UpdatedRun {
   std::string key_;
   solve::OpeningOptions opening_;
   solve::KeptRun kept_;
-  std::vector<std::string> notes_;
+  std::string not_kept_;
 };
 
 }  // namespace brainshift::pipelines

@@ -2,6 +2,7 @@
 #include "pipelines/scene/read_elements.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "pipelines/scene/scene_table.hpp"
@@ -27,7 +28,7 @@ void set_value(const Option<T>& option, T& target, const std::string& value, con
     where.fail(where.element + " " + option.name + " holds a control character; a file's name is expected");
   }
   if (names_file(option, value)) {
-    stored = (where.source.file.parent_path() / value).lexically_normal().string();
+    stored = std::filesystem::absolute(where.source.file.parent_path() / value).lexically_normal().string();
   }
   if (!set_option(option, target, stored)) {
     where.fail(where.element + " " + refusal(option, value));

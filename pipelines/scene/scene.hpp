@@ -149,7 +149,7 @@ struct StateOfSequence {
 };
 
 /// The whole problem. Members that are empty are parts that the scene does not name: they are not built. File names are
-/// absolute or relative to the working directory, not to the scene's file.
+/// absolute, or relative to the working directory where no file or --set gave them.
 struct Scene {
   ImageInputs image;
   std::vector<Tissue> tissues;

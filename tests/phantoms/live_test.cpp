@@ -134,6 +134,17 @@ TEST_F(Live, AnswersEachChangePassesOverWhatIsBrokenAndGoesOnAfterAKill) {
   EXPECT_TRUE(fs::exists(answer(3)));
 }
 
+/// Both would number their answers alike, and the one take the other's place.
+TEST_F(Live, ASecondProgramOnOneRunIsRefused) {
+  give(1);
+  start();
+  const ProgramResult second =
+      run_shell("timeout 60 " BRAINSHIFT_PROGRAM " live " + run().string() + " --load " + load_file().string());
+  EXPECT_EQ(second.code, 1) << second.out;
+  EXPECT_NE(second.err.find("another run is working in this folder"), std::string::npos) << second.err;
+  stop(SIGTERM);
+}
+
 TEST_F(Live, MemoryDoesNotGrow) {
   constexpr int updates = 60;  // tests/benchmark/live.py makes a thousand
   fs::remove_all(run() / "live");

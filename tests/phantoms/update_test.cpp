@@ -133,6 +133,30 @@ TEST_F(Update, RefusesRunsThatAreNone) {
   expect_refused(update(run(), with_load + " --out " + quoted(run())), "this is a run");
 }
 
+TEST_F(Update, TakesARunWhoseSceneWasNamedFromItsOwnPlace) {
+  const std::string there = "cd " + quoted(scratch->path()) + " && ";
+  const ProgramResult ran =
+      run_shell(there + "brainshift run head/scene.xml --until solve --out from_here" + std::string(small));
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const ProgramResult updated = update(*scratch / "from_here", "");
+  EXPECT_EQ(updated.code, 0) << updated.err;
+}
+
+TEST_F(Update, RefusesARunThatTookOtherOptionsThanItsScenes) {
+  const fs::path took =
+      copy_with("took", "solve/stage.json", "\"measures\": {", "\"measures\": {\"took\": \"linear shape functions\",");
+  expect_refused(update(took, "--load " + quoted(new_load())), "it took linear shape functions");
+}
+
+TEST_F(Update, SaysThatWhatItPreparedCannotBeKept) {
+  const fs::path copy = copy_with("full", "run.json", "{", "{");
+  fs::remove_all(copy / "update");
+  write_text(copy / "update", "a file where a folder is wanted");
+  const ProgramResult result = update(copy, "");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find((copy / "update").string()), std::string::npos) << result.err;
+}
+
 TEST_F(Update, RefusesARunWithNoise) {
   const fs::path out = *scratch / "with_noise";
   const ProgramResult ran =

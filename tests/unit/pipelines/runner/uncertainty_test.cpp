@@ -137,6 +137,16 @@ TEST_F(UncertaintyTest, DoesNotComputeFinishedSamplesAgainAndDoesThoseThatAreDam
   EXPECT_NE(read(folder_ / "first/uncertainty.vtu"), read(folder_ / "other/uncertainty.vtu"));
 }
 
+TEST_F(UncertaintyTest, OfAShareLeavesTheSamplesOfOthers) {
+  SolveJob job = solve_job(4);
+  job.uncertainty->options.shares = 2;
+  for (const int share : {1, 2}) {
+    job.uncertainty->options.share = share;
+    solved(job, "share" + std::to_string(share));
+  }
+  EXPECT_EQ(samples().size(), 5U) << "four, and the model itself";
+}
+
 TEST_F(UncertaintyTest, OfSharesThatAreBroughtTogetherIsThatOfOneRun) {
   SolveJob job = solve_job(5);
   solved(job, "one");
