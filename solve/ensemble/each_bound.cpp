@@ -94,7 +94,9 @@ class SharesOfEach {
   /// The same, and weighted_norm() of the point's derivatives, which reach has the norms of.
   std::span<const NumberOfEach<double>> of(std::span<const std::uint16_t> slots, std::span<const double> reach,
                                            const Eigen::Matrix3Xd& b, NumberOfEach<double>& norm) {
-    find(slots, reach, [&](std::size_t m, std::span<const double> share) { norm.of[m] = weighted_norm(b, share); });
+    find(slots, reach, [&](std::size_t m, std::span<const double> share) {
+      norm.of[m] = is_as_before(m) ? norm.of[m - 1] : weighted_norm(b, share);
+    });
     if (of_.size() == 1) {
       std::fill_n(norm.of, members, norm.of[0]);
     }
@@ -113,6 +115,11 @@ class SharesOfEach {
       }
       use(m, share);
     }
+  }
+
+  /// Whether a member has the shares of the one before it, as away from where tissues meet all have.
+  bool is_as_before(std::size_t m) const {
+    return m > 0 && std::all_of(share_.begin(), share_.end(), [m](const auto& s) { return s.of[m] == s.of[m - 1]; });
   }
 
   std::vector<NodeShares> of_;
