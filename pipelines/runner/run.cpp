@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/run.hpp"
 
-#include <span>
-
 #include "pipelines/runner/folder_lock.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
@@ -23,20 +21,15 @@ RunObserver part_of(const RunObserver& observer, const std::string& state, std::
   };
 }
 
-/// Whether the solve of a run's record is of its own load, although a later stage may have failed.
-bool is_solved(const nlohmann::ordered_json& record) {
-  const auto stages = record.find("stages");
-  const auto solve = stages != record.end() ? stages->find("solve") : record.end();
-  const std::string status = stages != record.end() && solve != stages->end() ? solve->value("status", "") : "";
-  return status == "done" || status == "kept";
-}
-
-/// ParaView plays the solutions of the first states as steps 1, 2, ...; those of later ones may be of earlier loads.
-std::string collection_of(const fs::path& out, std::span<const Scene> states) {
+/// ParaView plays the solutions of the states as steps 1, 2, ...; not those that are of an earlier load. states: of
+/// run.json.
+std::string collection_of(const std::vector<Scene>& scenes, const nlohmann::ordered_json& states) {
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const fs::path solution = state_folder("", states[i].state->name) / "solve" / "solution.vtu";
-    if (fs::exists(out / solution)) {
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const std::string& name = scenes[i].state->name;
+    const std::string status = states.value(nlohmann::json_pointer<std::string>() / name / "solve" / "status", "");
+    if (status == "done" || status == "kept") {
+      const fs::path solution = state_folder("", name) / "solve" / "solution.vtu";
       text += "<DataSet timestep=\"" + std::to_string(i + 1) + "\" file=\"" + solution.string() + "\"/>\n";
     }
   }
@@ -51,7 +44,6 @@ RunOutcome run_sequence(const Scene& scene, const RunOptions& options, Interrupt
   RunOutcome outcome{begin_run_record(scene, inputs), {}};
   outcome.record.erase("stages");
   fs::path before;
-  std::size_t reached = 0;
   for (std::size_t i = 0; i < scene.states.size() && outcome.failure.empty(); ++i) {
     const Scene& state = scene.states[i];
     const std::string& name = state.state->name;
@@ -60,13 +52,12 @@ RunOutcome run_sequence(const Scene& scene, const RunOptions& options, Interrupt
     const RunOutcome one =
         run_stages(state, own, before, interruption, part_of(observer, name, i, scene.states.size()));
     outcome.record["states"][name] = one.record["stages"];
-    reached += one.failure.empty() || is_solved(one.record) ? 1 : 0;
     outcome.failure = one.failure.empty() ? "" : "state '" + name + "': " + one.failure;
     before = own.out;
     write_run_record(out, outcome.record, interruption);
   }
   const auto hold = interruption.hold();
-  write_whole(out / "steps.pvd", collection_of(out, std::span(scene.states).first(reached)));
+  write_whole(out / "steps.pvd", collection_of(scene.states, outcome.record["states"]));
   return outcome;
 }
 

@@ -78,12 +78,6 @@ StageRecord finished_solve(const fs::path& run) {
   return *record;
 }
 
-/// What the solve took beyond its options; empty: nothing.
-std::string took_of(const StageRecord& solved) {
-  const auto measures = solved.entry.find("measures");
-  return measures != solved.entry.end() ? measures->value("took", "") : "";
-}
-
 void refuse_what_cannot(const fs::path& run, const Scene& scene, const StageRecord& solved) {
   if (!is_ours(scene, StageId::solve)) {
     refuse(run, "the run cannot be updated: another program solved it");
@@ -91,7 +85,7 @@ void refuse_what_cannot(const fs::path& run, const Scene& scene, const StageReco
   if (!scene.load || scene.load->empty()) {
     refuse(run, "the run cannot be updated: its scene has no <load>");
   }
-  const std::string took = took_of(solved);
+  const std::string took = solved.entry.value("/measures/took"_json_pointer, "");
   if (!took.empty() && !took.ends_with(" load steps")) {  // an update has no load that comes slowly
     refuse(run,
            "the run cannot be updated: it took " + took + ", which an update would not; run a scene with the new load");

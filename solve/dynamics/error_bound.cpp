@@ -32,17 +32,16 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded, double roun
 
 bool ErrorBound::stands_still(double rounding) const {
   constexpr double even = 0.9;
-  const std::ptrdiff_t half = standstill / 2 / window_;
-  if (loaded_ < 2 * half) {
+  if (loaded_ < 2 * half()) {
     return false;
   }
-  const double now = *std::max_element(moved_.end() - half, moved_.end());
-  const double before = *std::max_element(moved_.end() - 2 * half, moved_.end() - half);
+  const double now = *std::max_element(moved_.end() - half(), moved_.end());
+  const double before = *std::max_element(moved_.end() - 2 * half(), moved_.end() - half());
   return now <= rounding && now >= even * before && before >= even * now;
 }
 
 double ErrorBound::at_standstill(double slowest_rate) {
-  value_ = slowest_rate / (1 - slowest_rate) * *std::max_element(moved_.end() - standstill / 2 / window_, moved_.end());
+  value_ = slowest_rate / (1 - slowest_rate) * *std::max_element(moved_.end() - half(), moved_.end());
   return value_;
 }
 

@@ -37,6 +37,9 @@ class ErrorBound {
   void reset();
 
  private:
+  /// Windows of half a standstill.
+  std::ptrdiff_t half() const { return standstill / 2 / window_; }
+
   int window_;
   std::vector<double> moved_, rates_, bounds_;
   std::ptrdiff_t loaded_ = 0;  // windows under the whole load

@@ -88,10 +88,12 @@ class Relaxation {
         }
         if (bound_.stands_still(rounding())) {
           error_bound_ = bound_.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue)));
-          if (ends_soundly() && error_bound_ <= tolerance() && no_change_is_left()) {
-            return finish();
+          if (ends_soundly()) {
+            if (error_bound_ <= tolerance() && no_change_is_left()) {
+              return finish();
+            }
+            fail_at_standstill();
           }
-          fail_at_standstill();
         }
       }
     }
@@ -248,9 +250,6 @@ class Relaxation {
   double rounding_of_places() const { return rounding_of_step(farthest_, Precision::double_precision); }
 
   void fail_at_standstill() {
-    if (!motion_.result.failure.empty()) {
-      return;
-    }
     motion_.result.rounded = points().precision() == Precision::single_precision;
     std::ostringstream text;
     text << "not converged: since step " << motion_.result.steps - ErrorBound::standstill

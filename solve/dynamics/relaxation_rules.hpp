@@ -44,7 +44,7 @@ inline int windows_to_stiffness(bool loaded) {
 /// by which steps are measured. A load that comes sooner may fold it: a plate at ν = 0.499, pressed by a quarter in 400
 /// steps, came to rest with a corner turned in, in 600 as it should. In plane stress the volume is free.
 inline int steps_of_load(int asked, const PointLaws& laws) {
-  constexpr double in_time = 100, slowest = 500;  // K / µ; beyond it, as measured, nothing is gained
+  constexpr double in_time = 100, slowest = 500;  // K / µ; beyond it random problems only took more steps
   double bulk = in_time;
   for (const auto& elastic : laws.elastic) {
     bulk = std::max(bulk, std::visit([](const auto& law) { return law.bulk_modulus / law.shear_modulus; }, elastic));

@@ -62,8 +62,9 @@ class Ensemble {
       follow_stiffness(active_);
       return;
     }
-    for (std::size_t m = 0; m < loads.size(); ++m) {  // one pace is for all
-      if (steps_of_load(options.load_steps, loads[m].laws) != steps_of_load(options.load_steps, loads.front().laws)) {
+    const int steps = steps_of_load(options.load_steps, loads.front().laws);  // one pace is for all
+    for (std::size_t m = 0; m < loads.size(); ++m) {
+      if (steps_of_load(options.load_steps, loads[m].laws) != steps) {
         end(m, MemberResult::End::left);
       }
     }

@@ -70,10 +70,9 @@ OptionTable<SolveOptions> stepping_options() {
                              "relaxation: stop when the bound of the remaining error is below this"),
       number_option<Options>("load_steps", &Options::load_steps, {.low = 1}, "",
                              "relaxation: steps over the load's curve; up to 2.2 times as many where a tissue's bulk "
-                             "modulus is more than 100 "
-                             "times its relaxed shear modulus (a Poisson's ratio above 0.495). A body that turns "
-                             "unstable is tried again with five times as many, then with linear shape "
-                             "functions, then in double precision"),
+                             "modulus is more than 100 times its relaxed shear modulus (a Poisson's ratio above "
+                             "0.495). A body that turns unstable is tried again with five times as many, then with "
+                             "linear shape functions, then in double precision"),
       choice_option<Options>("start", &Options::start, {{"coarse", Start::coarse}, {"rest", Start::rest}},
                              "of relaxation: under the full load, as a coarse cloud's solution lies, or undeformed, "
                              "with a history of the load; also where a body is cut or snapshots are wanted"),

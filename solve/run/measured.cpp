@@ -28,17 +28,9 @@ constexpr std::size_t most_nodes = 500;  // of the cloud on which the weight is 
 constexpr double nodes_a_patch = 8;
 
 void check_parts(const Model& model, const SolveOptions& options) {
-  refuse_unfit("a load with noise does not go",
-               {
-                   {options.dynamics == Dynamics::transient, "motion in time"},
-                   {options.imposition == Imposition::simplified, "the simplified imposition"},
-                   {options.region > 0, "a region"},
-                   {!model.cuts.empty() || model.rupture, "cuts and tears"},
-                   {model.septum.has_value(), "a septum"},
-                   {model.resection.has_value(), "a resection"},
-                   {model.plane != Plane::none, "a plane problem"},
-               },
-               "leave the one or the other out");
+  std::vector<UnfitPart> unfit = beyond_rest(model, options);
+  unfit.insert(unfit.begin() + 1, {options.imposition == Imposition::simplified, "the simplified imposition"});
+  refuse_unfit("a load with noise does not go", unfit, "leave the one or the other out");
 }
 
 Points stacked(const Points& above, const Points& below) {

@@ -11,16 +11,7 @@
 namespace brainshift::solve {
 
 void check_sampled(const Model& model, const SolveOptions& options) {
-  refuse_unfit("<uncertainty> does not go",
-               {
-                   {options.dynamics == Dynamics::transient, "motion in time"},
-                   {options.region > 0, "a region"},
-                   {!model.cuts.empty() || model.rupture, "cuts and tears"},
-                   {model.septum.has_value(), "a septum"},
-                   {model.resection.has_value(), "a resection"},
-                   {model.plane != Plane::none, "a plane problem"},
-               },
-               "leave the one or the other out");
+  refuse_unfit("<uncertainty> does not go", beyond_rest(model, options), "leave the one or the other out");
 }
 
 namespace {

@@ -92,6 +92,13 @@ TEST_F(RunSequence, AStateThatFailsEndsItAndIsNamed) {
   EXPECT_FALSE(fs::exists(state("second")));
 }
 
+TEST_F(RunSequence, PlaysNoSolutionsOfAnEarlierRun) {
+  run_states();
+  run_states({"solve.max_steps=3"});
+  ASSERT_TRUE(fs::exists(state("third") / "solve/solution.vtu"));
+  EXPECT_EQ(read(out_ / "steps.pvd").find("DataSet"), std::string::npos);
+}
+
 TEST_F(RunSequence, IsNotUpdated) {
   run_states();
   for (const fs::path& folder : {out_, state("second")}) {
