@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/registration.hpp"
 
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
+#include "register/device/register_on_device.hpp"
 #include "register/field/brain_zones.hpp"
 #include "register/field/forward_field.hpp"
 #include "register/field/jacobian.hpp"
@@ -45,24 +48,49 @@ void check(const RegisterInput& input, const RegisterOptions& options) {
   }
 }
 
-void warp_images(const RegisterInput& input, const RegisterOptions& options, const BrainZones& zones,
-                 Registration& result) {
-  const LabelMap* labels = input.labels ? &*input.labels : nullptr;
-  std::vector<std::size_t> empty;
-  if (input.cavity) {
-    empty = cavity_voxels(zones, *input.cavity, input.t1.geometry, labels);
-    result.measures.cavity_voxels = empty.size();
+Progress part_of(const Progress& progress, double begin, double end) {
+  if (!progress) {
+    return {};
   }
-  if (!input.t1.voxels.empty()) {
-    result.warped = empty.empty() ? warp(input.t1, result.resampling, options.interpolation)
-                                  : warp(emptied(input.t1, empty, static_cast<float>(options.cavity_value)),
-                                         result.resampling, options.interpolation);
+  return [=](double fraction, std::string_view what) { progress(begin + (end - begin) * fraction, what); };
+}
+
+/// The images that are warped, without what was taken out.
+struct Emptied {
+  std::optional<ScalarImage> t1;  ///< these: where something was
+  std::optional<LabelMap> labels;
+  device::Images images;
+
+  Emptied(const RegisterInput& input, const RegisterOptions& options, const BrainZones& zones, std::size_t& voxels)
+      : images{input.t1.voxels.empty() ? nullptr : &input.t1, input.labels ? &*input.labels : nullptr} {
+    const std::vector<std::size_t> empty = input.cavity
+                                               ? cavity_voxels(zones, *input.cavity, input.t1.geometry, images.labels)
+                                               : std::vector<std::size_t>();
+    voxels = empty.size();
+    if (images.t1 != nullptr && !empty.empty()) {
+      images.t1 = &t1.emplace(emptied(input.t1, empty, static_cast<float>(options.cavity_value)));
+    }
+    if (images.labels != nullptr && !empty.empty()) {
+      images.labels = &labels.emplace(emptied(*input.labels, empty, static_cast<std::uint16_t>(options.cavity_label)));
+    }
   }
-  if (labels != nullptr) {
-    result.warped_labels =
-        empty.empty()
-            ? warp(*labels, result.resampling)
-            : warp(emptied(*labels, empty, static_cast<std::uint16_t>(options.cavity_label)), result.resampling);
+  Emptied(const Emptied&) = delete;
+  Emptied& operator=(const Emptied&) = delete;
+};
+
+void register_on_processor(const RegisterInput& input, const device::Images& images, const RegisterOptions& options,
+                           const BrainZones& zones, const Progress& progress, Registration& result) {
+  result.forward = forward_field(input.solution, zones, input.t1.geometry, options.fade, part_of(progress, 0.1, 0.6));
+  report(progress, 0.6, "inverting the field");
+  InvertedField inverted = resampling_field(result.forward, options.inverse_tolerance);
+  result.resampling = std::move(inverted.field);
+  result.measures.not_inverted = inverted.not_inverted;
+  report(progress, 0.8, "warping the images");
+  if (images.t1 != nullptr) {
+    result.warped = warp(*images.t1, result.resampling, options.interpolation);
+  }
+  if (images.labels != nullptr) {
+    result.warped_labels = warp(*images.labels, result.resampling);
   }
 }
 
@@ -75,13 +103,6 @@ std::size_t landmarks_in_cavity(const BrainZones& zones, const Points& landmarks
   return count;
 }
 
-Progress part_of(const Progress& progress, double begin, double end) {
-  if (!progress) {
-    return {};
-  }
-  return [=](double fraction, std::string_view what) { progress(begin + (end - begin) * fraction, what); };
-}
-
 }  // namespace
 
 Registration register_images(const RegisterInput& input, const RegisterOptions& options, const Progress& progress) {
@@ -91,22 +112,21 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   report(progress, 0.0, "distance to the brain's surface");
   const BrainZones zones = brain_zones(input.brain, grid, options.fade, input.cavity ? &input.cavity->wall : nullptr);
   Registration result;
-  result.forward = forward_field(input.solution, zones, grid, options.fade, part_of(progress, 0.1, 0.6));
-  report(progress, 0.6, "inverting the field");
-  InvertedField inverted = resampling_field(result.forward, options.inverse_tolerance);
-  result.resampling = std::move(inverted.field);
-  report(progress, 0.8, "warping the images");
-  warp_images(input, options, zones, result);
+  std::size_t cavity_voxels = 0;
+  const Emptied emptied(input, options, zones, cavity_voxels);
+  if (!device::register_if_asked(input, emptied.images, options, zones, progress, result)) {
+    register_on_processor(input, emptied.images, options, zones, progress, result);
+  }
   const double seconds = stopwatch.seconds();
   result.preop_landmarks = input.landmarks;
   result.landmarks = move_points(result.forward, input.landmarks);
   report(progress, 0.9, "measuring the fields");
   result.jacobian = jacobian(result.forward);
-  const std::size_t cavity_voxels = result.measures.cavity_voxels;
+  const std::size_t not_inverted = result.measures.not_inverted;
   result.measures = measure_fields(result.forward, result.resampling, result.jacobian, zones.zone, input.solution);
   result.measures.cavity_voxels = cavity_voxels;
   result.measures.cavity_landmarks = landmarks_in_cavity(zones, input.landmarks);
-  result.measures.not_inverted = inverted.not_inverted;
+  result.measures.not_inverted = not_inverted;
   result.measures.seconds = seconds;
   report(progress, 1.0, "done");
   return result;

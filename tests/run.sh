@@ -26,10 +26,16 @@ esac
 export OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1
 
 cd "$root"
-git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+git ls-files '*.cpp' '*.hpp' '*.cu' '*.cuh' | xargs clang-format --dry-run --Werror
+
+# The GPU's part is compiled where its compiler is. Tests that want a GPU say that there is none.
+cuda=()
+if [[ $(nvcc --version 2> /dev/null) =~ release\ 1[2-9] ]]; then
+  cuda=(-DBRAINSHIFT_CUDA=ON -DBRAINSHIFT_CUDA_ARCHITECTURES=90)
+fi
 
 developer=(-DBRAINSHIFT_TESTS=ON -DBRAINSHIFT_DEVELOPER=ON)
-build build all "${developer[@]}" -DCMAKE_BUILD_TYPE=Release
+build build all "${developer[@]}" "${cuda[@]}" -DCMAKE_BUILD_TYPE=Release
 ctest --test-dir build --output-on-failure --parallel "$(processors)"
 
 # Clang compiles the sanitizers' checks in half of GCC's time, and warns of other things. The tests themselves are those

@@ -38,7 +38,7 @@ void add_register_command(CLI::App& program, const Settings& settings) {
       ->type_name("FILE")
       ->take_all()
       ->allow_extra_args(false);
-  for (const char* name : {"fade", "interpolation", "inverse_tolerance"}) {
+  for (const char* name : {"fade", "interpolation", "inverse_tolerance", "device"}) {
     add_scene_option(*command, arguments->scene, "register", name);
   }
   command->add_option("--out", arguments->out, "folder for the artefacts")->required()->type_name("DIR");

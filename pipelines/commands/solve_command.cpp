@@ -224,6 +224,7 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
                            "dynamics",
                            "tolerance",
                            "load_steps",
+                           "device",
                            "start",
                            "time_step",
                            "damping",

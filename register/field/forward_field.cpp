@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "register/field/field_sampler.hpp"
+#include "register/field/outside.hpp"
 #include "register/field/span_cavity.hpp"
 #include "solve/output/solution_file.hpp"
 #include "solve/shape/shape_functions.hpp"
@@ -17,9 +18,7 @@ namespace brainshift::registration {
 
 namespace {
 
-constexpr std::size_t chunk = 1 << 19;     // voxels evaluated between two reports of progress
-constexpr double reach_in_spacings = 0.3;  // how far outside the nodes their shape functions are trusted
-constexpr double smoothing_width = 3.0;    // mm, standard deviation of the smoothing outside the brain
+constexpr std::size_t chunk = 1 << 19;  // voxels evaluated between two reports of progress
 
 using Displacement = std::array<float, 3>;
 
@@ -59,12 +58,10 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Where the displacement of a voxel of brain or shell is taken: in its middle, or, farther out than `reach`, at the
-/// reach, as shape functions extrapolate out there.
+/// Where the displacement of a voxel of brain or shell is taken.
 Eigen::Vector3d place_of(const BrainZones& zones, const ImageGeometry& geometry, const Voxel& voxel, double reach) {
   const Eigen::Vector3d place = geometry.to_world(voxel.index());
-  const double outside = zones.zone[voxel.offset] != Zone::shell ? 0 : zones.outside.value(place);
-  return outside > reach ? Eigen::Vector3d(place - (outside - reach) * zones.outside.gradient(place)) : place;
+  return zones.zone[voxel.offset] == Zone::shell ? place_in_shell(zones.outside.grid(), place, reach) : place;
 }
 
 /// The solver's field at the voxels of brain and shell.
@@ -87,21 +84,6 @@ void evaluate(const DisplacementAt& displacement_at, const BrainZones& zones, co
   }
 }
 
-/// The place near x that is `reach` away from the brain, by walking down the distance. One step suffices but where the
-/// surface is hollow and its distance has a kink.
-Eigen::Vector3d place_at_reach(const SignedDistance& outside, Eigen::Vector3d x, double reach) {
-  constexpr int most_steps = 10;
-  constexpr double close_enough = 0.05;  // mm
-  for (int step = 0; step < most_steps; ++step) {
-    const double farther = outside.value(x) - reach;
-    if (farther <= close_enough) {
-      break;
-    }
-    x -= farther * outside.gradient(x);
-  }
-  return x;
-}
-
 /// Gives the fading voxels the displacement of the brain near by.
 void extend(const BrainZones& zones, const std::vector<Voxel>& fading, double reach, WayOut* way, VectorImage& field) {
   const FieldSampler sampler(field);
@@ -114,7 +96,7 @@ void extend(const BrainZones& zones, const std::vector<Voxel>& fading, double re
   for (std::size_t v = 0; v < fading.size(); ++v) {
     const auto found = [&] {
       const Eigen::Vector3d x = field.geometry.to_world(fading[v].index());
-      return sampler.to_index(place_at_reach(zones.outside, x, reach));
+      return sampler.to_index(place_at_reach(zones.outside.grid(), x, reach));
     };
     const Eigen::Vector3d place = known ? way->places[v] : found();
     const Eigen::Vector3f u = sampler.value(place).cast<float>();
@@ -126,34 +108,6 @@ void extend(const BrainZones& zones, const std::vector<Voxel>& fading, double re
   for (std::size_t v = 0; v < fading.size(); ++v) {
     field.voxels[fading[v].offset] = extended[v];
   }
-}
-
-/// Mean of a voxel's six neighbours, those nearer to it counting more; neighbours beyond the fade do not count.
-Displacement mean_of_neighbours(const VectorImage& field, const BrainZones& zones, const Voxel& voxel) {
-  const ImageGeometry& g = field.geometry;
-  const std::size_t stride[3] = {1, g.offset(0, 1, 0), g.offset(0, 0, 1)};
-  const int place[3] = {voxel.i, voxel.j, voxel.k};
-  float sum[3] = {0, 0, 0};
-  float total = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto weight = static_cast<float>(1 / (g.spacing[axis] * g.spacing[axis]));
-    const auto add = [&](std::size_t neighbour) {
-      if (zones.zone[neighbour] != Zone::beyond) {
-        const Displacement& u = field.voxels[neighbour];
-        total += weight;
-        for (std::size_t c = 0; c < 3; ++c) {
-          sum[c] += weight * u[c];
-        }
-      }
-    };
-    if (place[axis] > 0) {
-      add(voxel.offset - stride[axis]);
-    }
-    if (place[axis] + 1 < g.size[axis]) {
-      add(voxel.offset + stride[axis]);
-    }
-  }
-  return total > 0 ? Displacement{sum[0] / total, sum[1] / total, sum[2] / total} : field.voxels[voxel.offset];
 }
 
 /// Voxels that follow each other along x.
@@ -200,10 +154,11 @@ void mean_along_run(const VectorImage& field, std::size_t first, std::size_t cou
 }
 
 /// Smooths the displacement outside where two parts of the surface are equally near and it would jump; all other voxels
-/// are held. Each sweep of averaging spreads by the spacing / √3.
+/// are held.
 void smooth(const BrainZones& zones, const std::vector<Voxel>& outside, VectorImage& field) {
-  const double sweeps = 3 * std::pow(smoothing_width / field.geometry.spacing.maxCoeff(), 2);
+  const double sweeps = smoothing_sweeps(field.geometry.spacing);
   const std::vector<Run> runs = runs_of(outside, zones, field.geometry);
+  const Neighbourhood around{field.geometry.size, field.geometry.spacing, zones.zone.data(), field.voxels.data()};
   std::vector<Displacement> next(outside.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
 #pragma omp parallel for schedule(static)
@@ -214,7 +169,8 @@ void smooth(const BrainZones& zones, const std::vector<Voxel>& outside, VectorIm
         continue;
       }
       for (std::size_t v = first; v < first + count; ++v) {
-        next[v] = mean_of_neighbours(field, zones, outside[v]);
+        const Voxel& at = outside[v];
+        next[v] = mean_of_neighbours(around, {at.i, at.j, at.k}, at.offset);
       }
     }
 #pragma omp parallel for schedule(static)
@@ -231,7 +187,7 @@ void fade_out(const BrainZones& zones, const std::vector<Voxel>& outside, double
   for (std::size_t v = 0; v < outside.size(); ++v) {
     const double distance = distance_at(zones, field.geometry, outside[v]);
     Displacement& u = field.voxels[outside[v].offset];
-    u = stored(ramp((distance - reach) / (fade - reach)) * Eigen::Vector3d(u[0], u[1], u[2]));
+    u = faded(u, distance, reach, fade);
   }
 }
 
@@ -244,18 +200,6 @@ std::vector<std::size_t> offsets_of(const std::vector<Voxel>& voxels) {
 }
 
 }  // namespace
-
-double ramp(double t) {
-  constexpr double bend = 0.2;  // the part of the way over which the slope grows, and again over which it falls
-  const auto start = [](double s) { return s * s / (2 * bend * (1 - bend)); };
-  if (t <= 0 || t >= 1) {
-    return t <= 0 ? 1 : 0;
-  }
-  if (t < bend) {
-    return 1 - start(t);
-  }
-  return t > 1 - bend ? start(1 - t) : 0.5 - (t - 0.5) / (1 - bend);
-}
 
 VectorImage forward_field(const Solution& solution, const BrainZones& zones, const ImageGeometry& geometry, double fade,
                           const Progress& progress) {

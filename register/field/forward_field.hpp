@@ -35,8 +35,4 @@ struct WayOut {
 VectorImage forward_field(const DisplacementAt& displacement_at, double spacing, const BrainZones& zones,
                           const ImageGeometry& geometry, double fade, const Progress& progress, WayOut* way = nullptr);
 
-/// Falls from 1 at 0 to 0 at 1, with zero slope at both ends and at most 1.25 between: the gentlest way out, as a
-/// field that pushes outward by u folds where the ramp is steeper than 1/u.
-double ramp(double t);
-
 }  // namespace brainshift::registration

@@ -17,7 +17,13 @@ const OptionTable<RegisterOptions>& register_options() {
       number_option<Options>("cavity_label", &Options::cavity_label, {.low = 0, .high = 65535}, "",
                              "in the warped labels where a resection has taken tissue out"),
       number_option<Options>("cavity_value", &Options::cavity_value, any_number, "",
-                             "grey value of the warped image there")};
+                             "grey value of the warped image there"),
+      choice_option<Options>(
+          "device", &Options::device,
+          {{"cpu", solve::Device::cpu}, {"cuda", solve::Device::cuda}, {"auto", solve::Device::automatic}},
+          "what the fields and the warped images are computed on: the processor; an NVIDIA GPU, in a program built "
+          "with it; or that where there is one that can, else the processor. A GPU does not do bodies that are cut; "
+          "B-splines stay on the processor")};
   return table;
 }
 

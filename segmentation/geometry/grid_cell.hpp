@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "segmentation/geometry/on_device.hpp"
+
 namespace brainshift {
 
 /// The eight points of a regular grid (x fastest) around a place, for trilinear interpolation. Beyond the grid the
@@ -12,7 +14,7 @@ namespace brainshift {
 class GridCell {
  public:
   /// index: continuous, in grid steps; not a number counts as 0.
-  GridCell(const Eigen::Array3i& size, const Eigen::Vector3d& index) {
+  BRAINSHIFT_ON_DEVICE GridCell(const Eigen::Array3i& size, const Eigen::Vector3d& index) {
     std::size_t stride = 1;
     for (int axis = 0; axis < 3; ++axis) {
       const double last = size[axis] - 1.0;
@@ -27,23 +29,25 @@ class GridCell {
   }
 
   /// Where a corner, 0 to 7, stands among the grid's values.
-  std::size_t offset(int corner) const {
+  BRAINSHIFT_ON_DEVICE std::size_t offset(int corner) const {
     std::size_t sum = base_;
     for (int axis = 0; axis < 3; ++axis) {
       sum += is_high(corner, axis) ? step_[axis] : 0;
     }
     return sum;
   }
-  double weight(int corner) const { return along(corner, 0) * along(corner, 1) * along(corner, 2); }
+  BRAINSHIFT_ON_DEVICE double weight(int corner) const {
+    return along(corner, 0) * along(corner, 1) * along(corner, 2);
+  }
   /// Derivative of the weight by the index along an axis; 0 where the place is beyond the grid along it.
-  double slope(int corner, int axis) const {
+  BRAINSHIFT_ON_DEVICE double slope(int corner, int axis) const {
     const double sign = is_high(corner, axis) ? varies_[axis] : -varies_[axis];
     return sign * along(corner, (axis + 1) % 3) * along(corner, (axis + 2) % 3);
   }
 
   /// Σ weight · value(offset) over the corners.
   template <class Value>
-  double interpolate(const Value& value) const {
+  BRAINSHIFT_ON_DEVICE double interpolate(const Value& value) const {
     const auto along_x = [&](std::size_t at) { return (1 - share_[0]) * value(at) + share_[0] * value(at + step_[0]); };
     const auto along_y = [&](std::size_t at) {
       return (1 - share_[1]) * along_x(at) + share_[1] * along_x(at + step_[1]);
@@ -52,8 +56,10 @@ class GridCell {
   }
 
  private:
-  static bool is_high(int corner, int axis) { return ((corner >> axis) & 1) != 0; }
-  double along(int corner, int axis) const { return is_high(corner, axis) ? share_[axis] : 1 - share_[axis]; }
+  BRAINSHIFT_ON_DEVICE static bool is_high(int corner, int axis) { return ((corner >> axis) & 1) != 0; }
+  BRAINSHIFT_ON_DEVICE double along(int corner, int axis) const {
+    return is_high(corner, axis) ? share_[axis] : 1 - share_[axis];
+  }
 
   std::size_t base_ = 0;
   std::size_t step_[3];

@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "segmentation/geometry/grid_cell.hpp"
 #include "segmentation/geometry/pseudonormals.hpp"
 #include "segmentation/geometry/triangle_distance.hpp"
 
@@ -218,52 +217,10 @@ SignedDistance::SignedDistance(const Surface& surface, const SignedDistanceOptio
               .value = signed_samples(frames, normals, grid, band, horizon, nearest)};
 }
 
-namespace {
-
-/// Of a position, in grid steps.
-Eigen::Array3d grid_index(const SignedDistance::Samples& samples, const Eigen::Vector3d& position) {
-  return (position - samples.origin).array() / samples.spacing;
-}
-
-/// Whether all samples within one and a half grid steps are there. index: in grid steps.
-bool is_inner(const Eigen::Array3d& index, const Eigen::Array3i& size) {
-  return (index >= 1).all() && (index < (size - 2).cast<double>()).all();
-}
-
-}  // namespace
-
-double SignedDistance::value(const Eigen::Vector3d& position) const {
-  const Eigen::Array3d wanted = grid_index(samples_, position);
-  const Eigen::Array3d inside = wanted.max(0.0).min((samples_.size - 1).cast<double>());
-  const GridCell cell(samples_.size, wanted);
-  const double sampled = cell.interpolate([this](std::size_t offset) { return samples_.value[offset]; });
-  const bool within = (wanted == inside).all();  // as nearly always: spares a root
-  return within ? sampled : sampled + samples_.spacing * (wanted - inside).matrix().norm();
-}
-
-Eigen::Vector3d SignedDistance::gradient(const Eigen::Vector3d& position) const {
-  const Eigen::Array3d index = grid_index(samples_, position);
-  const bool inner = is_inner(index, samples_.size);
-  Eigen::Vector3d difference;
-  std::size_t stride = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Vector3d half = 0.5 * Eigen::Vector3d::Unit(axis);
-    if (inner) {  // what the trilinear value differs by: the samples' differences, interpolated
-      const GridCell cell(samples_.size, index.matrix() - half);
-      difference[axis] = cell.interpolate(
-          [&](std::size_t offset) { return double{samples_.value[offset + stride]} - double{samples_.value[offset]}; });
-      stride *= static_cast<std::size_t>(samples_.size[axis]);
-    } else {
-      difference[axis] = value(position + samples_.spacing * half) - value(position - samples_.spacing * half);
-    }
-  }
-  // Beyond the horizon the distance is the same everywhere, but for rounding: it has no direction there.
-  return difference.norm() > 1e-6 * samples_.spacing ? difference.normalized() : Eigen::Vector3d::Zero();
-}
-
 void SignedDistance::fetch(const Eigen::Vector3d& position) const {
-  const Eigen::Array3d index = grid_index(samples_, position);
-  if (!is_inner(index, samples_.size)) {
+  const DistanceGrid of = grid();
+  const Eigen::Array3d index = of.index_of(position);
+  if (!of.is_inner(index)) {
     return;
   }
   const Eigen::Array<std::ptrdiff_t, 3, 1> low = (index - 0.5).cast<std::ptrdiff_t>();

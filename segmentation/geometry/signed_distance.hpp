@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "segmentation/geometry/distance_grid.hpp"
 #include "segmentation/geometry/surface.hpp"
 
 namespace brainshift {
@@ -42,11 +43,11 @@ class SignedDistance {
 
   /// Distance at a position, mm. Outside the grid: that at the nearest place of the grid plus the distance to there.
   /// NaN where the position is not finite.
-  double value(const Eigen::Vector3d& position) const;
+  double value(const Eigen::Vector3d& position) const { return grid().value(position); }
 
   /// Outward unit normal of the level surface through a position, by central differences over one grid spacing
   /// (continuous); the zero vector where there is none.
-  Eigen::Vector3d gradient(const Eigen::Vector3d& position) const;
+  Eigen::Vector3d gradient(const Eigen::Vector3d& position) const { return grid().gradient(position); }
 
   /// Has the samples that value() and gradient() read at a position on their way to the cache. The samples about a head
   /// are larger than it, so who asks at many places fetches some of them first.
@@ -54,6 +55,9 @@ class SignedDistance {
 
   /// Where the surface is at least so far away only that is known, mm; infinite where all is sampled.
   double horizon() const { return samples_.horizon; }
+
+  /// Valid as long as this.
+  DistanceGrid grid() const { return {samples_.spacing, samples_.origin, samples_.size, samples_.value.data()}; }
 
  private:
   Samples samples_;

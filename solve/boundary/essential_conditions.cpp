@@ -215,12 +215,22 @@ void EssentialConditions::apply(double fraction, NodalVectors& parameters) {
 }
 
 Points EssentialConditions::reactions(double step_squared, std::size_t nodes) const {
+  std::vector<double> multipliers;
+  for (const Component& c : component_) {
+    multipliers.insert(multipliers.end(), c.multiplier.begin(), c.multiplier.end());
+  }
+  return reactions(step_squared, nodes, multipliers);
+}
+
+Points EssentialConditions::reactions(double step_squared, std::size_t nodes,
+                                      std::span<const double> multipliers) const {
   Points forces = Points::Zero(static_cast<Eigen::Index>(nodes), 3);
-  for (int axis = 0; axis < 3; ++axis) {
-    const Component& c = component_[static_cast<std::size_t>(axis)];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Component& c = component_[axis];
     for (std::size_t i = 0; i < c.node.size(); ++i) {
-      forces(c.node[i], axis) = c.multiplier[static_cast<Eigen::Index>(i)] / step_squared;
+      forces(c.node[i], static_cast<Eigen::Index>(axis)) = multipliers[i] / step_squared;
     }
+    multipliers = multipliers.subspan(static_cast<std::size_t>(c.prescribed.size()));
   }
   return forces;
 }

@@ -75,6 +75,8 @@ class EssentialConditions {
   /// Reaction forces at the nodes, (n × 3): the last multipliers over `step_squared` (the α of the time step), µN. Zero
   /// at free components.
   Points reactions(double step_squared, std::size_t nodes) const;
+  /// The same of other multipliers, those of the components one after the other.
+  Points reactions(double step_squared, std::size_t nodes, std::span<const double> multipliers) const;
 
   /// Sum of the reactions on nodes that are loaded: whose prescribed displacement is not all zero, µN.
   Eigen::Vector3d reaction_of_loaded(double step_squared) const;

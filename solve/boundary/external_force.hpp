@@ -23,6 +23,8 @@ class ExternalForce {
   bool empty() const { return at_.empty(); }
   /// Under the whole load; none where empty().
   const NodalVectors& full() const { return at_.back(); }
+  /// At equal steps of the fraction, the last at 1; none where empty().
+  const std::vector<NodalVectors>& at_fractions() const { return at_; }
   /// force −= that at the fraction.
   void subtract(double fraction, NodalVectors& force) const;
   /// Work, 1e-9 J, between two parameters while the fraction goes from one to another.

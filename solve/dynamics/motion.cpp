@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "solve/arrays/shared_work.hpp"
+#include "solve/dynamics/soundness.hpp"
 #include "solve/shape/nodal_displacement.hpp"
 #include "solve/shape/too_few_nodes.hpp"
 
@@ -14,45 +15,7 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double energy_unit = 1e-6;  // g mm²/s² to mJ
-constexpr double newton = 1e-6;       // µN to N
-
-/// An undamped motion holds at most what was put in, and its energy is known to a few percent.
-constexpr double most_motion = 2;
-
-/// What is wrong with the state of the points; empty: nothing. moved: largest |û⁺ − û| of the last step.
-std::string unsound(const PointState& state, double moved) {
-  if (!std::isfinite(moved)) {
-    return "displacements are no longer finite";
-  }
-  if (!(state.smallest_jacobian > 0)) {
-    std::ostringstream text;
-    text << "an integration point turned inside out (J = " << state.smallest_jacobian << ")";
-    return text.str();
-  }
-  return {};
-}
-
-std::string unbalanced(const HistoryRow& row) {
-  std::ostringstream text;
-  text << "the work of " << row.external_work << " mJ has become " << row.strain_energy << " mJ of strain, "
-       << row.kinetic_energy << " mJ of motion and " << row.dissipated_energy
-       << " mJ in the damping, which is not the same, most of all";
-  return text.str();
-}
-
-/// Energy of a strain so small that rounding is a good part of it: one of 1e-6, mJ.
-double rounding_energy(const Body& body) {
-  double stiffness = 0;
-  for (const Patch& patch : body.points.patches) {
-    const double modulus = std::visit([](const auto& law) { return law.shear_modulus; },
-                                      body.laws.elastic[static_cast<std::size_t>(patch.material)]);
-    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-      stiffness += modulus * body.points.volume[static_cast<std::size_t>(p)];
-    }
-  }
-  return 1e-12 * stiffness * energy_unit;
-}
+constexpr double newton = 1e-6;  // µN to N
 
 }  // namespace
 
@@ -195,10 +158,9 @@ void Motion::start_from(const NodalVectors& parameters, double smallest_jacobian
 }
 
 bool Motion::squeezed() {
-  constexpr double much = 0.8;
   const double smallest = jacobian_range(scratch).smallest;
   note_broken_point(smallest);
-  if (smallest >= much * squeezed_to_) {
+  if (smallest >= squeezed_share * squeezed_to_) {
     return false;
   }
   squeezed_to_ = smallest;

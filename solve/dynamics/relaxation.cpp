@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
 #include "solve/dynamics/motion.hpp"
 #include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
+#include "solve/dynamics/rest_report.hpp"
 #include "solve/dynamics/span_bound.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/force/stiffness_bound.hpp"
@@ -82,7 +82,7 @@ class Relaxation {
       step();
       if (result.steps % window_ == 0) {
         look();
-        report_progress(progress);
+        report_window(progress, result.steps, motion_.time, error_bound_, tolerance(), done_);
         if (motion_.time >= 1 && error_bound_ <= tolerance() && no_change_is_left() && ends_soundly()) {
           return finish();
         }
@@ -98,10 +98,7 @@ class Relaxation {
       }
     }
     if (result.failure.empty()) {
-      std::ostringstream text;
-      text << "not converged after " << result.steps << " steps: the error bound is " << error_bound_ << " mm, wanted "
-           << tolerance() << " mm; allow more steps or a larger tolerance; it moves most";
-      result.failure = text.str();
+      result.failure = not_converged(result.steps, error_bound_, tolerance());
       result.fault = restless_node({motion_.now, motion_.before, motion_.next});
       result.fault->explained = true;
     }
@@ -251,12 +248,8 @@ class Relaxation {
 
   void fail_at_standstill() {
     motion_.result.rounded = points().precision() == Precision::single_precision;
-    std::ostringstream text;
-    text << "not converged: since step " << motion_.result.steps - ErrorBound::standstill
-         << " the body moves by no more than rounding, with an error bound of " << bound_.value() << " mm where "
-         << tolerance() << " mm are wanted; take a larger tolerance"
-         << (motion_.result.rounded ? " or double precision" : "");
-    motion_.result.failure = text.str();
+    motion_.result.failure =
+        stands_still(motion_.result.steps - ErrorBound::standstill, bound_.value(), tolerance(), points().precision());
   }
 
   /// What still accelerates, over the internal force or the largest at rest so far. Sums over the nodes, not of
@@ -299,19 +292,6 @@ class Relaxation {
     quickening_.weigh(motion_, mass_, critical_beta(lowest_));
   }
 
-  void report_progress(const Progress& progress) {
-    std::ostringstream text;
-    text << "step " << motion_.result.steps;
-    double done = 0.3 * motion_.time;
-    if (std::isfinite(error_bound_)) {
-      text << ", error bound " << error_bound_ << " mm";
-      const double decades = std::log10(std::max(error_bound_ / tolerance(), 1.0));
-      done = 1 - 0.7 * std::min(decades / 3, 1.0);
-    }
-    done_ = std::max(done_, done);  // a bound may rise
-    report(progress, done_, text.str());
-  }
-
   SteppingResult finish() {
     motion_.result.error_bound = error_bound_;
     motion_.result.settled = {
@@ -341,15 +321,26 @@ class Relaxation {
   int calm_ = 0;              // last rows of the history with a residual as at rest
 };
 
+SteppingResult relax_once(Body body, const Course& course, const SolveOptions& options, bool cautious,
+                          const Progress& progress, const RelaxElsewhere& elsewhere) {
+  if (elsewhere) {
+    if (std::optional<SteppingResult> result = elsewhere(body, course, options, cautious, progress)) {
+      return std::move(*result);
+    }
+  }
+  return Relaxation(std::move(body), course, options, cautious).run(progress);
+}
+
 }  // namespace
 
-SteppingResult relax(Body body, const Course& course, const SolveOptions& options, const Progress& progress) {
-  SteppingResult result = Relaxation(std::move(body), course, options, false).run(progress);
+SteppingResult relax(Body body, const Course& course, const SolveOptions& options, const Progress& progress,
+                     const RelaxElsewhere& elsewhere) {
+  SteppingResult result = relax_once(std::move(body), course, options, false, progress, elsewhere);
   if (result.unstable && !course.start.empty()) {
-    return relax(std::move(result.body), {course.curve, {}, course.change}, options, progress);
+    return relax(std::move(result.body), {course.curve, {}, course.change}, options, progress, elsewhere);
   }
   if (result.unstable && !course.change) {  // a body that was cut does not heal
-    result = Relaxation(std::move(result.body), course, options, true).run(progress);
+    result = relax_once(std::move(result.body), course, options, true, progress, elsewhere);
     if (result.unstable) {
       result.failure = "tried twice, the second time with the smallest steps: " + result.failure;
     }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 
 #include "segmentation/progress/progress.hpp"
 #include "solve/dynamics/stepping.hpp"
@@ -28,6 +30,11 @@ inline int calm_rows(int before, double residual) {
   return residual <= residual_at_rest ? before + 1 : 0;
 }
 
+/// relax() once, with the masses from the bound of the stiffness itself where `cautious`; nothing: it is to be done
+/// here. The body is moved into the result, else kept.
+using RelaxElsewhere = std::function<std::optional<SteppingResult>(
+    Body& body, const Course& course, const SolveOptions& options, bool cautious, const Progress& progress)>;
+
 /// Adaptive dynamic relaxation (Joldes, Wittek & Miller 2011) to the steady state under the full load. Steps by
 ///   û⁺ = û + β(û − û⁻) + α M⁻¹ (f_ext − f_int),  then contact, then the essential conditions,
 /// with the bound of the stiffness as mass, scaled to the largest eigenvalue A_m = 1 that power iteration finds (should
@@ -36,6 +43,8 @@ inline int calm_rows(int before, double residual) {
 /// follow the tangents of the state reached. The load's curve is run through in steps_of_load(), of a body that may
 /// tear more slowly where it would else not be at rest, and hardly on while a tear runs. Stops when the bound of the
 /// remaining error, ρ/(1 − ρ) |û⁺ − û|∞ with ρ the slower of the measured rate and √β, is below the tolerance.
-SteppingResult relax(Body body, const Course& course, const SolveOptions& options, const Progress& progress);
+/// elsewhere: what may do it in place of this processor.
+SteppingResult relax(Body body, const Course& course, const SolveOptions& options, const Progress& progress,
+                     const RelaxElsewhere& elsewhere = {});
 
 }  // namespace brainshift::solve

@@ -8,15 +8,7 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int shortest_span = 8;      // steps
-constexpr double slowest_node = 0.9;  // q; at 0.95 the bound of the demo is 2.4 times its error
-constexpr double slowest_body = 0.98;
-constexpr double of_mixed_rates = 4.0 / 3;
-
-/// Σ rate^k, k from 1: of what was gone last, how much there is still to go.
-double still_to_go(double rate) {
-  return rate / (1 - rate);
-}
+constexpr int shortest_span = 8;  // steps
 
 }  // namespace
 
@@ -41,13 +33,18 @@ double SpanBound::value() const {
   for (std::size_t a = 0; a < last.size() / 4; ++a) {
     const Eigen::Vector4d step = at(last, a) - at(middle, a), step_before = at(middle, a) - at(first, a);
     const double went = step.norm(), before = step_before.norm();
-    of_nodes = std::max(of_nodes, still_to_go(went < slowest_node * before ? went / before : slowest_node) * went);
+    of_nodes = std::max(of_nodes, of_node(went, before));
     longest = std::max(longest, went);
     both += step.dot(step_before);
     squares += before * before;
   }
-  const double rate = squares > 0 ? std::clamp(both / squares, 0.0, slowest_body) : 0;
-  return std::max(of_nodes, of_mixed_rates * still_to_go(rate) * longest);
+  return std::max(of_nodes, of_all(longest, both, squares));
+}
+
+double SpanBound::of_all(double longest, double product, double squares) {
+  constexpr double slowest = 0.98, of_mixed_rates = 4.0 / 3;
+  const double rate = squares > 0 ? std::clamp(product / squares, 0.0, slowest) : 0;
+  return of_mixed_rates * still_to_go(rate) * longest;
 }
 
 }  // namespace brainshift::solve

@@ -8,6 +8,7 @@
 #include "solve/arrays/lanes.hpp"
 #include "solve/arrays/shared_work.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
+#include "solve/dynamics/soundness.hpp"
 
 namespace brainshift::solve {
 
@@ -192,7 +193,6 @@ Numbers EachMotion::inertia(const EachNumbers& mass, const EachVectors& x, const
 }
 
 Numbers EachMotion::motion_over_work(const EachNumbers& mass) {
-  constexpr double most_motion = 2;  // an undamped motion holds at most what was put in, known to a few percent
   const Numbers doubled = inertia(mass, now, next);
   const Numbers kinetic = doubled * (1 + numbers(beta_.of)) / (16 * relaxation_alpha);
   largest_work_ = largest_work_.max(external_work_.abs());

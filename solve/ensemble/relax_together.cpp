@@ -11,6 +11,7 @@
 #include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
+#include "solve/dynamics/soundness.hpp"
 #include "solve/dynamics/span_bound.hpp"
 #include "solve/ensemble/each_conditions.hpp"
 #include "solve/ensemble/each_contact.hpp"
@@ -107,9 +108,8 @@ class Ensemble {
     Chosen squeezed = {};
     const Numbers smallest = motion_.force_law.smallest_jacobian();
     for (std::size_t m = 0; m < members; ++m) {
-      constexpr double much = 0.8;
       const double jacobian = smallest[static_cast<Eigen::Index>(m)];
-      if (active_[m] && !(jacobian >= much * way_[m].squeezed_to)) {
+      if (active_[m] && !(jacobian >= squeezed_share * way_[m].squeezed_to)) {
         way_[m].squeezed_to = jacobian;
         squeezed[m] = true;
       }

@@ -23,9 +23,6 @@ void internal_force(const PointBlocks& points, const PointLaws& laws, const Noda
 /// Over all points, at the last internal_force().
 JacobianRange jacobian_range(const ForceScratch& scratch);
 
-/// Below this stretch a free face of soft matter creases under uniaxial compression (Hong, Zhao & Suo 2009).
-inline constexpr double crease_stretch = 0.56;
-
 /// State of the points at the parameters of the last internal_force().
 struct PointState {
   double strain_energy = 0;  ///< 1e-9 J; of the elastic laws, without what relaxation took

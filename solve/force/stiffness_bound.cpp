@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/force/stiffness_bound.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +9,7 @@
 #include "solve/force/internal_force.hpp"
 #include "solve/force/patch_dilatation.hpp"
 #include "solve/force/point_derivatives.hpp"
+#include "solve/material/symmetric_eigen.hpp"
 
 namespace brainshift::solve {
 
@@ -21,9 +21,7 @@ double weighted_norm(const Eigen::Matrix3Xd& b, std::span<const double> share) {
       sum += b.col(a) * b.col(a).transpose() / (share[static_cast<std::size_t>(a)] * norm);
     }
   }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(sum, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()[2];
+  return symmetric_eigenvalues(sum)[2];
 }
 
 namespace {

@@ -40,6 +40,13 @@ enum class Start : std::uint8_t {
   coarse,  ///< under the full load, as a coarse cloud's solution lies: fewer steps to the same end, no way there
 };
 
+/// What relaxation runs on.
+enum class Device : std::uint8_t {
+  cpu,
+  cuda,       ///< the first GPU that CUDA finds; what it cannot do is an error
+  automatic,  ///< that GPU for what it can do, the CPU for what it cannot
+};
+
 /// What each may be stands in option_table.cpp.
 struct SolveOptions {
   ShapeOptions shape;  ///< planar is set from the model
@@ -66,6 +73,7 @@ struct SolveOptions {
   double time_step = 0;  ///< transient: s; 0: nine tenths of the critical one
   double damping = 0;    ///< transient: c of METHOD.md (20), 1/s
   int max_steps = 50000;
+  Device device = Device::cpu;  ///< of a relaxation by itself, device/README.md
   double region = 0;       ///< mm; only what a coarse solution moves by more is solved, region.hpp; 0: the whole body
   int snapshot_every = 0;  ///< steps between displacements kept for steps.pvd, each 20th at the most; 0: none
 };

@@ -119,6 +119,9 @@ struct MeasuredFit {
   Eigen::MatrixXd covariance;
 };
 
+/// Below this stretch a free face of soft matter creases under uniaxial compression (Hong, Zhao & Suo 2009).
+inline constexpr double crease_stretch = 0.56;
+
 /// Over the shear modulus: pressures of patches above it may move points to where they should not go. Measured on
 /// blocks all of whose surface is prescribed, two hundred nodes: at 5 exact, at 10 wrong by a fifth of what is imposed.
 inline constexpr double most_pressure = 6;

@@ -22,20 +22,22 @@ struct LinearElastic {
       : shear_modulus(solve::shear_modulus(m)), bulk_modulus(solve::bulk_modulus(m)) {}
 
   /// ∂W/∂F without the volumetric part, Pa: 2µ dev ε.
-  Eigen::Matrix3d isochoric_stress(const Deformation& d) const {
+  BRAINSHIFT_ON_DEVICE Eigen::Matrix3d isochoric_stress(const Deformation& d) const {
     return 2 * shear_modulus * deviatoric(small_strain(d.gradient));
   }
   /// µ dev ε : dev ε, Pa.
-  double isochoric_energy(const Deformation& d) const {
+  BRAINSHIFT_ON_DEVICE double isochoric_energy(const Deformation& d) const {
     return shear_modulus * deviatoric(small_strain(d.gradient)).squaredNorm();
   }
   /// θ = tr ε and ∂θ/∂F.
-  double dilatation(const Deformation& d) const { return d.gradient.trace() - 3; }
-  Eigen::Matrix3d dilatation_slope(const Deformation&) const { return Eigen::Matrix3d::Identity(); }
+  BRAINSHIFT_ON_DEVICE double dilatation(const Deformation& d) const { return d.gradient.trace() - 3; }
+  BRAINSHIFT_ON_DEVICE Eigen::Matrix3d dilatation_slope(const Deformation&) const {
+    return Eigen::Matrix3d::Identity();
+  }
 };
 
 /// Largest eigenvalue of the tangent ∂²W/∂F∂F, Pa, the same everywhere: 3K of a change of volume or 2µ of one of shape.
-inline double largest_tangent(const LinearElastic& law, const Eigen::Matrix3d&, double) {
+BRAINSHIFT_ON_DEVICE inline double largest_tangent(const LinearElastic& law, const Eigen::Matrix3d&, double) {
   return std::max(3 * law.bulk_modulus, 2 * law.shear_modulus);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solve/cut/boundary_normals.hpp"
+#include "solve/device/device_fault.hpp"
 #include "solve/quadrature/missing_octants.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
@@ -134,6 +135,8 @@ std::optional<Points> coarse_displacement(const Model& model, const SolveOptions
   }
   try {
     return solved_on(nodes, model, options, progress);
+  } catch (const device::DeviceFault&) {
+    throw;  // nothing of the coarse cloud
   } catch (const std::logic_error&) {
     return std::nullopt;  // what the whole cloud holds in place, the coarse one may not
   } catch (const std::runtime_error&) {

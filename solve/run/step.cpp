@@ -6,6 +6,7 @@
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/cut/dissection.hpp"
+#include "solve/device/relax_on_device.hpp"
 #include "solve/dynamics/diagnosis.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/transient.hpp"
@@ -151,7 +152,7 @@ SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepare
   const Course course{
       .curve = model.curve, .start = std::move(start), .change = dissection ? dissection->change() : BodyChange()};
   SteppingResult stepped = options.dynamics == Dynamics::relaxation
-                               ? relax(std::move(prepared.body), course, options, progress)
+                               ? relax(std::move(prepared.body), course, options, progress, device::relax_if_asked)
                                : march(std::move(prepared.body), course, options, progress);
   SolveResult result = result_of(stepped, options, std::move(measures));
   if (prepared.cut) {

@@ -20,7 +20,7 @@ SOLVE_ROOMS = [
     "solve/" + room
     for room in (
         "arrays", "material", "interface", "load", "shape", "quadrature", "boundary", "force", "body", "measured", "dynamics",
-        "ensemble", "cut", "output", "run", "update", "region", "uncertainty",
+        "device", "ensemble", "cut", "output", "run", "update", "region", "uncertainty",
     )
 ] + ["solve"]
 MOST_HEADERS_OF_SOLVE = 15
@@ -29,7 +29,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 def read_includes(root):
     """{file: [files of ours that it includes]}, all relative to the root."""
-    files = [p for stage in STAGES for p in (root / stage).rglob("*") if p.suffix in (".hpp", ".cpp")]
+    files = [p for stage in STAGES for p in (root / stage).rglob("*") if p.suffix in (".hpp", ".cpp", ".cu", ".cuh")]
     return {
         str(p.relative_to(root)): [i for i in INCLUDE.findall(p.read_text()) if (root / i).is_file()] for p in files
     }

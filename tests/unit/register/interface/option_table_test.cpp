@@ -17,8 +17,9 @@ std::string fault(const RegisterOptions& options) {
 
 // A new member of the struct does not compile here: it goes into the table.
 TEST(RegisterOptions, AreAllInTheTable) {
-  [[maybe_unused]] const auto& [fade, interpolation, inverse_tolerance, cavity_label, cavity_value] = RegisterOptions{};
-  EXPECT_EQ(register_options().size(), 5U);
+  [[maybe_unused]] const auto& [fade, interpolation, inverse_tolerance, cavity_label, cavity_value, device] =
+      RegisterOptions{};
+  EXPECT_EQ(register_options().size(), 6U);
 }
 
 TEST(RegisterOptions, AreAllowedAsTheyAreByDefaultAndWithinTheirRanges) {
@@ -40,7 +41,8 @@ TEST(RegisterOptions, AreReadIntoTheMembersOfTheirNames) {
                                    {"interpolation", "bspline"},
                                    {"inverse_tolerance", "2"},
                                    {"cavity_label", "24"},
-                                   {"cavity_value", "-5"}}) {
+                                   {"cavity_value", "-5"},
+                                   {"device", "auto"}}) {
     ASSERT_TRUE(set_option(*find_option(register_options(), name), options, text)) << name;
   }
   EXPECT_EQ(options.fade, 3);
@@ -48,6 +50,7 @@ TEST(RegisterOptions, AreReadIntoTheMembersOfTheirNames) {
   EXPECT_EQ(options.inverse_tolerance, 2);
   EXPECT_EQ(options.cavity_label, 24);
   EXPECT_EQ(options.cavity_value, -5);
+  EXPECT_EQ(options.device, solve::Device::automatic);
 }
 
 }  // namespace brainshift::registration::option_table_test

@@ -27,9 +27,9 @@ TEST(SolveOptions, AreAllInTheTable) {
   [[maybe_unused]] const auto& [basis, derivatives, dilatation, penalty, planar] = ShapeOptions{};
   [[maybe_unused]] const auto& [shape, volumetric, nodes_per_patch, integration, consistency_defect, imposition,
                                 integration_tolerance, integration_depth, precision, points_per_cell, dynamics,
-                                tolerance, load_steps, start, time_step, damping, max_steps, region, snapshot_every] =
-      SolveOptions{};
-  EXPECT_EQ(solve_options().size() + 2, 4U + 1 + 18) << "beside planar and consistency_defect";
+                                tolerance, load_steps, start, time_step, damping, max_steps, device, region,
+                                snapshot_every] = SolveOptions{};
+  EXPECT_EQ(solve_options().size() + 2, 4U + 1 + 19) << "beside planar and consistency_defect";
   std::set<std::string> names;
   for (const auto& option : solve_options()) {
     EXPECT_TRUE(names.insert(option.name).second) << option.name << " is there twice";

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cooperative_groups.h>
+
+#include "solve/device/backend.hpp"
+#include "solve/device/device_fault.hpp"
+
+namespace brainshift::solve::device {
+
+namespace {
+
+constexpr int threads = 512;
+constexpr int most_sums = 64;
+
+__device__ double (*sums_of_warps())[most_sums] {
+  __shared__ double of_warp[threads / 32][most_sums];
+  return of_warp;
+}
+
+/// All threads of the device.
+struct AllThreads {
+  static constexpr int lanes = 4, wide = 32, at_once = 4;
+
+  __device__ int thread() const { return static_cast<int>(threadIdx.x); }
+  __device__ int threads() const { return static_cast<int>(blockDim.x); }
+  __device__ int block() const { return static_cast<int>(blockIdx.x); }
+  __device__ int blocks() const { return static_cast<int>(gridDim.x); }
+  __device__ std::byte* room() const {
+    extern __shared__ __align__(32) std::byte memory[];
+    return memory;
+  }
+  __device__ void sync_block() const { __syncthreads(); }
+  __device__ void sync_all() const { cooperative_groups::this_grid().sync(); }
+
+  /// Of the lanes that share a point, those that are next to each other.
+  template <int width>
+  __device__ static unsigned mask() {
+    return width == 32 ? 0xffffffffu : ((1u << width) - 1u) << (threadIdx.x % 32 / width * width);
+  }
+  template <int width, class Number>
+  __device__ Number sum(Number x) const {
+    for (int i = 1; i < width; i *= 2) {
+      x += __shfl_xor_sync(mask<width>(), x, i, width);
+    }
+    return x;
+  }
+  template <int width>
+  __device__ double largest(double x) const {
+    for (int i = 1; i < width; i *= 2) {
+      x = larger(x, __shfl_xor_sync(mask<width>(), x, i, width));
+    }
+    return x;
+  }
+  template <int sums, int count>
+  __device__ void combine(const double (&of_thread)[count], double* of_block) const {
+    static_assert(count <= most_sums);
+    double(*const of_warp)[most_sums] = sums_of_warps();
+    __syncthreads();
+    for (int k = 0; k < count; ++k) {
+      const double x = k < sums ? sum<32>(of_thread[k]) : largest<32>(of_thread[k]);
+      if (thread() % 32 == 0) {
+        of_warp[thread() / 32][k] = x;
+      }
+    }
+    __syncthreads();
+    if (thread() < count) {
+      double all = of_warp[0][thread()];
+      for (int w = 1; w < device::threads / 32; ++w) {
+        all = thread() < sums ? all + of_warp[w][thread()] : larger(all, of_warp[w][thread()]);
+      }
+      of_block[thread()] = all;
+    }
+  }
+};
+
+template <Task task, class Scalar>
+__global__ void __launch_bounds__(threads, 1)
+    kernel(const __grid_constant__ View<Scalar> view, const __grid_constant__ Order order) {
+  perform<task>(AllThreads{}, view, order);
+}
+
+void check(cudaError_t error, const char* what) {
+  cudaGetLastError();  // whoever comes next is not to blame
+  if (error == cudaErrorMemoryAllocation) {
+    throw DeviceFault("the GPU has not enough free memory; free some, or take device cpu");
+  }
+  if (error != cudaSuccess) {
+    throw DeviceFault(std::string("the GPU failed while it was to ") + what + ": " + cudaGetErrorString(error) +
+                      "; take device cpu");
+  }
+}
+
+template <Task task, class Scalar>
+void launch(const View<Scalar>& view, const Order& order) {
+  const std::size_t room = Room<Scalar>::size(view.most_slots, view.most_points);
+  const auto function = reinterpret_cast<const void*>(kernel<task, Scalar>);
+  check(cudaFuncSetAttribute(function, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(room)),
+        "set its memory apart");
+  const void* arguments[] = {&view, &order};
+  check(cudaLaunchCooperativeKernel(function, dim3(static_cast<unsigned>(gpu()->blocks)), dim3(threads),
+                                    const_cast<void**>(arguments), room, nullptr),
+        "begin a step");
+}
+
+template <class Scalar>
+void perform_on_gpu(Task task, const View<Scalar>& view, const Order& order) {
+  switch (task) {
+    case Task::step:
+      return launch<Task::step>(view, order);
+    case Task::look:
+      return launch<Task::look>(view, order);
+    case Task::follow:
+      return launch<Task::follow>(view, order);
+    case Task::weigh:
+      return launch<Task::weigh>(view, order);
+    case Task::hold:
+      return launch<Task::hold>(view, order);
+    case Task::measure_tightness:
+      return launch<Task::measure_tightness>(view, order);
+  }
+}
+
+void* allocate(std::size_t bytes) {
+  void* memory = nullptr;
+  check(cudaMalloc(&memory, bytes), "set memory apart");
+  return memory;
+}
+
+/// What there is, and why not, once and for all.
+struct Found {
+  std::string why_not;
+  Backend backend;
+
+  Found() {
+    int devices = 0;
+    const cudaError_t error = cudaGetDeviceCount(&devices);
+    cudaDeviceProp properties{};
+    if (error != cudaSuccess || devices == 0 || cudaGetDeviceProperties(&properties, 0) != cudaSuccess) {
+      why_not = std::string("there is no GPU that CUDA can use: ") +
+                cudaGetErrorString(error == cudaSuccess ? cudaErrorNoDevice : error);
+      cudaGetLastError();
+      return;
+    }
+    cudaFuncAttributes attributes{};
+    if (properties.cooperativeLaunch == 0 ||
+        cudaFuncGetAttributes(&attributes, reinterpret_cast<const void*>(kernel<Task::step, float>)) != cudaSuccess) {
+      cudaGetLastError();
+      why_not =
+          std::string("this program was not built for the GPU ") + properties.name + " (BRAINSHIFT_CUDA_ARCHITECTURES)";
+      return;
+    }
+    backend = {
+        .blocks = properties.multiProcessorCount,
+        .room = properties.sharedMemPerBlockOptin - (std::size_t{10} << 10),  // that of combine()
+        .allocate = allocate,
+        .release = [](void* memory) { cudaFree(memory); },
+        .clear = [](void* memory, std::size_t bytes) { check(cudaMemset(memory, 0, bytes), "clear its memory"); },
+        .to_device = [](void* to, const void* from,
+                        std::size_t bytes) { check(cudaMemcpy(to, from, bytes, cudaMemcpyDefault), "take data"); },
+        .from_device = [](void* to, const void* from,
+                          std::size_t bytes) { check(cudaMemcpy(to, from, bytes, cudaMemcpyDefault), "step"); },
+        .copy = [](void* to, const void* from,
+                   std::size_t bytes) { check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice), "copy"); },
+        .single = perform_on_gpu<float>,
+        .twofold = perform_on_gpu<double>};
+  }
+};
+
+const Found& found() {
+  static const Found what;
+  return what;
+}
+
+}  // namespace
+
+const Backend* gpu() {
+  return found().why_not.empty() ? &found().backend : nullptr;
+}
+
+std::string why_no_gpu() {
+  return found().why_not;
+}
+
+}  // namespace brainshift::solve::device

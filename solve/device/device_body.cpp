@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/device/device_body.hpp"
+
+#include <numeric>
+#include <type_traits>
+
+#include "solve/device/device_fault.hpp"
+#include "solve/force/firmness.hpp"
+
+namespace brainshift::solve::device {
+
+namespace {
+
+constexpr Eigen::Index most_conditions = 4096;  // of a component: their dense inverse is read in each step
+constexpr std::int32_t fewest_points = 32;      // of a cluster
+
+std::vector<Law> laws_of(const PointLaws& laws) {
+  std::vector<Law> result;
+  for (const ElasticLaw& elastic : laws.elastic) {
+    std::visit(
+        [&](const auto& law) {
+          if constexpr (std::is_constructible_v<Law, decltype(law)>) {
+            result.emplace_back(law);
+          }
+        },
+        elastic);
+  }
+  return result;
+}
+
+/// V as its arrays; the nodes of a row ascend.
+struct Rows {
+  std::vector<std::int64_t> begin = {0};
+  std::vector<std::int32_t> node;
+  std::vector<double> shape;
+
+  explicit Rows(const EssentialConditions::RowMatrix& matrix) {
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      for (EssentialConditions::RowMatrix::InnerIterator entry(matrix, i); entry; ++entry) {
+        node.push_back(static_cast<std::int32_t>(entry.col()));
+        shape.push_back(entry.value());
+      }
+      begin.push_back(static_cast<std::int64_t>(node.size()));
+    }
+  }
+  explicit Rows(const PushedNodes& nodes) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const PushedNodes::Row row = nodes.row(i);
+      node.insert(node.end(), row.node.begin(), row.node.end());
+      shape.insert(shape.end(), row.shape.begin(), row.shape.end());
+      begin.push_back(static_cast<std::int64_t>(node.size()));
+    }
+  }
+  bool operator==(const Rows&) const = default;
+};
+
+std::vector<double> dense(const Eigen::SparseMatrix<double>& matrix) {
+  const Eigen::MatrixXd full(matrix);
+  return {full.data(), full.data() + full.size()};
+}
+
+std::vector<double> values_of(const Eigen::VectorXd& vector) {
+  return {vector.begin(), vector.end()};
+}
+
+}  // namespace
+
+std::string why_not(const Body& body) {
+  const PointLaws& laws = body.laws;
+  if (body.face_contact || body.wall_contact || body.septum_contact) {
+    return "has a cut, a cavity or a septum";
+  }
+  if (laws.plane_stress || laws.in_time || !laws.prony.empty() || !laws.swelling.empty()) {
+    return "is in plane stress, moves in time or swells";
+  }
+  if (laws_of(laws).size() < laws.elastic.size()) {
+    return "has a material with a law of its own";
+  }
+  if (laws.elastic.size() > most_materials) {
+    return "has more than " + std::to_string(most_materials) + " materials";
+  }
+  for (const EssentialConditions::Component& c : body.essential.components()) {
+    if (c.prescribed.size() > most_conditions) {
+      return "has more than " + std::to_string(most_conditions) + " nodes with a prescribed displacement";
+    }
+  }
+  return {};
+}
+
+template <class Scalar>
+DeviceBody<Scalar>::DeviceBody(const Backend& backend, const Body& body) : backend_(backend), memory_(backend) {
+  put_points(body.points);
+  put_laws(body);
+  put_motion(body);
+  if (body.contact) {
+    put_contact(*body.contact);
+  }
+  put_conditions(body.essential);
+}
+
+template <class Scalar>
+void DeviceBody<Scalar>::put_points(const PointBlocks& points) {
+  const auto all = static_cast<std::int32_t>(points.points());
+  Clusters<Scalar> made;
+  const std::size_t room_of_points = Room<Scalar>::size(0, all) / static_cast<std::size_t>(backend_.blocks);
+  for (auto rounds = static_cast<std::int32_t>(room_of_points / backend_.room) + 1;; ++rounds) {
+    const std::int32_t wanted = std::clamp(all / fewest_points, 1, rounds * backend_.blocks);
+    made = make_clusters<Scalar>(points, wanted);
+    if (Room<Scalar>::size(made.most_slots, made.most_points) <= backend_.room) {
+      break;
+    }
+    if (wanted < rounds * backend_.blocks) {
+      throw DeviceFault(
+          "a patch of this body is larger than what a multiprocessor of the GPU holds; take device "
+          "cpu");
+    }
+  }
+  View<Scalar>& v = view_;
+  v.clusters = static_cast<std::int32_t>(made.clusters.size());
+  v.nodes = static_cast<std::int32_t>(points.nodes());
+  v.most_slots = made.most_slots;
+  v.most_points = made.most_points;
+  v.cluster = memory_.put(made.clusters);
+  v.patch = memory_.put(made.patches);
+  v.patch_of = memory_.put(made.patch_of);
+  std::vector<std::int32_t> material;
+  for (const PatchPoints& patch : made.patches) {
+    material.insert(material.end(), static_cast<std::size_t>(patch.points), patch.material);
+  }
+  v.material = memory_.put(material);
+  v.volume = memory_.put(points.volume);
+  v.mode = points.mode.empty() ? nullptr : memory_.put(points.mode);
+  v.pair_begin = memory_.put(made.pair_begin);
+  v.pair = memory_.put(made.pairs);
+  v.slot_node = memory_.put(made.slot_node);
+  v.slot_begin = memory_.put(made.slot_begin);
+  v.slot_pair = memory_.put(made.slot_pairs);
+  v.node_begin = memory_.put(made.node_begin);
+  v.node_slot = memory_.put(made.node_slot);
+  v.touch_begin = memory_.put(made.touch_begin);
+  v.touch = memory_.put(made.touches);
+  v.patch_touch_begin = memory_.put(made.patch_touch_begin);
+  v.patch_touch = memory_.put(made.patch_touch);
+  v.patch_touch_node = memory_.put(made.patch_touch_node);
+  v.touch_norm = memory_.template room<SlotVector<double>>(made.touches.size());
+  v.touch_reach = memory_.template room<double>(made.touches.size());
+  v.point_bound = memory_.template room<SharedBound>(points.points());
+  v.patch_bound = memory_.template room<SharedBound>(made.patches.size());
+  v.patch_total = memory_.template room<SlotVector<double>>(made.patches.size());
+  v.slot_force = memory_.template room<SlotVector<Scalar>>(made.slot_node.size());
+  v.slot_bound = memory_.template room<double>(made.slot_node.size());
+}
+
+template <class Scalar>
+void DeviceBody<Scalar>::put_laws(const Body& body) {
+  view_.law = memory_.put(laws_of(body.laws));
+  std::vector<double> firmness = node_firmness(body.points, shear_moduli(body.laws));
+  firmness.resize(body.nodes(), 1.0);
+  view_.firmness = memory_.put(firmness);
+}
+
+template <class Scalar>
+void DeviceBody<Scalar>::put_motion(const Body& body) {
+  View<Scalar>& v = view_;
+  const std::size_t values = 4 * body.nodes();
+  for (double*& vectors : v.displacement) {
+    vectors = memory_.template room<double>(values);
+  }
+  for (double*& vectors : v.force_at) {
+    vectors = memory_.template room<double>(values);
+  }
+  for (double*& vectors : v.span_state) {
+    vectors = memory_.template room<double>(values);
+  }
+  for (double** vectors : {&v.mode_of_body, &v.place_at_look, &v.force_at_look, &kept_displacement}) {
+    *vectors = memory_.template room<double>(values);
+  }
+  for (double** numbers : {&v.mass, &v.inverse_mass, &v.stiffer_mass}) {
+    *numbers = memory_.template room<double>(body.nodes());
+  }
+  std::vector<double> external;
+  for (const NodalVectors& at : body.external.at_fractions()) {
+    external.insert(external.end(), at.begin(), at.end());
+  }
+  v.external_count = static_cast<std::int32_t>(external.size() / values);
+  v.external = memory_.put(external);
+  v.partial = memory_.template room<double>(static_cast<std::size_t>(backend_.blocks) * LookSums::count);
+  v.record = memory_.template room<Record>(1);
+}
+
+template <class Scalar>
+void DeviceBody<Scalar>::put_contact(const Contact& contact) {
+  TouchingNodes& c = view_.contact;
+  const Rows rows(contact.nodes());
+  const NodeRows moved = by_node(rows.begin, rows.node, rows.shape);
+  std::vector<double> column_sum(nodes(), 0.0), position;
+  for (std::size_t k = 0; k < rows.node.size(); ++k) {
+    column_sum[static_cast<std::size_t>(rows.node[k])] += std::abs(rows.shape[k]);
+  }
+  for (Eigen::Index i = 0; i < contact.nodes().positions().rows(); ++i) {
+    const Eigen::Vector3d at = contact.nodes().positions().row(i);
+    position.insert(position.end(), at.begin(), at.end());
+  }
+  const std::size_t count = contact.nodes().size();
+  c.count = static_cast<std::int32_t>(count);
+  c.begin = memory_.put(rows.begin);
+  c.node = memory_.put(rows.node);
+  c.shape = memory_.put(rows.shape);
+  c.position = memory_.put(position);
+  c.allowed = memory_.put(std::vector<double>(contact.allowed().begin(), contact.allowed().end()));
+  c.column_sum = memory_.put(column_sum);
+  c.inverse_row_sum = memory_.template room<double>(count);
+  c.push = memory_.template room<double>(3 * count);
+  c.moved = static_cast<std::int32_t>(moved.node.size());
+  c.moved_node = memory_.put(moved.node);
+  c.moved_begin = memory_.put(moved.begin);
+  c.moved_row = memory_.put(moved.row);
+  c.moved_shape = memory_.put(moved.shape);
+  c.skull = contact.skull()->grid();
+  c.skull.sample = memory_.put(contact.skull()->samples().value);
+}
+
+template <class Scalar>
+void DeviceBody<Scalar>::put_conditions(const EssentialConditions& essential) {
+  for (const EssentialConditions::Component& c : essential.components()) {
+    conditions_ += static_cast<std::size_t>(c.prescribed.size());
+  }
+  double* multipliers[] = {memory_.template room<double>(conditions_), memory_.template room<double>(conditions_)};
+  kept_multipliers = memory_.template room<double>(conditions_);
+  double* const residual = memory_.template room<double>(conditions_);
+  std::size_t before = 0;
+  std::optional<Rows> rows_before;
+  std::vector<double> compliance_before;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const EssentialConditions::Component& from = essential.components()[axis];
+    Conditions& c = view_.condition[axis];
+    const Rows rows(from.shape);
+    const NodeRows moved = by_node(rows.begin, rows.node, rows.shape);
+    const auto count = static_cast<std::size_t>(from.prescribed.size());
+    const std::vector<double> compliance = dense(from.compliance);
+    c.count = static_cast<std::int32_t>(count);
+    c.begin = memory_.put(rows.begin);
+    c.node = memory_.put(rows.node);
+    c.shape = memory_.put(rows.shape);
+    c.prescribed = memory_.put(values_of(from.prescribed));
+    c.loaded = memory_.put(values_of(from.loaded));
+    c.compliance = compliance.empty() ? nullptr : memory_.put(compliance);
+    c.residual = residual + before;
+    c.multiplier[0] = multipliers[0] + before;
+    c.multiplier[1] = multipliers[1] + before;
+    c.own = !rows_before || !(rows == *rows_before) || compliance != compliance_before;
+    c.inverse = c.own ? memory_.template room<double>(count * count) : view_.condition[axis - 1].inverse;
+    c.column = memory_.template room<double>(3 * count);
+    c.moved = static_cast<std::int32_t>(moved.node.size());
+    c.moved_node = memory_.put(moved.node);
+    c.moved_begin = memory_.put(moved.begin);
+    c.moved_row = memory_.put(moved.row);
+    c.moved_shape = memory_.put(moved.shape);
+    before += count;
+    rows_before = rows;
+    compliance_before = compliance;
+  }
+}
+
+template <class Scalar>
+Record DeviceBody<Scalar>::record() const {
+  Record record;
+  backend_.from_device(&record, view_.record, sizeof record);
+  return record;
+}
+
+template <class Scalar>
+NodalVectors DeviceBody<Scalar>::read(const double* vectors) const {
+  NodalVectors values(4 * nodes());
+  backend_.from_device(values.data(), vectors, values.size() * sizeof(double));
+  return values;
+}
+
+template <class Scalar>
+void DeviceBody<Scalar>::write(const NodalVectors& values, double* vectors) const {
+  backend_.to_device(vectors, values.data(), values.size() * sizeof(double));
+}
+
+template <class Scalar>
+std::vector<double> DeviceBody<Scalar>::masses() const {
+  std::vector<double> values(nodes());
+  backend_.from_device(values.data(), view_.mass, values.size() * sizeof(double));
+  return values;
+}
+
+template class DeviceBody<float>;
+template class DeviceBody<double>;
+
+}  // namespace brainshift::solve::device

@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/device/relax_on_device.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+
+#include "solve/device/device_body.hpp"
+#include "solve/device/device_fault.hpp"
+#include "solve/dynamics/error_bound.hpp"
+#include "solve/dynamics/load_pace.hpp"
+#include "solve/dynamics/quickening.hpp"
+#include "solve/dynamics/relaxation.hpp"
+#include "solve/dynamics/relaxation_rules.hpp"
+#include "solve/dynamics/rest_report.hpp"
+#include "solve/dynamics/soundness.hpp"
+#include "solve/force/largest_eigenvalue.hpp"
+
+namespace brainshift::solve::device {
+
+namespace {
+
+static_assert(usual_window <= most_steps);
+
+/// The work that was done and where it went, as Motion keeps these books; 1e-9 J.
+struct Books {
+  double external_work = 0, dissipated = 0;
+  double largest_work = 0;  // mJ
+  int looks_before = 0;     // until they count
+
+  void add(const StepSums& sums, double alpha, double beta, double beta_before, double moved_on) {
+    const double rate = sums.of[StepSums::multiplier_work] / alpha;
+    external_work += moved_on * (rate + rate_before_) / 2 + force_work_before_;
+    rate_before_ = rate;
+    force_work_before_ = sums.of[StepSums::force_work];
+    const double lost = (1 - beta) / (4 * alpha) * sums.of[StepSums::two_steps] - sums.of[StepSums::push_work] / alpha;
+    dissipated += (lost_before_ + lost) / 2;
+    lost_before_ = lost;
+    dissipated += (beta_before - beta) / (4 * alpha) * sums.of[StepSums::step_before];
+  }
+
+ private:
+  double rate_before_ = 0, force_work_before_ = 0, lost_before_ = 0;
+};
+
+template <class Scalar>
+class Relaxation {
+ public:
+  Relaxation(const Backend& backend, Body& body, const Course& course, const SolveOptions& options, bool cautious)
+      : body_(body),
+        course_(course),
+        options_(options),
+        on_(backend, body),
+        pace_(steps_of_load(options.load_steps, body.laws), false),
+        cautious_(cautious),
+        rounding_energy_(rounding_energy(body)),
+        volume_(body.laws.elastic.size(), 0.0) {
+    for (const Patch& patch : body.points.patches) {
+      for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+        volume_[static_cast<std::size_t>(patch.material)] += body.points.volume[static_cast<std::size_t>(p)];
+      }
+    }
+    order_.alpha = relaxation_alpha;
+    order_.iterations = tightness_iterations;
+    order_.mode_size = small_mode;
+    on_.perform(Task::follow, order_);
+    if (!cautious) {
+      on_.write(rough_mode(on_.nodes()), on_.view().mode_of_body);
+      on_.perform(Task::measure_tightness, order_);
+      order_.mass_scale = std::min(1.0, tightness_margin * on_.record().eigenvalue);
+    }
+    order_.mass_margin = mass_margin;
+    on_.perform(Task::follow, order_);
+    weigh();
+    if (!course.start.empty()) {
+      start();
+    }
+  }
+
+  Relaxed run(const Progress& progress) {
+    while (result_.failure.empty() && result_.steps < options_.max_steps) {
+      const int steps = std::min(usual_window, options_.max_steps - result_.steps);
+      advance(steps);
+      if (steps < usual_window) {
+        break;
+      }
+      look();
+      report_window(progress, result_.steps, time_, error_bound_, tolerance(), done_);
+      if (result_.failure.empty() && is_slow()) {
+        return finish(true);
+      }
+      if (time_ >= 1 && error_bound_ <= tolerance() && result_.failure.empty()) {
+        return finish();
+      }
+      if (result_.failure.empty() && bound_.stands_still(rounding_of_step(farthest_, precision()))) {
+        error_bound_ = bound_.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue)));
+        if (error_bound_ <= tolerance()) {
+          return finish();
+        }
+        result_.rounded = precision() == Precision::single_precision;
+        result_.failure = stands_still(result_.steps - ErrorBound::standstill, error_bound_, tolerance(), precision());
+      }
+    }
+    if (result_.failure.empty()) {
+      result_.failure = not_converged(result_.steps, error_bound_, tolerance());
+      diagnose(false);
+      result_.fault->explained = true;
+    }
+    return finish();
+  }
+
+ private:
+  Precision precision() const { return body_.points.precision(); }
+  double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
+  double* displacement(int steps_on) const { return on_.view().displacement[(order_.first + steps_on) % 3]; }
+
+  /// As Motion::start_from().
+  void start() {
+    on_.write(course_.start, displacement(1));
+    order_.fraction[0] = 1;
+    on_.perform(Task::hold, order_);
+    for (double* to : {displacement(0), displacement(2), on_.kept_displacement}) {
+      on_.backend().copy(to, displacement(1), 4 * on_.nodes() * sizeof(double));
+    }
+    fraction_ = fraction_before_ = time_ = 1;
+    books_.looks_before = 2;
+    pace_.skip();
+    follow_stiffness();
+  }
+
+  void weigh() {
+    on_.perform(Task::weigh, order_);
+    if (on_.record().singular != 0) {
+      body_.essential.factorise(on_.masses(), order_.alpha);  // which says where
+      throw DeviceFault("the prescribed displacements nearly repeat each other; take device cpu");
+    }
+  }
+
+  /// Makes the masses anew when a node has become stiffer than they allow for.
+  void follow_stiffness() {
+    on_.perform(Task::follow, order_);
+    const FollowSums sums = on_.record().follow;
+    if (sums.of[FollowSums::stiffer] > 0) {
+      books_.dissipated +=
+          (1 + order_.beta) / (4 * order_.alpha) * (sums.of[FollowSums::inertia] - sums.of[FollowSums::inertia_then]);
+      weigh();
+    }
+  }
+
+  /// So many steps of a window, and the look at its end.
+  void advance(int steps) {
+    const double beta_before = order_.beta;
+    order_.beta = critical_beta(lowest_);
+    for (int done = 0; done < steps; done += record_.steps) {
+      const LoadPace pace_before = pace_;
+      double time[most_steps];
+      order_.steps = steps - done;
+      order_.halt_below = squeezed_share * squeezed_to_;
+      order_.fraction[0] = fraction_;
+      for (int s = 0; s < order_.steps; ++s) {
+        time[s] = pace_.go_on(false);
+        order_.fraction[s + 1] = course_.curve.at(time[s] * course_.curve.duration());
+      }
+      on_.perform(Task::step, order_);
+      on_.perform(Task::look, after(order_.steps));
+      record_ = on_.record();
+      for (int s = 1; s <= record_.steps; ++s) {
+        books_.add(record_.step[s], order_.alpha, order_.beta, done == 0 && s == 1 ? beta_before : order_.beta,
+                   fraction_ - fraction_before_);
+        fraction_before_ = fraction_;
+        fraction_ = order_.fraction[s];
+      }
+      time_ = time[record_.steps - 1];
+      const bool rewind = record_.steps < order_.steps;
+      order_ = after(record_.steps);
+      result_.steps += record_.steps;
+      if (rewind) {
+        pace_ = pace_before;
+        for (int s = 0; s < record_.steps; ++s) {
+          pace_.go_on(false);
+        }
+      }
+      if (record_.halted != 0) {
+        squeezed_to_ = -record_.step[record_.steps - 1].of[StepSums::minus_jacobian];
+        follow_stiffness();
+        if (done + record_.steps == steps) {
+          on_.perform(Task::look, order_);
+          record_.look = on_.record().look;
+        }
+      }
+    }
+    ++order_.states;
+  }
+
+  Order after(int steps) const {
+    Order order = order_;
+    order.first = (order_.first + steps) % 3;
+    order.parity = (order_.parity + steps) % 2;
+    return order;
+  }
+
+  /// As Motion::look() and what relax() reads off a window.
+  void look() {
+    const auto& of = record_.look.of;
+    const double moved = std::sqrt(of[LookSums::longest_step]);
+    if (!is_sound(moved)) {
+      return;
+    }
+    farthest_ = std::max(farthest_, of[LookSums::farthest]);
+    estimate_lowest_eigenvalue(moved);
+    bound_.add(moved, std::sqrt(critical_beta(lowest_)), time_ >= 1,
+               rounding_of_step(farthest_, Precision::double_precision));
+    error_bound_ = bound_.value();
+    if (error_bound_ <= tolerance() && order_.states > 2) {
+      error_bound_ = std::max(
+          {error_bound_, of[LookSums::span_of_nodes],
+           SpanBound::of_all(of[LookSums::span_longest], of[LookSums::span_product], of[LookSums::span_squares])});
+    }
+    complete_row();
+    if (result_.steps / usual_window % windows_to_stiffness(time_ >= 1) == 0) {
+      follow_stiffness();
+    }
+  }
+
+  PointState point_state() const {
+    const auto& of = record_.look.of;
+    PointState state;
+    state.strain_energy = of[LookSums::strain_energy];
+    state.smallest_jacobian = -of[LookSums::minus_jacobian];
+    state.largest_stretch = of[LookSums::stretch];
+    state.compressed_share = of[LookSums::compressed] / std::accumulate(volume_.begin(), volume_.end(), 0.0);
+    for (std::size_t row = 0; row < volume_.size(); ++row) {
+      const double pressed = of[static_cast<std::size_t>(LookSums::pressed) + row];
+      state.pressed_share = std::max(state.pressed_share, volume_[row] > 0 ? pressed / volume_[row] : 0.0);
+    }
+    return state;
+  }
+
+  bool is_sound(double moved) {
+    const auto& of = record_.look.of;
+    const PointState state = point_state();
+    const double now = of[LookSums::inertia_now], before = of[LookSums::inertia_before],
+                 two = of[LookSums::inertia_two], alpha = order_.alpha, beta = order_.beta;
+    const double kinetic = (1 + beta) / (8 * alpha) * (two - now - before) + (1 - beta) / (8 * alpha) * (before - now);
+    if (books_.looks_before > 0) {
+      --books_.looks_before;
+      books_.external_work = state.strain_energy + kinetic;
+      books_.dissipated = 0;
+    }
+    constexpr double newton = 1e-6;  // µN to N
+    HistoryRow row{.step = result_.steps, .time = time_};
+    row.external_work = books_.external_work * energy_unit;
+    row.strain_energy = state.strain_energy * energy_unit;
+    row.kinetic_energy = kinetic * energy_unit;
+    row.dissipated_energy = books_.dissipated * energy_unit;
+    row.reaction =
+        newton / alpha * Eigen::Vector3d(of[LookSums::reaction_x], of[LookSums::reaction_y], of[LookSums::reaction_z]);
+    books_.largest_work = std::max(books_.largest_work, std::abs(row.external_work));
+    const double motion = two * (1 + beta) / (16 * alpha) * energy_unit;
+    const std::string fault = unsound(state, moved);
+    const bool lively = motion > most_motion * std::max(books_.largest_work, rounding_energy_);
+    if (!fault.empty() || lively) {
+      fail(fault.empty() ? unbalanced(row) : fault, row, !fault.empty());
+      return false;
+    }
+    result_.state = state;
+    result_.fraction = fraction_;
+    squeezed_to_ = state.smallest_jacobian;
+    on_.backend().copy(on_.kept_displacement, displacement(0), 4 * on_.nodes() * sizeof(double));
+    on_.backend().copy(on_.kept_multipliers, on_.multipliers(1 - order_.parity), on_.conditions() * sizeof(double));
+    result_.history.push_back(row);
+    return true;
+  }
+
+  void fail(const std::string& why, const HistoryRow& row, bool at_point) {
+    std::ostringstream text;
+    text << "unstable at step " << result_.steps << " (time " << row.time << ") with " << 100 * fraction_
+         << " % of the load: " << why;
+    result_.failure = text.str();
+    result_.unstable = true;
+    diagnose(at_point);
+    result_.fault->fast =
+        !result_.history.empty() && result_.history.back().kinetic_energy > result_.history.back().strain_energy;
+  }
+
+  /// Where it went wrong, with the host's means.
+  void diagnose(bool at_point) {
+    const NodalVectors now = on_.read(displacement(0)), before = on_.read(displacement(2)),
+                       next = on_.read(displacement(1));
+    result_.fault = restless_node({now, before, next});
+    if (at_point) {
+      ForceScratch scratch(body_.points, body_.laws);
+      NodalVectors force(now.size());
+      internal_force(body_.points, body_.laws, before, scratch, force);
+      if (!(jacobian_range(scratch).smallest > 0)) {
+        result_.fault = broken_point(body_.points, scratch, {now, before, next});
+      }
+    }
+  }
+
+  /// A_0 from the last increments, and where these feel rounding from those of the last window, too.
+  void estimate_lowest_eigenvalue(double moved) {
+    const auto& of = record_.look.of;
+    const auto quotient = [](double stiffness, double inertia) { return inertia > 0 ? stiffness / inertia : 0; };
+    double estimate = quotient(of[LookSums::stiffness], of[LookSums::inertia_before]);
+    if (looked_under_load_ && feels_rounding(moved, farthest_, precision())) {
+      estimate = std::min(estimate, quotient(of[LookSums::window_stiffness], of[LookSums::window_inertia]));
+    }
+    looked_under_load_ = time_ >= 1;
+    if (estimate > 0) {
+      const double springs = fraction_ == fraction_before_ ? of[LookSums::spring_work] / order_.alpha : 0;
+      lowest_ = bounded_eigenvalue(estimate + (springs > 0 ? quotient(springs, of[LookSums::inertia_now]) : 0));
+    }
+  }
+
+  void complete_row() {
+    const auto& of = record_.look.of;
+    const double most = std::max(of[LookSums::force], force_at_rest_);
+    force_at_rest_ = of[LookSums::push] <= residual_at_rest * most ? most : force_at_rest_;
+    result_.history.back().residual = most > 0 ? of[LookSums::push] / most : 0;
+    result_.history.back().error_bound = error_bound_;
+  }
+
+  /// relax() would make its rigid motions quicker. Not at the first sign: that ends the device's part.
+  bool is_slow() {
+    constexpr int slow_windows = 5;
+    const bool slow = time_ >= 1 && !cautious_ && std::isfinite(bound_.value()) &&
+                      bound_.value() > far_from_rest * tolerance() && Quickening::wanted(lowest_);
+    slow_windows_ = slow ? slow_windows_ + 1 : 0;
+    return slow_windows_ >= slow_windows;
+  }
+
+  Relaxed finish(bool slow = false) {
+    result_.error_bound = error_bound_;
+    result_.parameters = on_.read(on_.kept_displacement);
+    result_.settled = {
+        .mass = on_.masses(), .mass_scale = order_.mass_scale, .lowest = lowest_, .smallest_jacobian = squeezed_to_};
+    std::vector<double> multipliers(on_.conditions());
+    on_.backend().from_device(multipliers.data(), on_.kept_multipliers, multipliers.size() * sizeof(double));
+    result_.reactions = body_.essential.reactions(order_.alpha, on_.nodes(), multipliers);
+    result_.body = std::move(body_);
+    return {std::move(result_), slow};
+  }
+
+  Body& body_;
+  const Course& course_;
+  const SolveOptions& options_;
+  DeviceBody<Scalar> on_;
+  Order order_;
+  Record record_;
+  LoadPace pace_;
+  ErrorBound bound_{usual_window};
+  Books books_;
+  SteppingResult result_;
+  bool cautious_;
+  int slow_windows_ = 0;
+  double rounding_energy_;                                        // mJ
+  std::vector<double> volume_;                                    // of each material, mm³
+  double lowest_ = 1e-4;                                          // A_0: a guess until there are increments
+  double error_bound_ = std::numeric_limits<double>::infinity();  // at the last look, mm
+  double time_ = 0, fraction_ = 0, fraction_before_ = 0;
+  double squeezed_to_ = 1;    // J
+  double farthest_ = 0;       // largest |û| on the way, mm
+  double force_at_rest_ = 0;  // largest sum of |f_int| of a state at rest, µN
+  double done_ = 0;           // reported
+  bool looked_under_load_ = false;
+};
+
+}  // namespace
+
+Relaxed relax(const Backend& backend, Body& body, const Course& course, const SolveOptions& options, bool cautious,
+              const Progress& progress) {
+  return body.points.precision() == Precision::single_precision
+             ? Relaxation<float>(backend, body, course, options, cautious).run(progress)
+             : Relaxation<double>(backend, body, course, options, cautious).run(progress);
+}
+
+namespace {
+
+/// From where a device has left it.
+SteppingResult gone_on(SteppingResult left, const Course& course, SolveOptions options, const Progress& progress) {
+  report(progress, 0, "slow; the processor goes on, which makes rigid motions quicker");
+  options.max_steps -= left.steps;
+  SteppingResult result = solve::relax(std::move(left.body),
+                                       {.curve = course.curve, .start = std::move(left.parameters)}, options, progress);
+  result.steps += left.steps;
+  for (HistoryRow& row : result.history) {
+    row.step += left.steps;
+  }
+  const bool from_there = !result.history.empty() && result.history.front().time >= 1;  // else once more from rest
+  if (from_there) {
+    result.history.insert(result.history.begin(), left.history.begin(), left.history.end());
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,
+                                             bool cautious, const Progress& progress) {
+  if (options.device == Device::cpu) {
+    return std::nullopt;
+  }
+  std::string why = why_no_gpu();
+  if (why.empty()) {
+    const std::string of_body = why_not(body);
+    why = of_body.empty() ? of_body : "a GPU cannot solve this body, which " + of_body;
+  }
+  if (why.empty() &&
+      (course.settled || course.change || options.snapshot_every > 0 || options.imposition == Imposition::simplified)) {
+    why = "a GPU does not update runs, cut, keep steps or impose displacements in the simplified form";
+  }
+  if (!why.empty()) {
+    if (options.device == Device::cuda) {
+      throw std::invalid_argument("device cuda: " + why + "; take cpu, or auto");
+    }
+    report(progress, 0, "on the processor: " + why);
+    return std::nullopt;
+  }
+  try {
+    Relaxed relaxed = relax(*gpu(), body, course, options, cautious, progress);
+    return relaxed.slow ? gone_on(std::move(relaxed.result), course, options, progress) : std::move(relaxed.result);
+  } catch (const DeviceFault& fault) {
+    if (options.device == Device::cuda) {
+      throw;
+    }
+    report(progress, 0, std::string("once more on the processor: ") + fault.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace brainshift::solve::device

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "segmentation/progress/progress.hpp"
+#include "solve/dynamics/stepping.hpp"
+#include "solve/interface/options.hpp"
+
+namespace brainshift::solve::device {
+
+struct Backend;
+
+struct Relaxed {
+  SteppingResult result;
+  bool slow = false;  ///< relax() would look for its rigid modes, which a device does not: it is to go on from here
+};
+
+/// relax() once, with the masses from the bound itself where `cautious`, wholly on a device: after each window of steps
+/// the host gets some sums, goes by the same rules, and says how to go on. Ends, to rounding, where and when relax()
+/// does, but that HistoryRow::residual has the damping of the window, not of the next. body: moved into the result;
+/// kept where it throws. Of a course without settled masses and changes. Throws DeviceFault, and as
+/// EssentialConditions::factorise() does.
+Relaxed relax(const Backend& backend, Body& body, const Course& course, const SolveOptions& options, bool cautious,
+              const Progress& progress);
+
+/// That on the GPU where the options ask for it, and on from there on the CPU where it is slow; nothing: all is to be
+/// done on the CPU. Throws std::invalid_argument where the options want nothing but the GPU and it cannot be.
+std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,
+                                             bool cautious, const Progress& progress);
+
+}  // namespace brainshift::solve::device

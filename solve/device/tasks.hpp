@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solve/device/boundary_step.hpp"
+#include "solve/device/follow.hpp"
+#include "solve/device/look.hpp"
+#include "solve/device/weigh.hpp"
+
+namespace brainshift::solve::device {
+
+/// What a team does in one go.
+enum class Task : int { step, look, follow, weigh, hold, measure_tightness };
+
+/// The motion after the last step, with the force and the multipliers of that.
+BRAINSHIFT_ON_DEVICE inline Motion after(const Motion& m, const Motion& last) {
+  Motion result = m;
+  result.force = last.force;
+  result.force_before = last.force_before;
+  for (int axis = 0; axis < 3; ++axis) {
+    result.multiplier_of[axis] = last.multiplier_of[axis];
+    result.multiplier_before[axis] = last.multiplier_before[axis];
+  }
+  return result;
+}
+
+/// Motion::step() as often as the order says, or until a point is squeezed so much that the masses must be looked at.
+template <class Team, class Scalar>
+BRAINSHIFT_ON_DEVICE void step(const Team& team, const View<Scalar>& v, const Order& order) {
+  Record& record = *v.record;
+  int done = 0;
+  bool halted = false;
+  while (done < order.steps && !halted) {
+    const Motion m = motion_at(v, order, done);
+    const double minus_jacobian = slot_forces(team, v, m.now);
+    leave_step_sums(team, v, m, order.fraction[std::max(done - 1, 0)], order.fraction[done], minus_jacobian);
+    team.sync_all();
+    move_nodes(team, v, order, m, order.fraction[done]);
+    if (team.block() == team.blocks() - 1) {
+      collect<StepSums::sums, StepSums::count>(team, v.partial, record.step[done].of);
+    }
+    team.sync_all();
+    halted = !(-record.step[done].of[StepSums::minus_jacobian] >= order.halt_below);
+    if (v.contact.count > 0) {
+      touch(team, v, m.next);
+    }
+    hold(team, v, m, order.fraction[done + 1]);
+    ++done;
+  }
+  const Motion m = motion_at(v, order, done);
+  leave_step_sums(team, v, m, order.fraction[done - 1], order.fraction[done], -1);
+  team.sync_all();
+  if (team.block() == team.blocks() - 1) {
+    collect<StepSums::sums, StepSums::count>(team, v.partial, record.step[done].of);
+  }
+  if (first_of_all(team) == 0) {
+    record.steps = done;
+    record.halted = halted ? 1 : 0;
+  }
+}
+
+/// At the state that the next step would begin with, unless the last order has halted.
+template <class Team, class Scalar>
+BRAINSHIFT_ON_DEVICE void look_if_due(const Team& team, const View<Scalar>& v, const Order& order) {
+  if (v.record->halted == 0) {
+    look(team, v, order, after(motion_at(v, order, 0), motion_at(v, order, 1)));  // parities come in turn
+  }
+}
+
+/// Sums over the nodes that every thread gets.
+template <int count, class Team>
+BRAINSHIFT_ON_DEVICE void sum_for_all(const Team& team, double (&of)[count], double* partial) {
+  leave<count>(team, of, partial);
+  team.sync_all();
+  for (int k = 0; k < count; ++k) {
+    double sum = 0;
+    for (int b = team.thread() % Team::wide; b < team.blocks(); b += Team::wide) {
+      sum += partial[b * count + k];
+    }
+    of[k] = team.template sum<Team::wide>(sum);
+  }
+  team.sync_all();
+}
+
+/// largest_eigenvalue() for the masses in `stiffer_mass`, from the mode in `mode_of_body`, 4 a node.
+template <class Team, class Scalar>
+BRAINSHIFT_ON_DEVICE void measure_tightness(const Team& team, const View<Scalar>& v, const Order& order) {
+  const std::int64_t values = 4 * static_cast<std::int64_t>(v.nodes);
+  double squares[1] = {};
+  for (std::int64_t i = first_of_all(team); i < values; i += all_threads(team)) {
+    squares[0] += square(v.mode_of_body[i]);
+  }
+  sum_for_all(team, squares, v.partial);
+  double eigenvalue = 0;
+  for (int iteration = 0; iteration < order.iterations; ++iteration) {
+    const double scale = order.mode_size * std::sqrt(static_cast<double>(v.nodes)) / std::sqrt(squares[0]);
+    for (std::int64_t i = first_of_all(team); i < values; i += all_threads(team)) {
+      v.mode_of_body[i] *= scale;
+    }
+    team.sync_all();
+    slot_forces(team, v, v.mode_of_body);
+    team.sync_all();
+    double of[3] = {};
+    for (std::int64_t i = first_of_all(team); i < values; i += all_threads(team)) {
+      const double mass = v.stiffer_mass[i / 4], mode = v.mode_of_body[i];
+      const double force = i % 4 < 3 ? force_at_node(v, static_cast<std::int32_t>(i / 4), static_cast<int>(i % 4)) : 0;
+      of[0] += mode * force;
+      of[1] += mass * mode * mode;
+      v.mode_of_body[i] = force / mass;
+      of[2] += square(v.mode_of_body[i]);
+    }
+    sum_for_all(team, of, v.partial);
+    eigenvalue = of[0] / of[1];
+    squares[0] = of[2];
+  }
+  if (first_of_all(team) == 0) {
+    v.record->eigenvalue = eigenvalue;
+  }
+}
+
+template <Task task, class Team, class Scalar>
+BRAINSHIFT_ON_DEVICE void perform(const Team& team, const View<Scalar>& v, const Order& order) {
+  if constexpr (task == Task::step) {
+    step(team, v, order);
+  } else if constexpr (task == Task::look) {
+    look_if_due(team, v, order);
+  } else if constexpr (task == Task::follow) {
+    const Motion m = motion_at(v, order, 0);
+    follow_stiffness(team, v, order, m.before, m);
+  } else if constexpr (task == Task::weigh) {
+    weigh(team, v, order);
+  } else if constexpr (task == Task::hold) {
+    hold(team, v, motion_at(v, order, 0), order.fraction[0]);
+  } else {
+    measure_tightness(team, v, order);
+  }
+}
+
+}  // namespace brainshift::solve::device

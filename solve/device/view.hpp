@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "segmentation/geometry/distance_grid.hpp"
+#include "solve/device/law.hpp"
+
+namespace brainshift::solve::device {
+
+// What a step reads and changes, as it lies in the memory of a device: plain arrays. Numbers of points, patches, slots
+// and nodes count from 0 over the whole body where nothing else is said.
+
+/// A point and a node of its support, with ∂φ/∂X, 1/mm. One load of a register.
+template <class Scalar>
+struct alignas(4 * sizeof(Scalar)) Pair {
+  Scalar derivative[3];
+  std::int32_t other;  ///< slot, or point, of the cluster: the one that the list is not of
+};
+
+/// A vector at a slot.
+template <class Scalar>
+struct alignas(4 * sizeof(Scalar)) SlotVector {
+  Scalar of[4];
+};
+
+/// Points that one multiprocessor handles at a time, its patches whole. Its nodes are its slots.
+struct Cluster {
+  std::int32_t first_point, points, first_patch, patches, slots;
+  std::int64_t first_slot;
+};
+
+struct PatchPoints {
+  std::int32_t first_point, points, material;
+};
+
+/// The pairs of a slot with the points of one patch.
+struct Touch {
+  std::int64_t first;  ///< in `slot_pair`
+  std::int32_t pairs, patch;
+};
+
+/// A bound, and how the nodes share it: NodeShares.
+struct SharedBound {
+  double scale, firmest, least;
+};
+
+/// Surface nodes within a skull: Contact.
+struct TouchingNodes {
+  std::int32_t count = 0;
+  const std::int64_t* begin;  ///< V, compressed rows
+  const std::int32_t* node;
+  const double* shape;
+  const double* position;    ///< undeformed, mm, 3 a row
+  const double* allowed;     ///< mm
+  const double* column_sum;  ///< Σ |V|, one a node of the body
+  double* inverse_row_sum;   ///< D⁻¹
+  double* push;              ///< D⁻¹ δ, 3 a row
+  std::int32_t moved = 0;    ///< nodes that pushes move
+  const std::int32_t* moved_node;
+  const std::int64_t* moved_begin;  ///< Vᵀ, compressed rows of them
+  const std::int32_t* moved_row;
+  const double* moved_shape;
+  DistanceGrid skull;
+};
+
+/// Essential conditions of a component: EssentialConditions::Component.
+struct Conditions {
+  std::int32_t count = 0;
+  const std::int64_t* begin;  ///< V, compressed rows, their nodes ascending
+  const std::int32_t* node;
+  const double* shape;
+  const double* prescribed;  ///< mm
+  const double* loaded;      ///< 1, else 0
+  const double* compliance;  ///< C/s, dense; nullptr: held exactly
+  double* residual;
+  double* multiplier[2];
+  double* inverse;  ///< −(V M⁻¹ Vᵀ + C/(sα))⁻¹, dense
+  double* column;   ///< of the elimination, two and the diagonal
+  bool own;         ///< false: the inverse is that of the component before
+  std::int32_t moved = 0;
+  const std::int32_t* moved_node;
+  const std::int64_t* moved_begin;
+  const std::int32_t* moved_row;
+  const double* moved_shape;
+};
+
+constexpr int most_steps = 20;  // of an order
+constexpr int most_materials = 32;
+
+/// Sums of one step, which the balance of energies wants; then the largest of something.
+struct StepSums {
+  enum : int { two_steps, step_before, force_work, push_work, multiplier_work, minus_jacobian, count };
+  static constexpr int sums = minus_jacobian;
+  double of[count];
+};
+
+/// Of a state that is looked at.
+struct LookSums {
+  enum : int {
+    stiffness,
+    inertia_before,
+    inertia_now,
+    inertia_two,  ///< of the last two steps
+    window_stiffness,
+    window_inertia,  ///< since the look before
+    span_product,
+    span_squares,
+    push,
+    force,
+    spring_work,
+    reaction_x,
+    reaction_y,
+    reaction_z,
+    strain_energy,
+    compressed,
+    pressed,
+    first_largest = pressed + most_materials,
+    longest_step = first_largest,
+    farthest,
+    span_of_nodes,
+    span_longest,
+    stretch,
+    minus_jacobian,
+    count
+  };
+  static constexpr int sums = first_largest;
+  double of[count];
+};
+
+/// Of a look at the stiffness.
+struct FollowSums {
+  enum : int { inertia, inertia_then, stiffer, count };
+  static constexpr int sums = stiffer;
+  double of[count];
+};
+
+/// What an order leaves to be read by the host.
+struct Record {
+  int steps = 0;
+  int halted = 0;                 ///< J fell to the order's `halt_below`: the masses must be looked at
+  int singular = 0;               ///< of weigh: conditions repeat each other
+  double eigenvalue = 0;          ///< the largest, of measure_tightness
+  StepSums step[most_steps + 1];  ///< of the steps one after the other from [1] on; J of a step's force is one before
+  LookSums look;
+  FollowSums follow;
+};
+
+/// What is to be done, by the numbers of the host.
+struct Order {
+  int steps = 0;
+  int first = 0;   ///< û now is displacement[first % 3], one step ago [(first + 2) % 3], two ago [(first + 1) % 3]
+  int parity = 0;  ///< forces and multipliers of the first step go to this one of two
+  double alpha = 0, beta = 0;
+  double halt_below = 0;
+  double fraction[most_steps + 1] = {};  ///< of the load: now, and after each step
+  int states = 0;                        ///< looks so far
+  double mass_scale = 1, mass_margin = 1;
+  int iterations = 0;    ///< of the power iteration
+  double mode_size = 0;  ///< root mean square of its modes, mm
+};
+
+template <class Scalar>
+struct View {
+  std::int32_t clusters, nodes;
+  std::int32_t most_slots, most_points;  ///< of a cluster
+  const Cluster* cluster;
+  const PatchPoints* patch;
+  const std::int32_t* patch_of;  ///< one a point
+  const std::int32_t* material;  ///< one a point
+  const double* volume;
+  const double* mode;  ///< pressure modes, 4 a point; nullptr: each point is a patch
+  const std::int64_t* pair_begin;
+  const Pair<Scalar>* pair;  ///< by point
+  const std::int32_t* slot_node;
+  const std::int64_t* slot_begin;
+  const Pair<Scalar>* slot_pair;  ///< by slot
+  const std::int64_t* node_begin;
+  const std::int32_t* node_slot;
+  const Law* law;          ///< one a material
+  const double* firmness;  ///< one a node
+
+  const std::int64_t* touch_begin;  ///< (slots + 1)
+  const Touch* touch;
+  const std::int64_t* patch_touch_begin;  ///< (patches + 1)
+  const std::int64_t* patch_touch;        ///< their numbers in `touch`
+  const std::int32_t* patch_touch_node;
+  SlotVector<double>* touch_norm;  ///< |b| of each pressure mode
+  double* touch_reach;
+  SharedBound* point_bound;
+  SharedBound* patch_bound;
+  SlotVector<double>* patch_total;  ///< Σ |b|/h of each mode
+
+  double* displacement[3];  ///< û, mm, 4 a node
+  double* force_at[2];      ///< f_int − f_ext, µN
+  double* mass;
+  double* inverse_mass;
+  double* stiffer_mass;  ///< what weigh takes
+  SlotVector<Scalar>* slot_force;
+  double* slot_bound;
+  double* mode_of_body;  ///< of the power iteration
+  double* place_at_look;
+  double* force_at_look;
+  double* span_state[3];
+  std::int32_t external_count;  ///< at equal steps of the load's fraction
+  const double* external;
+
+  TouchingNodes contact;
+  Conditions condition[3];
+
+  double* partial;  ///< sums of the blocks
+  Record* record;
+};
+
+}  // namespace brainshift::solve::device

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "solve/body/body.hpp"
+#include "solve/force/internal_force.hpp"
+#include "solve/interface/result.hpp"
+
+namespace brainshift::solve {
+
+// Whether a motion may go on: relax(), march(), an ensemble and a device all ask.
+
+inline constexpr double energy_unit = 1e-6;  // g mm²/s² to mJ
+
+/// An undamped motion holds at most what was put in, and its energy is known to a few percent.
+inline constexpr double most_motion = 2;
+
+/// Of J since the masses were made, below which the body may have become stiffer than they allow for.
+inline constexpr double squeezed_share = 0.8;
+
+/// What is wrong with the state of the points; empty: nothing. moved: largest |û⁺ − û| of the last step.
+std::string unsound(const PointState& state, double moved);
+
+/// A row whose energies do not balance, in words.
+std::string unbalanced(const HistoryRow& row);
+
+/// Energy of a strain so small that rounding is a good part of it: one of 1e-6, mJ.
+double rounding_energy(const Body& body);
+
+}  // namespace brainshift::solve
