@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 #include <sstream>
-#include <stdexcept>
 
+#include "solve/device/books.hpp"
 #include "solve/device/device_body.hpp"
 #include "solve/device/device_fault.hpp"
 #include "solve/dynamics/error_bound.hpp"
@@ -24,27 +24,6 @@ namespace brainshift::solve::device {
 namespace {
 
 static_assert(usual_window <= most_steps);
-
-/// The work that was done and where it went, as Motion keeps these books; 1e-9 J.
-struct Books {
-  double external_work = 0, dissipated = 0;
-  double largest_work = 0;  // mJ
-  int looks_before = 0;     // until they count
-
-  void add(const StepSums& sums, double alpha, double beta, double beta_before, double moved_on) {
-    const double rate = sums.of[StepSums::multiplier_work] / alpha;
-    external_work += moved_on * (rate + rate_before_) / 2 + force_work_before_;
-    rate_before_ = rate;
-    force_work_before_ = sums.of[StepSums::force_work];
-    const double lost = (1 - beta) / (4 * alpha) * sums.of[StepSums::two_steps] - sums.of[StepSums::push_work] / alpha;
-    dissipated += (lost_before_ + lost) / 2;
-    lost_before_ = lost;
-    dissipated += (beta_before - beta) / (4 * alpha) * sums.of[StepSums::step_before];
-  }
-
- private:
-  double rate_before_ = 0, force_work_before_ = 0, lost_before_ = 0;
-};
 
 template <class Scalar>
 class Relaxation {
@@ -376,60 +355,6 @@ Relaxed relax(const Backend& backend, Body& body, const Course& course, const So
   return body.points.precision() == Precision::single_precision
              ? Relaxation<float>(backend, body, course, options, cautious).run(progress)
              : Relaxation<double>(backend, body, course, options, cautious).run(progress);
-}
-
-namespace {
-
-/// From where a device has left it.
-SteppingResult gone_on(SteppingResult left, const Course& course, SolveOptions options, const Progress& progress) {
-  report(progress, 0, "slow; the processor goes on, which makes rigid motions quicker");
-  options.max_steps -= left.steps;
-  SteppingResult result = solve::relax(std::move(left.body),
-                                       {.curve = course.curve, .start = std::move(left.parameters)}, options, progress);
-  result.steps += left.steps;
-  for (HistoryRow& row : result.history) {
-    row.step += left.steps;
-  }
-  const bool from_there = !result.history.empty() && result.history.front().time >= 1;  // else once more from rest
-  if (from_there) {
-    result.history.insert(result.history.begin(), left.history.begin(), left.history.end());
-  }
-  return result;
-}
-
-}  // namespace
-
-std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,
-                                             bool cautious, const Progress& progress) {
-  if (options.device == Device::cpu) {
-    return std::nullopt;
-  }
-  std::string why = why_no_gpu();
-  if (why.empty()) {
-    const std::string of_body = why_not(body);
-    why = of_body.empty() ? of_body : "a GPU cannot solve this body, which " + of_body;
-  }
-  if (why.empty() &&
-      (course.settled || course.change || options.snapshot_every > 0 || options.imposition == Imposition::simplified)) {
-    why = "a GPU does not update runs, cut, keep steps or impose displacements in the simplified form";
-  }
-  if (!why.empty()) {
-    if (options.device == Device::cuda) {
-      throw std::invalid_argument("device cuda: " + why + "; take cpu, or auto");
-    }
-    report(progress, 0, "on the processor: " + why);
-    return std::nullopt;
-  }
-  try {
-    Relaxed relaxed = relax(*gpu(), body, course, options, cautious, progress);
-    return relaxed.slow ? gone_on(std::move(relaxed.result), course, options, progress) : std::move(relaxed.result);
-  } catch (const DeviceFault& fault) {
-    if (options.device == Device::cuda) {
-      throw;
-    }
-    report(progress, 0, std::string("once more on the processor: ") + fault.what());
-    return std::nullopt;
-  }
 }
 
 }  // namespace brainshift::solve::device

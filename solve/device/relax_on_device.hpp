@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
-
 #include "segmentation/progress/progress.hpp"
 #include "solve/dynamics/stepping.hpp"
 #include "solve/interface/options.hpp"
@@ -23,10 +21,5 @@ struct Relaxed {
 /// EssentialConditions::factorise() does.
 Relaxed relax(const Backend& backend, Body& body, const Course& course, const SolveOptions& options, bool cautious,
               const Progress& progress);
-
-/// That on the GPU where the options ask for it, and on from there on the CPU where it is slow; nothing: all is to be
-/// done on the CPU. Throws std::invalid_argument where the options want nothing but the GPU and it cannot be.
-std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,
-                                             bool cautious, const Progress& progress);
 
 }  // namespace brainshift::solve::device

@@ -6,7 +6,7 @@
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/cut/dissection.hpp"
-#include "solve/device/relax_on_device.hpp"
+#include "solve/device/relax_if_asked.hpp"
 #include "solve/dynamics/diagnosis.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/transient.hpp"

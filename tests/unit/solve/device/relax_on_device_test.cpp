@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/device/relax_on_device.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "solve/device/relax_if_asked.hpp"
+#include "solve/shape/nodal_displacement.hpp"
 #include "solve/shape/too_few_nodes.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/device/backends.hpp"
 #include "tests/unit/solve/pressed.hpp"
+#include "tests/unit/solve/turned_cube.hpp"
 
 namespace brainshift::solve::device {
 
@@ -132,6 +138,27 @@ TEST_P(RelaxOnDevice, StopsWhereTheStepsAreUsedUp) {
   const SteppingResult result = on_device(pressed, {});
   EXPECT_EQ(result.steps, 47);
   EXPECT_NE(result.failure.find("not converged after 47 steps"), std::string::npos) << result.failure;
+}
+
+TEST_P(RelaxOnDevice, LeavesASlowBodyToTheHostWhichGoesOnFromThere) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.1, Eigen::Vector3d(1, 2, 0).normalized()).toRotationMatrix();
+  const Model model = turned_by_a_patch(turn);
+  const SolveOptions options = completed({}, model);
+  SolveMeasures measures;
+  Body body = prepare(model, options, {}, measures, {}).body;
+  const Course course{.curve = model.curve};
+  Relaxed left = device::relax(backend(), body, course, options, false, {});
+  ASSERT_TRUE(left.slow);
+  const int steps = left.result.steps;
+  const SteppingResult result = go_on(std::move(left.result), course, options, {});
+  EXPECT_EQ(result.failure, "");
+  EXPECT_GT(result.steps, steps);
+  EXPECT_LT(result.steps, 3000);  // 3,720 without its rigid modes, see Turned
+  const Points moved = nodal_displacement(result.body.nodal_rows, result.parameters, result.body.original);
+  EXPECT_LE((moved - turn_of(result.body.positions, turn)).rowwise().norm().maxCoeff(), 2 * result.error_bound);
+  EXPECT_EQ(result.history.back().step, result.steps);
+  EXPECT_TRUE(std::is_sorted(result.history.begin(), result.history.end(),
+                             [](const HistoryRow& a, const HistoryRow& b) { return a.step < b.step; }));
 }
 
 TEST(RelaxIfAsked, LeavesToTheCpuWhatIsNotAskedForOrCannotBe) {

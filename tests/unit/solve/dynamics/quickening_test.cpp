@@ -5,22 +5,9 @@
 
 #include <Eigen/Geometry>
 
-#include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/turned_cube.hpp"
 
 namespace brainshift::solve::quickening_test {
-
-/// A cube that hangs from a small patch in the middle of a face, which is turned: the cube turns with it, unstrained.
-Model turned_by_a_patch(const Eigen::Matrix3d& turn) {
-  Model model = box_model(test::box_cells(8, model_side), 9);
-  const Eigen::RowVector3d middle(model_side / 2, model_side / 2, 0);
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    const Eigen::RowVector3d arm = model.cloud.positions.row(a) - middle;
-    if (arm.norm() < 0.2 * model_side && arm.z() < 1e-9) {
-      model.conditions.displacement.row(a) = arm * turn.transpose() - arm;
-    }
-  }
-  return model;
-}
 
 /// One solve for all of it: tests run in processes of their own.
 TEST(Turned, ComesToRestInHalfTheStepsWhereItsBoundSaysAndBalancesItsEnergies) {
@@ -29,9 +16,8 @@ TEST(Turned, ComesToRestInHalfTheStepsWhereItsBoundSaysAndBalancesItsEnergies) {
   EXPECT_TRUE(result.measures.converged) << result.failure;
   EXPECT_LT(result.measures.steps, 2500);  // 3,720 without
 
-  const Eigen::RowVector3d middle(model_side / 2, model_side / 2, 0);
-  const Points arms = result.solution.positions.rowwise() - middle;
-  const double off = (result.solution.displacement - (arms * turn.transpose() - arms)).rowwise().norm().maxCoeff();
+  const double off =
+      (result.solution.displacement - turn_of(result.solution.positions, turn)).rowwise().norm().maxCoeff();
   EXPECT_LE(off, 2 * result.measures.error_bound);
 
   double largest = 0;

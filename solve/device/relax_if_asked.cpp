@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/device/relax_if_asked.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "solve/device/backend.hpp"
+#include "solve/device/device_body.hpp"
+#include "solve/device/device_fault.hpp"
+#include "solve/device/relax_on_device.hpp"
+#include "solve/dynamics/relaxation.hpp"
+
+namespace brainshift::solve::device {
+
+SteppingResult go_on(SteppingResult left, const Course& course, SolveOptions options, const Progress& progress) {
+  report(progress, 0, "slow; the processor goes on, which makes rigid motions quicker");
+  options.max_steps -= left.steps;
+  SteppingResult result = solve::relax(std::move(left.body),
+                                       {.curve = course.curve, .start = std::move(left.parameters)}, options, progress);
+  result.steps += left.steps;
+  for (HistoryRow& row : result.history) {
+    row.step += left.steps;
+  }
+  const bool from_there = !result.history.empty() && result.history.front().time >= 1;  // else once more from rest
+  if (from_there) {
+    result.history.insert(result.history.begin(), left.history.begin(), left.history.end());
+  }
+  return result;
+}
+
+std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,
+                                             bool cautious, const Progress& progress) {
+  if (options.device == Device::cpu) {
+    return std::nullopt;
+  }
+  std::string why = why_no_gpu();
+  if (why.empty()) {
+    const std::string of_body = why_not(body);
+    why = of_body.empty() ? of_body : "a GPU cannot solve this body, which " + of_body;
+  }
+  if (why.empty() &&
+      (course.settled || course.change || options.snapshot_every > 0 || options.imposition == Imposition::simplified)) {
+    why = "a GPU does not update runs, cut, keep steps or impose displacements in the simplified form";
+  }
+  if (!why.empty()) {
+    if (options.device == Device::cuda) {
+      throw std::invalid_argument("device cuda: " + why + "; take cpu, or auto");
+    }
+    report(progress, 0, "on the processor: " + why);
+    return std::nullopt;
+  }
+  try {
+    Relaxed relaxed = relax(*gpu(), body, course, options, cautious, progress);
+    return relaxed.slow ? go_on(std::move(relaxed.result), course, options, progress) : std::move(relaxed.result);
+  } catch (const DeviceFault& fault) {
+    if (options.device == Device::cuda) {
+      throw;
+    }
+    report(progress, 0, std::string("once more on the processor: ") + fault.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace brainshift::solve::device
