@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -30,10 +29,6 @@ FitRules rules_of(const ShapeOptions& shape) {
   return {shape.basis == Basis::linear ? 1 : 2, shape.basis == Basis::modified_quadratic ? shape.penalty : 0};
 }
 
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 }  // namespace
 
 FieldsOnDevice::FieldsOnDevice(const Backend& backend, const Solution& solution, const Points& parameters,
@@ -50,7 +45,7 @@ FieldsOnDevice::FieldsOnDevice(const Backend& backend, const Solution& solution,
   if (zones.wall) {
     view_.wall = put(*zones.wall, memory_);
   }
-  view_.reach = std::min(zones.shell / 2, reach_in_spacings * mean(solution.spacing));
+  view_.reach = reach_of(zones.shell, mean_spacing(solution.spacing));
   view_.fade = fade;
   view_.tolerance = tolerance;
   view_.zone = memory_.put(zones.zone);

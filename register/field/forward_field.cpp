@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <vector>
 
 #include "register/field/field_sampler.hpp"
@@ -52,10 +51,6 @@ std::vector<Voxel> voxels_where(const ImageGeometry& geometry, const Wanted& wan
 
 double distance_at(const BrainZones& zones, const ImageGeometry& geometry, const Voxel& voxel) {
   return zones.outside.value(geometry.to_world(voxel.index()));
-}
-
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// Where the displacement of a voxel of brain or shell is taken.
@@ -206,13 +201,13 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
   const solve::ShapeFunctions shape = shape_functions(solution);
   const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
   return forward_field([&](const Points& places) { return shape.interpolate(places, parameters); },
-                       mean(solution.spacing), zones, geometry, fade, progress);
+                       mean_spacing(solution.spacing), zones, geometry, fade, progress);
 }
 
 VectorImage forward_field(const DisplacementAt& displacement_at, double spacing, const BrainZones& zones,
                           const ImageGeometry& geometry, double fade, const Progress& progress, WayOut* way) {
   VectorImage field{geometry, std::vector<Displacement>(geometry.voxel_count(), Displacement{0, 0, 0})};
-  const double reach = std::min(zones.shell / 2, reach_in_spacings * spacing);
+  const double reach = reach_of(zones.shell, spacing);
   const auto in = [&](Zone wanted) { return [&, wanted](const Voxel& v) { return zones.zone[v.offset] == wanted; }; };
   const auto hollow = [&](const Voxel& v) {
     return zones.wall && (in(Zone::cavity)(v) || in(Zone::shell)(v)) &&

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "register/field/brain_zones.hpp"
 #include "register/field/field_grid.hpp"
@@ -14,7 +17,16 @@ namespace brainshift::registration {
 
 // How a voxel outside the brain gets its displacement, place by place: forward_field.hpp says why.
 
-inline constexpr double reach_in_spacings = 0.3;  // how far outside the nodes their shape functions are trusted
+/// Of the nodes, mm.
+inline double mean_spacing(const std::vector<double>& spacing) {
+  return std::accumulate(spacing.begin(), spacing.end(), 0.0) / static_cast<double>(spacing.size());
+}
+
+/// How far outside the brain shape functions are trusted, mm; spacing: mean_spacing() of their nodes.
+inline double reach_of(double shell, double spacing) {
+  constexpr double in_spacings = 0.3;
+  return std::min(shell / 2, in_spacings * spacing);
+}
 
 /// How often the displacement outside is averaged: each sweep spreads it by the spacing / √3.
 inline double smoothing_sweeps(const Eigen::Vector3d& spacing) {

@@ -238,8 +238,8 @@ Clusters<Scalar> make_clusters(const PointBlocks& points, std::int32_t count) {
 template Clusters<float> make_clusters(const PointBlocks&, std::int32_t);
 template Clusters<double> make_clusters(const PointBlocks&, std::int32_t);
 
-NodeRows by_node(const std::vector<std::int64_t>& begin, const std::vector<std::int32_t>& node,
-                 const std::vector<double>& shape) {
+NodeRows by_node(const CompressedRows& from) {
+  const auto& [begin, node, shape] = from;
   NodeRows rows;
   rows.node = node;
   std::sort(rows.node.begin(), rows.node.end());
@@ -257,10 +257,10 @@ NodeRows by_node(const std::vector<std::int64_t>& begin, const std::vector<std::
   rows.shape.resize(node.size());
   for (std::size_t i = 0; i + 1 < begin.size(); ++i) {
     for (std::int64_t k = begin[i]; k < begin[i + 1]; ++k) {
-      const auto from = static_cast<std::size_t>(k);
-      const auto to = static_cast<std::size_t>(next[place(node[from])]++);
+      const auto at = static_cast<std::size_t>(k);
+      const auto to = static_cast<std::size_t>(next[place(node[at])]++);
       rows.row[to] = static_cast<std::int32_t>(i);
-      rows.shape[to] = shape[from];
+      rows.shape[to] = shape[at];
     }
   }
   return rows;

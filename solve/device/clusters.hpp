@@ -34,7 +34,16 @@ struct Clusters {
 template <class Scalar>
 Clusters<Scalar> make_clusters(const PointBlocks& points, std::int32_t count);
 
-/// Rows of a sparse matrix by their nodes: Vᵀ of those nodes that are in any.
+/// V, compressed rows.
+struct CompressedRows {
+  std::vector<std::int64_t> begin = {0};
+  std::vector<std::int32_t> node;  ///< ascending in a row
+  std::vector<double> shape;
+
+  bool operator==(const CompressedRows&) const = default;
+};
+
+/// Vᵀ of those nodes that are in any row.
 struct NodeRows {
   std::vector<std::int32_t> node;
   std::vector<std::int64_t> begin = {0};
@@ -42,8 +51,6 @@ struct NodeRows {
   std::vector<double> shape;
 };
 
-/// begin, node, shape: V, compressed rows.
-NodeRows by_node(const std::vector<std::int64_t>& begin, const std::vector<std::int32_t>& node,
-                 const std::vector<double>& shape);
+NodeRows by_node(const CompressedRows& rows);
 
 }  // namespace brainshift::solve::device

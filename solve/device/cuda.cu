@@ -103,20 +103,7 @@ void launch(const View<Scalar>& view, const Order& order) {
 
 template <class Scalar>
 void perform_on_gpu(Task task, const View<Scalar>& view, const Order& order) {
-  switch (task) {
-    case Task::step:
-      return launch<Task::step>(view, order);
-    case Task::look:
-      return launch<Task::look>(view, order);
-    case Task::follow:
-      return launch<Task::follow>(view, order);
-    case Task::weigh:
-      return launch<Task::weigh>(view, order);
-    case Task::hold:
-      return launch<Task::hold>(view, order);
-    case Task::measure_tightness:
-      return launch<Task::measure_tightness>(view, order);
-  }
+  with_task(task, [&]<Task which>() { launch<which>(view, order); });
 }
 
 void* allocate(std::size_t bytes) {

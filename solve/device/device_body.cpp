@@ -28,31 +28,28 @@ std::vector<Law> laws_of(const PointLaws& laws) {
   return result;
 }
 
-/// V as its arrays; the nodes of a row ascend.
-struct Rows {
-  std::vector<std::int64_t> begin = {0};
-  std::vector<std::int32_t> node;
-  std::vector<double> shape;
+CompressedRows rows_of(const EssentialConditions::RowMatrix& matrix) {
+  CompressedRows rows;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (EssentialConditions::RowMatrix::InnerIterator entry(matrix, i); entry; ++entry) {
+      rows.node.push_back(static_cast<std::int32_t>(entry.col()));
+      rows.shape.push_back(entry.value());
+    }
+    rows.begin.push_back(static_cast<std::int64_t>(rows.node.size()));
+  }
+  return rows;
+}
 
-  explicit Rows(const EssentialConditions::RowMatrix& matrix) {
-    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-      for (EssentialConditions::RowMatrix::InnerIterator entry(matrix, i); entry; ++entry) {
-        node.push_back(static_cast<std::int32_t>(entry.col()));
-        shape.push_back(entry.value());
-      }
-      begin.push_back(static_cast<std::int64_t>(node.size()));
-    }
+CompressedRows rows_of(const PushedNodes& nodes) {
+  CompressedRows rows;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const PushedNodes::Row row = nodes.row(i);
+    rows.node.insert(rows.node.end(), row.node.begin(), row.node.end());
+    rows.shape.insert(rows.shape.end(), row.shape.begin(), row.shape.end());
+    rows.begin.push_back(static_cast<std::int64_t>(rows.node.size()));
   }
-  explicit Rows(const PushedNodes& nodes) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const PushedNodes::Row row = nodes.row(i);
-      node.insert(node.end(), row.node.begin(), row.node.end());
-      shape.insert(shape.end(), row.shape.begin(), row.shape.end());
-      begin.push_back(static_cast<std::int64_t>(node.size()));
-    }
-  }
-  bool operator==(const Rows&) const = default;
-};
+  return rows;
+}
 
 std::vector<double> dense(const Eigen::SparseMatrix<double>& matrix) {
   const Eigen::MatrixXd full(matrix);
@@ -163,16 +160,9 @@ template <class Scalar>
 void DeviceBody<Scalar>::put_motion(const Body& body) {
   View<Scalar>& v = view_;
   const std::size_t values = 4 * body.nodes();
-  for (double*& vectors : v.displacement) {
-    vectors = memory_.template room<double>(values);
-  }
-  for (double*& vectors : v.force_at) {
-    vectors = memory_.template room<double>(values);
-  }
-  for (double*& vectors : v.span_state) {
-    vectors = memory_.template room<double>(values);
-  }
-  for (double** vectors : {&v.mode_of_body, &v.place_at_look, &v.force_at_look, &kept_displacement}) {
+  for (double** vectors :
+       {&v.displacement[0], &v.displacement[1], &v.displacement[2], &v.force_at[0], &v.force_at[1], &v.span_state[0],
+        &v.span_state[1], &v.span_state[2], &v.mode_of_body, &v.place_at_look, &v.force_at_look, &kept_displacement}) {
     *vectors = memory_.template room<double>(values);
   }
   for (double** numbers : {&v.mass, &v.inverse_mass, &v.stiffer_mass}) {
@@ -189,10 +179,24 @@ void DeviceBody<Scalar>::put_motion(const Body& body) {
 }
 
 template <class Scalar>
+void DeviceBody<Scalar>::put_rows(const CompressedRows& rows, SparseRows& to) {
+  const NodeRows moved = by_node(rows);
+  to.count = static_cast<std::int32_t>(rows.begin.size() - 1);
+  to.begin = memory_.put(rows.begin);
+  to.node = memory_.put(rows.node);
+  to.shape = memory_.put(rows.shape);
+  to.moved = static_cast<std::int32_t>(moved.node.size());
+  to.moved_node = memory_.put(moved.node);
+  to.moved_begin = memory_.put(moved.begin);
+  to.moved_row = memory_.put(moved.row);
+  to.moved_shape = memory_.put(moved.shape);
+}
+
+template <class Scalar>
 void DeviceBody<Scalar>::put_contact(const Contact& contact) {
   TouchingNodes& c = view_.contact;
-  const Rows rows(contact.nodes());
-  const NodeRows moved = by_node(rows.begin, rows.node, rows.shape);
+  const CompressedRows rows = rows_of(contact.nodes());
+  put_rows(rows, c);
   std::vector<double> column_sum(nodes(), 0.0), position;
   for (std::size_t k = 0; k < rows.node.size(); ++k) {
     column_sum[static_cast<std::size_t>(rows.node[k])] += std::abs(rows.shape[k]);
@@ -202,20 +206,11 @@ void DeviceBody<Scalar>::put_contact(const Contact& contact) {
     position.insert(position.end(), at.begin(), at.end());
   }
   const std::size_t count = contact.nodes().size();
-  c.count = static_cast<std::int32_t>(count);
-  c.begin = memory_.put(rows.begin);
-  c.node = memory_.put(rows.node);
-  c.shape = memory_.put(rows.shape);
   c.position = memory_.put(position);
   c.allowed = memory_.put(std::vector<double>(contact.allowed().begin(), contact.allowed().end()));
   c.column_sum = memory_.put(column_sum);
   c.inverse_row_sum = memory_.template room<double>(count);
   c.push = memory_.template room<double>(3 * count);
-  c.moved = static_cast<std::int32_t>(moved.node.size());
-  c.moved_node = memory_.put(moved.node);
-  c.moved_begin = memory_.put(moved.begin);
-  c.moved_row = memory_.put(moved.row);
-  c.moved_shape = memory_.put(moved.shape);
   c.skull = contact.skull()->grid();
   c.skull.sample = memory_.put(contact.skull()->samples().value);
 }
@@ -229,19 +224,15 @@ void DeviceBody<Scalar>::put_conditions(const EssentialConditions& essential) {
   kept_multipliers = memory_.template room<double>(conditions_);
   double* const residual = memory_.template room<double>(conditions_);
   std::size_t before = 0;
-  std::optional<Rows> rows_before;
+  std::optional<CompressedRows> rows_before;
   std::vector<double> compliance_before;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const EssentialConditions::Component& from = essential.components()[axis];
     Conditions& c = view_.condition[axis];
-    const Rows rows(from.shape);
-    const NodeRows moved = by_node(rows.begin, rows.node, rows.shape);
+    const CompressedRows rows = rows_of(from.shape);
     const auto count = static_cast<std::size_t>(from.prescribed.size());
     const std::vector<double> compliance = dense(from.compliance);
-    c.count = static_cast<std::int32_t>(count);
-    c.begin = memory_.put(rows.begin);
-    c.node = memory_.put(rows.node);
-    c.shape = memory_.put(rows.shape);
+    put_rows(rows, c);
     c.prescribed = memory_.put(values_of(from.prescribed));
     c.loaded = memory_.put(values_of(from.loaded));
     c.compliance = compliance.empty() ? nullptr : memory_.put(compliance);
@@ -251,11 +242,6 @@ void DeviceBody<Scalar>::put_conditions(const EssentialConditions& essential) {
     c.own = !rows_before || !(rows == *rows_before) || compliance != compliance_before;
     c.inverse = c.own ? memory_.template room<double>(count * count) : view_.condition[axis - 1].inverse;
     c.column = memory_.template room<double>(3 * count);
-    c.moved = static_cast<std::int32_t>(moved.node.size());
-    c.moved_node = memory_.put(moved.node);
-    c.moved_begin = memory_.put(moved.begin);
-    c.moved_row = memory_.put(moved.row);
-    c.moved_shape = memory_.put(moved.shape);
     before += count;
     rows_before = rows;
     compliance_before = compliance;

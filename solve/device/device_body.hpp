@@ -40,6 +40,7 @@ class DeviceBody {
   void put_points(const PointBlocks& points);
   void put_laws(const Body& body);
   void put_motion(const Body& body);
+  void put_rows(const CompressedRows& rows, SparseRows& to);
   void put_contact(const Contact& contact);
   void put_conditions(const EssentialConditions& essential);
 

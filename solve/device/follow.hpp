@@ -43,31 +43,42 @@ BRAINSHIFT_ON_DEVICE double tangent_at(const View<Scalar>& v, const Cluster& c, 
          });
 }
 
+/// How nodes share a bound, as NodeShares has it, by the lanes that go through them: firmness(k) and reach(k) of those
+/// from `first` on. Each lane has all of it.
+template <class Team, class Firmness, class Reach>
+BRAINSHIFT_ON_DEVICE SharedBound shared_by(const Team& team, std::int64_t first, std::int64_t end,
+                                           const Firmness& firmness, const Reach& reach) {
+  constexpr int lanes = Team::lanes;
+  SharedBound bound{.scale = 0, .firmest = 0, .least = 1};
+  for (std::int64_t k = first; k < end; k += lanes) {
+    bound.firmest = larger(bound.firmest, firmness(k));
+  }
+  bound.firmest = team.template largest<lanes>(bound.firmest);
+  double soft = 0, all = 0;
+  for (std::int64_t k = first; k < end; k += lanes) {
+    const double of_node = reach(k);
+    soft += of_node * (1 - firmness(k) / bound.firmest);
+    all += of_node;
+  }
+  soft = team.template sum<lanes>(soft);
+  all = team.template sum<lanes>(all);
+  bound.least = all > 0 ? soft / all : 1;
+  return bound;
+}
+
 /// ‖Σ B ⊗ B / (h |B|)‖ of a point, and how its nodes share it; each lane has all of it.
 template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE SharedBound norm_at(const Team& team, const View<Scalar>& v, const Cluster& c,
                                          std::int32_t point) {
   constexpr int lanes = Team::lanes;
   const std::int64_t first = v.pair_begin[point] + team.thread() % lanes, end = v.pair_begin[point + 1];
-  SharedBound bound{.scale = 0, .firmest = 0, .least = 1};
-  for (std::int64_t k = first; k < end; k += lanes) {
-    bound.firmest = larger(bound.firmest, firmness_of(v, c.first_slot + v.pair[k].other));
-  }
-  bound.firmest = team.template largest<lanes>(bound.firmest);
-  double soft = 0, all = 0;
-  for (std::int64_t k = first; k < end; k += lanes) {
-    const double reach = length(v.pair[k]);
-    soft += reach * (1 - firmness_of(v, c.first_slot + v.pair[k].other) / bound.firmest);
-    all += reach;
-  }
-  soft = team.template sum<lanes>(soft);
-  all = team.template sum<lanes>(all);
-  bound.least = all > 0 ? soft / all : 1;
+  const auto firmness = [&](std::int64_t k) { return firmness_of(v, c.first_slot + v.pair[k].other); };
+  SharedBound bound = shared_by(team, first, end, firmness, [&](std::int64_t k) { return length(v.pair[k]); });
   double upper[6] = {};
   for (std::int64_t k = first; k < end; k += lanes) {
     const Pair<Scalar> pair = v.pair[k];
     const double reach = length(pair);
-    const double weight = reach > 0 ? 1 / (share_of(bound, firmness_of(v, c.first_slot + pair.other)) * reach) : 0;
+    const double weight = reach > 0 ? 1 / (share_of(bound, firmness(k)) * reach) : 0;
     const double b[3] = {static_cast<double>(pair.derivative[0]), static_cast<double>(pair.derivative[1]),
                          static_cast<double>(pair.derivative[2])};
     for (int i = 0, n = 0; i < 3; ++i) {
@@ -117,21 +128,9 @@ template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void find_total(const Team& team, const View<Scalar>& v, std::int32_t patch) {
   constexpr int lanes = Team::lanes;
   const std::int64_t begin = v.patch_touch_begin[patch] + team.thread() % lanes, end = v.patch_touch_begin[patch + 1];
-  SharedBound bound{.scale = 0, .firmest = 0, .least = 1};
   const auto firmness = [&](std::int64_t k) { return v.firmness[v.patch_touch_node[k]]; };
-  for (std::int64_t k = begin; k < end; k += lanes) {
-    bound.firmest = larger(bound.firmest, firmness(k));
-  }
-  bound.firmest = team.template largest<lanes>(bound.firmest);
-  double soft = 0, all = 0;
-  for (std::int64_t k = begin; k < end; k += lanes) {
-    const double reach = v.touch_reach[v.patch_touch[k]];
-    soft += reach * (1 - firmness(k) / bound.firmest);
-    all += reach;
-  }
-  soft = team.template sum<lanes>(soft);
-  all = team.template sum<lanes>(all);
-  bound.least = all > 0 ? soft / all : 1;
+  SharedBound bound =
+      shared_by(team, begin, end, firmness, [&](std::int64_t k) { return v.touch_reach[v.patch_touch[k]]; });
   double total[4] = {};
   for (std::int64_t k = begin; k < end; k += lanes) {
     for (int mode = 0; mode < 4; ++mode) {
@@ -200,11 +199,11 @@ BRAINSHIFT_ON_DEVICE void find_slot_bounds(const Team& team, const View<Scalar>&
   }
 }
 
-/// The masses that the stiffness at u wants, and whether it wants others than there are.
+/// The masses that the stiffness at the last force wants, and whether it wants others than there are.
 template <class Team, class Scalar>
-BRAINSHIFT_ON_DEVICE void follow_stiffness(const Team& team, const View<Scalar>& v, const Order& order, const double* u,
+BRAINSHIFT_ON_DEVICE void follow_stiffness(const Team& team, const View<Scalar>& v, const Order& order,
                                            const Motion& m) {
-  find_slot_bounds(team, v, u);
+  find_slot_bounds(team, v, m.before);
   team.sync_all();
   double of[FollowSums::count] = {};
   for (std::int32_t a = first_of_all(team); a < v.nodes; a += all_threads(team)) {

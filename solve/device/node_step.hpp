@@ -14,18 +14,18 @@ struct Motion {
   double *multiplier_of[3], *multiplier_before[3];
 };
 
+/// first: as Order::first. parity: of the force and the multipliers, which the next step makes anew.
 template <class Scalar>
-BRAINSHIFT_ON_DEVICE Motion motion_at(const View<Scalar>& v, const Order& order, int step) {
-  const int first = order.first + step, parity = (order.parity + step) % 2;
+BRAINSHIFT_ON_DEVICE Motion motion_at(const View<Scalar>& v, int first, int parity) {
   Motion m;
   m.now = v.displacement[first % 3];
   m.before = v.displacement[(first + 2) % 3];
   m.next = v.displacement[(first + 1) % 3];
-  m.force = v.force_at[parity];
-  m.force_before = v.force_at[1 - parity];
+  m.force = v.force_at[parity % 2];
+  m.force_before = v.force_at[1 - parity % 2];
   for (int axis = 0; axis < 3; ++axis) {
-    m.multiplier_of[axis] = v.condition[axis].multiplier[parity];
-    m.multiplier_before[axis] = v.condition[axis].multiplier[1 - parity];
+    m.multiplier_of[axis] = v.condition[axis].multiplier[parity % 2];
+    m.multiplier_before[axis] = v.condition[axis].multiplier[1 - parity % 2];
   }
   return m;
 }

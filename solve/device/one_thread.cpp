@@ -17,20 +17,7 @@ template <class Scalar>
 void perform_alone(Task task, const View<Scalar>& view, const Order& order) {
   std::vector<Line> memory(Room<Scalar>::size(view.most_slots, view.most_points) / sizeof(Line) + 1);
   const OneThread alone{memory.front().bytes};
-  switch (task) {
-    case Task::step:
-      return perform<Task::step>(alone, view, order);
-    case Task::look:
-      return perform<Task::look>(alone, view, order);
-    case Task::follow:
-      return perform<Task::follow>(alone, view, order);
-    case Task::weigh:
-      return perform<Task::weigh>(alone, view, order);
-    case Task::hold:
-      return perform<Task::hold>(alone, view, order);
-    case Task::measure_tightness:
-      return perform<Task::measure_tightness>(alone, view, order);
-  }
+  with_task(task, [&]<Task which>() { perform<which>(alone, view, order); });
 }
 
 void copy(void* to, const void* from, std::size_t bytes) {

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <sstream>
 
-#include "solve/device/books.hpp"
 #include "solve/device/device_body.hpp"
 #include "solve/device/device_fault.hpp"
+#include "solve/dynamics/books.hpp"
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
 #include "solve/dynamics/quickening.hpp"
@@ -45,8 +44,8 @@ class Relaxation {
     order_.alpha = relaxation_alpha;
     order_.iterations = tightness_iterations;
     order_.mode_size = small_mode;
-    on_.perform(Task::follow, order_);
     if (!cautious) {
+      on_.perform(Task::follow, order_);
       on_.write(rough_mode(on_.nodes()), on_.view().mode_of_body);
       on_.perform(Task::measure_tightness, order_);
       order_.mass_scale = std::min(1.0, tightness_margin * on_.record().eigenvalue);
@@ -85,7 +84,7 @@ class Relaxation {
     }
     if (result_.failure.empty()) {
       result_.failure = not_converged(result_.steps, error_bound_, tolerance());
-      diagnose(false);
+      result_.fault = where(false);
       result_.fault->explained = true;
     }
     return finish();
@@ -147,8 +146,7 @@ class Relaxation {
       on_.perform(Task::look, after(order_.steps));
       record_ = on_.record();
       for (int s = 1; s <= record_.steps; ++s) {
-        books_.add(record_.step[s], order_.alpha, order_.beta, done == 0 && s == 1 ? beta_before : order_.beta,
-                   fraction_ - fraction_before_);
+        keep_books(record_.step[s], done == 0 && s == 1 ? beta_before : order_.beta);
         fraction_before_ = fraction_;
         fraction_ = order_.fraction[s];
       }
@@ -172,6 +170,14 @@ class Relaxation {
       }
     }
     ++order_.states;
+  }
+
+  /// As Motion::add_energies().
+  void keep_books(const StepSums& sums, double beta_before) {
+    const double alpha = order_.alpha, beta = order_.beta;
+    books_.add(fraction_ - fraction_before_, sums.of[StepSums::multiplier_work] / alpha, sums.of[StepSums::force_work],
+               (1 - beta) / (4 * alpha) * sums.of[StepSums::two_steps] - sums.of[StepSums::push_work] / alpha);
+    books_.dissipated += (beta_before - beta) / (4 * alpha) * sums.of[StepSums::step_before];
   }
 
   Order after(int steps) const {
@@ -221,14 +227,9 @@ class Relaxation {
   bool is_sound(double moved) {
     const auto& of = record_.look.of;
     const PointState state = point_state();
-    const double now = of[LookSums::inertia_now], before = of[LookSums::inertia_before],
-                 two = of[LookSums::inertia_two], alpha = order_.alpha, beta = order_.beta;
-    const double kinetic = (1 + beta) / (8 * alpha) * (two - now - before) + (1 - beta) / (8 * alpha) * (before - now);
-    if (books_.looks_before > 0) {
-      --books_.looks_before;
-      books_.external_work = state.strain_energy + kinetic;
-      books_.dissipated = 0;
-    }
+    const double two = of[LookSums::inertia_two], alpha = order_.alpha, beta = order_.beta;
+    const double kinetic = kinetic_energy(alpha, beta, two, of[LookSums::inertia_now], of[LookSums::inertia_before]);
+    books_.look(state.strain_energy + kinetic);
     constexpr double newton = 1e-6;  // µN to N
     HistoryRow row{.step = result_.steps, .time = time_};
     row.external_work = books_.external_work * energy_unit;
@@ -242,7 +243,7 @@ class Relaxation {
     const std::string fault = unsound(state, moved);
     const bool lively = motion > most_motion * std::max(books_.largest_work, rounding_energy_);
     if (!fault.empty() || lively) {
-      fail(fault.empty() ? unbalanced(row) : fault, row, !fault.empty());
+      mark_unstable(fault.empty() ? unbalanced(row) : fault, time_, fraction_, where(!fault.empty()), result_);
       return false;
     }
     result_.state = state;
@@ -254,30 +255,19 @@ class Relaxation {
     return true;
   }
 
-  void fail(const std::string& why, const HistoryRow& row, bool at_point) {
-    std::ostringstream text;
-    text << "unstable at step " << result_.steps << " (time " << row.time << ") with " << 100 * fraction_
-         << " % of the load: " << why;
-    result_.failure = text.str();
-    result_.unstable = true;
-    diagnose(at_point);
-    result_.fault->fast =
-        !result_.history.empty() && result_.history.back().kinetic_energy > result_.history.back().strain_energy;
-  }
-
-  /// Where it went wrong, with the host's means.
-  void diagnose(bool at_point) {
+  /// Where it went wrong, with the host's means; at_point: at an integration point if there is one.
+  Fault where(bool at_point) {
     const NodalVectors now = on_.read(displacement(0)), before = on_.read(displacement(2)),
                        next = on_.read(displacement(1));
-    result_.fault = restless_node({now, before, next});
     if (at_point) {
       ForceScratch scratch(body_.points, body_.laws);
       NodalVectors force(now.size());
       internal_force(body_.points, body_.laws, before, scratch, force);
       if (!(jacobian_range(scratch).smallest > 0)) {
-        result_.fault = broken_point(body_.points, scratch, {now, before, next});
+        return broken_point(body_.points, scratch, {now, before, next});
       }
     }
+    return restless_node({now, before, next});
   }
 
   /// A_0 from the last increments, and where these feel rounding from those of the last window, too.

@@ -11,18 +11,6 @@ namespace brainshift::solve::device {
 /// What a team does in one go.
 enum class Task : int { step, look, follow, weigh, hold, measure_tightness };
 
-/// The motion after the last step, with the force and the multipliers of that.
-BRAINSHIFT_ON_DEVICE inline Motion after(const Motion& m, const Motion& last) {
-  Motion result = m;
-  result.force = last.force;
-  result.force_before = last.force_before;
-  for (int axis = 0; axis < 3; ++axis) {
-    result.multiplier_of[axis] = last.multiplier_of[axis];
-    result.multiplier_before[axis] = last.multiplier_before[axis];
-  }
-  return result;
-}
-
 /// Motion::step() as often as the order says, or until a point is squeezed so much that the masses must be looked at.
 template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void step(const Team& team, const View<Scalar>& v, const Order& order) {
@@ -30,7 +18,7 @@ BRAINSHIFT_ON_DEVICE void step(const Team& team, const View<Scalar>& v, const Or
   int done = 0;
   bool halted = false;
   while (done < order.steps && !halted) {
-    const Motion m = motion_at(v, order, done);
+    const Motion m = motion_at(v, order.first + done, order.parity + done);
     const double minus_jacobian = slot_forces(team, v, m.now);
     leave_step_sums(team, v, m, order.fraction[std::max(done - 1, 0)], order.fraction[done], minus_jacobian);
     team.sync_all();
@@ -46,7 +34,7 @@ BRAINSHIFT_ON_DEVICE void step(const Team& team, const View<Scalar>& v, const Or
     hold(team, v, m, order.fraction[done + 1]);
     ++done;
   }
-  const Motion m = motion_at(v, order, done);
+  const Motion m = motion_at(v, order.first + done, order.parity + done);
   leave_step_sums(team, v, m, order.fraction[done - 1], order.fraction[done], -1);
   team.sync_all();
   if (team.block() == team.blocks() - 1) {
@@ -62,7 +50,7 @@ BRAINSHIFT_ON_DEVICE void step(const Team& team, const View<Scalar>& v, const Or
 template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void look_if_due(const Team& team, const View<Scalar>& v, const Order& order) {
   if (v.record->halted == 0) {
-    look(team, v, order, after(motion_at(v, order, 0), motion_at(v, order, 1)));  // parities come in turn
+    look(team, v, order, motion_at(v, order.first, order.parity + 1));  // with the last force: they come in turn
   }
 }
 
@@ -72,11 +60,7 @@ BRAINSHIFT_ON_DEVICE void sum_for_all(const Team& team, double (&of)[count], dou
   leave<count>(team, of, partial);
   team.sync_all();
   for (int k = 0; k < count; ++k) {
-    double sum = 0;
-    for (int b = team.thread() % Team::wide; b < team.blocks(); b += Team::wide) {
-      sum += partial[b * count + k];
-    }
-    of[k] = team.template sum<Team::wide>(sum);
+    of[k] = of_all_blocks<count, count>(team, partial, k);
   }
   team.sync_all();
 }
@@ -124,14 +108,32 @@ BRAINSHIFT_ON_DEVICE void perform(const Team& team, const View<Scalar>& v, const
   } else if constexpr (task == Task::look) {
     look_if_due(team, v, order);
   } else if constexpr (task == Task::follow) {
-    const Motion m = motion_at(v, order, 0);
-    follow_stiffness(team, v, order, m.before, m);
+    follow_stiffness(team, v, order, motion_at(v, order.first, order.parity));
   } else if constexpr (task == Task::weigh) {
     weigh(team, v, order);
   } else if constexpr (task == Task::hold) {
-    hold(team, v, motion_at(v, order, 0), order.fraction[0]);
+    hold(team, v, motion_at(v, order.first, order.parity), order.fraction[0]);
   } else {
     measure_tightness(team, v, order);
+  }
+}
+
+/// Calls use.template operator()<task>() of a task that is known when the program runs.
+template <class Use>
+void with_task(Task task, const Use& use) {
+  switch (task) {
+    case Task::step:
+      return use.template operator()<Task::step>();
+    case Task::look:
+      return use.template operator()<Task::look>();
+    case Task::follow:
+      return use.template operator()<Task::follow>();
+    case Task::weigh:
+      return use.template operator()<Task::weigh>();
+    case Task::hold:
+      return use.template operator()<Task::hold>();
+    case Task::measure_tightness:
+      return use.template operator()<Task::measure_tightness>();
   }
 }
 

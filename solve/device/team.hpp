@@ -96,19 +96,26 @@ BRAINSHIFT_ON_DEVICE void leave(const Team& team, const double (&of_thread)[coun
   team.template combine<sums, count>(of_thread, partial + team.block() * count);
 }
 
-/// One block puts together what all have left, in their order. After a sync_all().
+/// What the blocks have left of the k-th number, put together in one order, for each of the group of `wide`. After a
+/// sync_all().
+template <int sums, int count, class Team>
+BRAINSHIFT_ON_DEVICE double of_all_blocks(const Team& team, const double* partial, int k) {
+  constexpr int wide = Team::wide;
+  double all = k < sums ? 0 : -std::numeric_limits<double>::infinity();
+  for (int b = team.thread() % wide; b < team.blocks(); b += wide) {
+    const double of_block = partial[b * count + k];
+    all = k < sums ? all + of_block : larger(all, of_block);
+  }
+  return k < sums ? team.template sum<wide>(all) : team.template largest<wide>(all);
+}
+
+/// All of them, by one block.
 template <int sums, int count, class Team>
 BRAINSHIFT_ON_DEVICE void collect(const Team& team, const double* partial, double* out) {
   constexpr int wide = Team::wide;
-  const int lane = team.thread() % wide;
   for (int k = team.thread() / wide; k < count; k += team.threads() / wide) {
-    double all = k < sums ? 0 : -std::numeric_limits<double>::infinity();
-    for (int b = lane; b < team.blocks(); b += wide) {
-      const double of_block = partial[b * count + k];
-      all = k < sums ? all + of_block : larger(all, of_block);
-    }
-    all = k < sums ? team.template sum<wide>(all) : team.template largest<wide>(all);
-    if (lane == 0) {
+    const double all = of_all_blocks<sums, count>(team, partial, k);
+    if (team.thread() % wide == 0) {
       out[k] = all;
     }
   }

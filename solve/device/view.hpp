@@ -45,31 +45,31 @@ struct SharedBound {
   double scale, firmest, least;
 };
 
-/// Surface nodes within a skull: Contact.
-struct TouchingNodes {
+/// Shape functions V at some places, compressed rows, and Vᵀ of the nodes that are in any.
+struct SparseRows {
   std::int32_t count = 0;
-  const std::int64_t* begin;  ///< V, compressed rows
-  const std::int32_t* node;
+  const std::int64_t* begin;
+  const std::int32_t* node;  ///< ascending in a row
   const double* shape;
+  std::int32_t moved = 0;  ///< nodes
+  const std::int32_t* moved_node;
+  const std::int64_t* moved_begin;
+  const std::int32_t* moved_row;
+  const double* moved_shape;
+};
+
+/// Surface nodes within a skull: Contact.
+struct TouchingNodes : SparseRows {
   const double* position;    ///< undeformed, mm, 3 a row
   const double* allowed;     ///< mm
   const double* column_sum;  ///< Σ |V|, one a node of the body
   double* inverse_row_sum;   ///< D⁻¹
   double* push;              ///< D⁻¹ δ, 3 a row
-  std::int32_t moved = 0;    ///< nodes that pushes move
-  const std::int32_t* moved_node;
-  const std::int64_t* moved_begin;  ///< Vᵀ, compressed rows of them
-  const std::int32_t* moved_row;
-  const double* moved_shape;
   DistanceGrid skull;
 };
 
 /// Essential conditions of a component: EssentialConditions::Component.
-struct Conditions {
-  std::int32_t count = 0;
-  const std::int64_t* begin;  ///< V, compressed rows, their nodes ascending
-  const std::int32_t* node;
-  const double* shape;
+struct Conditions : SparseRows {
   const double* prescribed;  ///< mm
   const double* loaded;      ///< 1, else 0
   const double* compliance;  ///< C/s, dense; nullptr: held exactly
@@ -78,11 +78,6 @@ struct Conditions {
   double* inverse;  ///< −(V M⁻¹ Vᵀ + C/(sα))⁻¹, dense
   double* column;   ///< of the elimination, two and the diagonal
   bool own;         ///< false: the inverse is that of the component before
-  std::int32_t moved = 0;
-  const std::int32_t* moved_node;
-  const std::int64_t* moved_begin;
-  const std::int32_t* moved_row;
-  const double* moved_shape;
 };
 
 constexpr int most_steps = 20;  // of an order

@@ -64,7 +64,7 @@ void Motion::add_swelling_work(const PointLaws& laws, double next_fraction) {
     return point_state(body.points, laws, scratch).strain_energy;
   };
   const double from = energy_at(fraction_before_), to = energy_at(next_fraction), here = energy_at(fraction_);
-  external_work_ += (swelling_work_ + here - from) / 2;
+  books_.external_work += (swelling_work_ + here - from) / 2;
   swelling_work_ = to - here;
 }
 
@@ -97,24 +97,20 @@ void Motion::step(const PointLaws& laws, std::span<const double> mass, double al
 /// linear body, in its fastest modes, too, which a coarse start is full of. The multipliers are the reactions at û, not
 /// at the end of the step.
 void Motion::add_energies(std::span<const double> mass, double alpha, double beta, double fraction) {
-  const double rate = body.essential.multiplier_work() / alpha;
-  external_work_ += (fraction_ - fraction_before_) * (rate + work_rate_) / 2 + force_work_;
-  work_rate_ = rate;
-  force_work_ = body.external.work(fraction_, fraction, now, next);
-  dissipated_ += lost_work_ / 2;
-  lost_work_ = 0;
+  double lost = 0;
   if (beta < 1) {
-    lost_work_ = (1 - beta) / (4 * alpha) * inertia(mass, next, before);
+    lost = (1 - beta) / (4 * alpha) * inertia(mass, next, before);
   }
   if (body.contact) {
-    lost_work_ -= body.contact->push_work(before, next) / alpha;
+    lost -= body.contact->push_work(before, next) / alpha;
   }
   if (body.septum_contact) {
-    lost_work_ -= body.septum_contact->push_work(before, next) / alpha;
+    lost -= body.septum_contact->push_work(before, next) / alpha;
   }
-  dissipated_ += lost_work_ / 2;
+  books_.add(fraction_ - fraction_before_, body.essential.multiplier_work() / alpha,
+             body.external.work(fraction_, fraction, now, next), lost);
   if (beta != beta_ && alpha == alpha_) {  // relaxation damps anew: with h² = 2α/(1 + β) the energy of motion jumps
-    dissipated_ += (beta_ - beta) / (4 * alpha) * inertia(mass, now, before);
+    books_.dissipated += (beta_ - beta) / (4 * alpha) * inertia(mass, now, before);
   }
   fraction_before_ = fraction_;
   fraction_ = fraction;
@@ -154,7 +150,7 @@ void Motion::start_from(const NodalVectors& parameters, double smallest_jacobian
   body.essential.apply(fraction_, now);
   before = next = good_ = now;
   squeezed_to_ = smallest_jacobian;
-  looks_before_books_ = 2;
+  books_.looks_before = 2;
 }
 
 bool Motion::squeezed() {
@@ -175,19 +171,17 @@ void Motion::note_broken_point(double smallest_jacobian) {
 
 bool Motion::look(const PointLaws& laws, std::span<const double> mass, double most_imbalance) {
   const PointState state = point_state(body.points, laws, scratch);
-  if (looks_before_books_ > 0) {  // what the first steps of a start take is no linear body's: off by a twentieth
-    --looks_before_books_;
-    external_work_ = state.strain_energy + kinetic_energy(mass);
-    dissipated_ = 0;
-  }
-  const HistoryRow latest = row(mass, state);
-  largest_work_ = std::max(largest_work_, std::abs(latest.external_work));
+  const double kinetic = kinetic_energy(mass);
+  books_.look(state.strain_energy + kinetic);
+  const HistoryRow latest = row(kinetic, state);
+  books_.largest_work = std::max(books_.largest_work, std::abs(latest.external_work));
   const double motion = inertia(mass, now, next) * (1 + beta_) / (16 * alpha_) * energy_unit;
   if (const std::string fault = unsound(state, largest_difference(now, before)); !fault.empty()) {
     note_broken_point(state.smallest_jacobian);
-    fail(fault, latest, broken_ ? *broken_ : restless_node(last_steps()));
-  } else if (imbalance(latest) > most_imbalance || motion > most_motion * std::max(largest_work_, rounding_energy_)) {
-    fail(unbalanced(latest), latest, restless_node(last_steps()));
+    mark_unstable(fault, time, fraction_, broken_ ? *broken_ : restless_node(last_steps()), result);
+  } else if (imbalance(latest) > most_imbalance ||
+             motion > most_motion * std::max(books_.largest_work, rounding_energy_)) {
+    mark_unstable(unbalanced(latest), time, fraction_, restless_node(last_steps()), result);
   }
   if (result.unstable) {
     return false;
@@ -216,34 +210,19 @@ void Motion::keep_snapshot() {
   next_snapshot_ += snapshot_every_;
 }
 
-void Motion::fail(const std::string& why, const HistoryRow& latest, const Fault& fault) {
-  std::ostringstream text;
-  text << "unstable at step " << result.steps << " (time " << latest.time << ") with " << 100 * fraction_
-       << " % of the load: " << why;
-  result.failure = text.str();
-  result.unstable = true;
-  result.fault = fault;
-  result.fault->fast =
-      !result.history.empty() && result.history.back().kinetic_energy > result.history.back().strain_energy;
-}
-
-/// ½ v₋ᵀM v₊ with the velocities before and after the last force, and what the damping makes of their difference. With
-/// it the balance of central differences is exact for a linear body; with the mean velocity it is off by M|v₊ − v₋|²/8,
-/// which a coarse start is full of at first.
 double Motion::kinetic_energy(std::span<const double> mass) const {
-  const double after = inertia(mass, now, before), earlier = inertia(mass, before, next);
-  return (1 + beta_) / (8 * alpha_) * (inertia(mass, now, next) - after - earlier) +
-         (1 - beta_) / (8 * alpha_) * (earlier - after);
+  return solve::kinetic_energy(alpha_, beta_, inertia(mass, now, next), inertia(mass, now, before),
+                               inertia(mass, before, next));
 }
 
-HistoryRow Motion::row(std::span<const double> mass, const PointState& state) const {
+HistoryRow Motion::row(double kinetic, const PointState& state) const {
   HistoryRow row;
   row.step = result.steps;
   row.time = time;
-  row.external_work = external_work_ * energy_unit;
+  row.external_work = books_.external_work * energy_unit;
   row.strain_energy = state.strain_energy * energy_unit;
-  row.kinetic_energy = kinetic_energy(mass) * energy_unit;
-  row.dissipated_energy = dissipated_ * energy_unit;
+  row.kinetic_energy = kinetic * energy_unit;
+  row.dissipated_energy = books_.dissipated * energy_unit;
   row.reaction = newton * body.essential.reaction_of_loaded(alpha_);
   return row;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "solve/dynamics/books.hpp"
 #include "solve/dynamics/rigid_modes.hpp"
 #include "solve/dynamics/stepping.hpp"
 
@@ -62,7 +63,7 @@ class Motion {
   double energy_of_motion(std::span<const double> mass) const;
 
   /// Energy that left the body, 1e-9 J, as when it is cut, or its fictitious masses change.
-  void lose(double energy) { dissipated_ += energy; }
+  void lose(double energy) { books_.dissipated += energy; }
 
   /// The result, with the last state that was kept.
   SteppingResult finish();
@@ -83,10 +84,9 @@ class Motion {
   LastSteps last_steps() const { return {now, before, next}; }
   void note_broken_point(double smallest_jacobian);
   void keep_snapshot();
-  void fail(const std::string& why, const HistoryRow& row, const Fault& fault);
   void add_energies(std::span<const double> mass, double alpha, double beta, double fraction);
   double kinetic_energy(std::span<const double> mass) const;
-  HistoryRow row(std::span<const double> mass, const PointState& state) const;
+  HistoryRow row(double kinetic, const PointState& state) const;
   double imbalance(const HistoryRow& row);
 
   NodalVectors good_;
@@ -94,15 +94,9 @@ class Motion {
   double alpha_ = 1, beta_ = 1;  // of the last step
   double fraction_ = 0;          // of the load, at `now`
   double fraction_before_ = 0;
-  double work_rate_ = 0;
-  double force_work_ = 0;     // of the forces over the last step
   double swelling_work_ = 0;  // of swelling over the last step, at its start
-  double lost_work_ = 0;      // in damping and contact, from the middle of the step before to that of the last
-  double external_work_ = 0;
-  double dissipated_ = 0;
-  int looks_before_books_ = 0;   // until energies count
+  Books books_;
   double largest_energy_ = 0;    // mJ
-  double largest_work_ = 0;      // mJ
   double rounding_energy_;       // mJ; energies below it are not compared
   std::optional<Fault> broken_;  // the first point that turned inside out since the last sound state
   double squeezed_to_ = 1;       // J

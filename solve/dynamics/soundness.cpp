@@ -19,6 +19,17 @@ std::string unsound(const PointState& state, double moved) {
   return {};
 }
 
+void mark_unstable(const std::string& why, double time, double fraction, const Fault& fault, SteppingResult& result) {
+  std::ostringstream text;
+  text << "unstable at step " << result.steps << " (time " << time << ") with " << 100 * fraction
+       << " % of the load: " << why;
+  result.failure = text.str();
+  result.unstable = true;
+  result.fault = fault;
+  result.fault->fast =
+      !result.history.empty() && result.history.back().kinetic_energy > result.history.back().strain_energy;
+}
+
 std::string unbalanced(const HistoryRow& row) {
   std::ostringstream text;
   text << "the work of " << row.external_work << " mJ has become " << row.strain_energy << " mJ of strain, "

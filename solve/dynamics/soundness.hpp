@@ -3,9 +3,7 @@
 
 #include <string>
 
-#include "solve/body/body.hpp"
-#include "solve/force/internal_force.hpp"
-#include "solve/interface/result.hpp"
+#include "solve/dynamics/stepping.hpp"
 
 namespace brainshift::solve {
 
@@ -21,6 +19,9 @@ inline constexpr double squeezed_share = 0.8;
 
 /// What is wrong with the state of the points; empty: nothing. moved: largest |û⁺ − û| of the last step.
 std::string unsound(const PointState& state, double moved);
+
+/// Says in the result that it is unstable at its last step, which has this time and fraction of the load.
+void mark_unstable(const std::string& why, double time, double fraction, const Fault& fault, SteppingResult& result);
 
 /// A row whose energies do not balance, in words.
 std::string unbalanced(const HistoryRow& row);

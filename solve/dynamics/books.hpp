@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace brainshift::solve {
+
+/// The work that was done on a moving body and where it went, 1e-9 J.
+struct Books {
+  double external_work = 0, dissipated = 0;
+  double largest_work = 0;  ///< |external work| at a look, mJ
+  int looks_before = 0;     ///< until energies count
+
+  /// A step over which the load's fraction moved on by so much before it. rate: of the work of the reactions by the
+  /// fraction; force_work: of the forces over this step; lost: in damping and contact. By the trapezoidal rule.
+  void add(double moved_on, double rate, double force_work, double lost) {
+    external_work += moved_on * (rate + rate_) / 2 + force_work_;
+    rate_ = rate;
+    force_work_ = force_work;
+    dissipated += lost_ / 2;
+    lost_ = lost;
+    dissipated += lost_ / 2;
+  }
+
+  /// At a look. What the first steps of a start take is no linear body's, off by a twentieth: until energies count as
+  /// much work was done as the body holds.
+  void look(double energy_held) {
+    if (looks_before > 0) {
+      --looks_before;
+      external_work = energy_held;
+      dissipated = 0;
+    }
+  }
+
+ private:
+  double rate_ = 0;
+  double force_work_ = 0;
+  double lost_ = 0;  // from the middle of the step before to that of the last
+};
+
+/// ½ v₋ᵀM v₊ with the velocities before and after the last force, and what the damping makes of their difference. With
+/// it the balance of central differences is exact for a linear body; with the mean velocity it is off by M|v₊ − v₋|²/8,
+/// which a coarse start is full of at first. both, after, earlier: dᵀMd of the last two steps together, the last, and
+/// the one before. 1e-9 J.
+inline double kinetic_energy(double alpha, double beta, double both, double after, double earlier) {
+  return (1 + beta) / (8 * alpha) * (both - after - earlier) + (1 - beta) / (8 * alpha) * (earlier - after);
+}
+
+}  // namespace brainshift::solve
