@@ -21,8 +21,10 @@ const OptionTable<DiscretiseOptions>& discretise_options() {
       number_option<Options>("tumour_factor", &Options::tumour_factor, finer, "",
                              "spacing in and at the tumour / uniform spacing"),
       number_option<Options>("tumour_label", &Options::tumour_label, label_numbers, "", "label of the tumour"),
-      number_option<Options>("tissue_boundary_factor", &Options::tissue_boundary_factor, finer, "",
-                             "spacing at boundaries between tissues / uniform spacing"),
+      number_option<Options>(
+          "tissue_boundary_factor", &Options::tissue_boundary_factor, finer, "",
+          "spacing at boundaries between tissues, in a scene where stiffness changes threefold / uniform "
+          "spacing"),
       choice_option<Options>("cells", &Options::cells,
                              {{"hexahedra", CellKind::hexahedron}, {"tetrahedra", CellKind::tetrahedron}},
                              "background cells for integration"),
@@ -36,9 +38,9 @@ const OptionTable<DiscretiseOptions>& discretise_options() {
 const OptionTable<Refinement>& refinement_options() {
   static const OptionTable<Refinement> table = {
       number_option<Refinement>("craniotomy_factor", &Refinement::factor, finer, "",
-                                "spacing near the load / uniform spacing"),
+                                "spacing near the load, if there is one / uniform spacing"),
       number_option<Refinement>("craniotomy_radius", &Refinement::radius, {.low = 1e-3, .high = 1e6}, "mm",
-                                "how far near the load is")};
+                                "how far near the load is; beyond it the spacing grows by a quarter of the distance")};
   return table;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -10,8 +11,8 @@
 
 namespace brainshift::discretise {
 
-/// Finer nodes near a place: within `radius` mm of any of the points the spacing is multiplied by `factor`, growing
-/// back to the uniform one over the same distance again.
+/// Finer nodes near a place: within `radius` mm of any of the points the spacing is multiplied by `factor`. Beyond it
+/// grows by a quarter of the distance, up to the uniform one.
 struct Refinement {
   Points centres;
   double radius = 20.0;
@@ -33,8 +34,9 @@ struct DiscretiseOptions {
   std::optional<Refinement> craniotomy = {};  ///< finer towards the opening
   double tumour_factor = 1.0;                 ///< spacing inside and at a tumour / uniform spacing
   std::int32_t tumour_label = 3;
-  double tissue_boundary_factor = 1.0;    ///< spacing at boundaries between tissues / uniform spacing
-  CellKind cells = CellKind::hexahedron;  ///< or tetrahedron; a body has no planar cells
+  double tissue_boundary_factor = 1.0;            ///< spacing at boundaries between tissues / uniform spacing
+  std::map<std::int32_t, double> stiffness = {};  ///< µ by label, Pa: boundaries count where it changes threefold
+  CellKind cells = CellKind::hexahedron;          ///< or tetrahedron; a body has no planar cells
   /// Hexahedra: cells a node (inside volume / cell volume / nodes). With eight points a cell that is six points a node.
   /// Where the nodes are finer the cells are split.
   double cells_per_node = 0.75;

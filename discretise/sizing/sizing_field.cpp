@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <deque>
+#include <utility>
 
 #include "discretise/sizing/tissue_lookup.hpp"
 #include "segmentation/geometry/distinct_points.hpp"
@@ -18,30 +19,24 @@ constexpr double growth = 0.25;
 /// The grid of factors never has more points than this.
 constexpr double most_samples = 4e6;
 
-double distance_to(const PointTree& tree, const Eigen::Vector3d& x) {
-  return std::sqrt(tree.nearest(x.data()).second);
-}
+/// Points within whose reach the spacing is finer.
+class FinePlaces {
+ public:
+  FinePlaces(Points places, double reach, double factor)
+      : points_(std::move(places)), tree_(points_), reach_(reach), factor_(factor) {}
 
-/// `factor` up to `radius`, then linearly back to 1 over the same distance.
-double craniotomy_factor(const Refinement& refinement, double distance) {
-  const double back = std::clamp(distance / refinement.radius - 1.0, 0.0, 1.0);
-  return refinement.factor + (1.0 - refinement.factor) * back;
-}
-
-/// Points near which the spacing is finer, with their search tree.
-struct FinePlaces {
-  FinePlaces(Points places, double f) : points(std::move(places)), tree(points), factor(f) {}
-
-  Points points;
-  PointTree tree;
-  double factor;
-};
-
-void make(std::optional<FinePlaces>& places, Points points, double factor) {
-  if (points.rows() > 0) {
-    places.emplace(std::move(points), factor);
+  /// Of the spacing there; beyond the reach it grows. spacing: the uniform one.
+  double factor(const Eigen::Vector3d& x, double spacing) const {
+    const double distance = std::sqrt(tree_.nearest(x.data()).second);
+    return factor_ + growth * std::max(0.0, distance - reach_) / spacing;
   }
-}
+
+ private:
+  Points points_;
+  PointTree tree_;
+  double reach_;
+  double factor_;
+};
 
 }  // namespace
 
@@ -72,30 +67,32 @@ double SizingField::smallest() const {
 
 SizingField sizing_field(const Surface& surface, const LabelMap* labels, const DiscretiseOptions& options,
                          double spacing) {
-  std::optional<FinePlaces> opening;
-  std::optional<FinePlaces> tumour;
-  std::optional<FinePlaces> boundary;
+  std::deque<FinePlaces> fine;  // where each is built it stays: its tree refers to its points
+  const auto add = [&](Points places, double reach, double factor) {
+    if (places.rows() > 0) {
+      fine.emplace_back(std::move(places), reach, factor);
+    }
+  };
   if (options.craniotomy && options.craniotomy->factor < 1) {
-    make(opening, distinct_points(options.craniotomy->centres), options.craniotomy->factor);
-  }
-  if (labels != nullptr && options.tumour_factor < 1) {
-    make(tumour, label_voxels(*labels, options.tumour_label), options.tumour_factor);
-  }
-  if (labels != nullptr && options.tissue_boundary_factor < 1) {
-    make(boundary, tissue_boundary(*labels, options.brain_labels), options.tissue_boundary_factor);
-  }
-  if (!opening && !tumour && !boundary) {
-    return {};
+    add(distinct_points(options.craniotomy->centres), options.craniotomy->radius, options.craniotomy->factor);
   }
   const double voxel_radius = labels == nullptr ? 0.0 : 0.5 * labels->geometry.spacing.norm();
-  const auto grown = [&](const FinePlaces& places, const Eigen::Vector3d& x) {
-    return places.factor + growth * std::max(0.0, distance_to(places.tree, x) - voxel_radius) / spacing;
-  };
+  if (labels != nullptr && options.tumour_factor < 1) {
+    add(label_voxels(*labels, options.tumour_label), voxel_radius, options.tumour_factor);
+  }
+  if (labels != nullptr && options.tissue_boundary_factor < 1) {
+    add(tissue_boundary(*labels, options.brain_labels, options.stiffness), voxel_radius,
+        options.tissue_boundary_factor);
+  }
+  if (fine.empty()) {
+    return {};
+  }
   const auto factor = [&](const Eigen::Vector3d& x) {
-    double result = opening ? craniotomy_factor(*options.craniotomy, distance_to(opening->tree, x)) : 1.0;
-    result = tumour ? std::min(result, grown(*tumour, x)) : result;
-    result = boundary ? std::min(result, grown(*boundary, x)) : result;
-    return std::min(1.0, result);
+    double least = 1;
+    for (const FinePlaces& places : fine) {
+      least = std::min(least, places.factor(x, spacing));
+    }
+    return least;
   };
   const Eigen::Vector3d low = surface.vertices.colwise().minCoeff();
   const Eigen::Vector3d high = surface.vertices.colwise().maxCoeff();

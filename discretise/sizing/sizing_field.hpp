@@ -32,8 +32,8 @@ class SizingField {
   std::vector<double> factor_ = {1.0};
 };
 
-/// The field that the options ask for over the box of a surface. spacing: the uniform one, mm. Near a tumour or tissue
-/// boundary the spacing grows back by a quarter of the distance.
+/// The field that the options ask for over the box of a surface. spacing: the uniform one, mm. Away from where it is
+/// finer the spacing grows by a quarter of the distance.
 SizingField sizing_field(const Surface& surface, const LabelMap* labels, const DiscretiseOptions& options,
                          double spacing);
 

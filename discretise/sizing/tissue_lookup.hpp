@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 
@@ -32,7 +33,9 @@ class TissueLookup {
 /// Centres of the voxels of a label, mm.
 Points label_voxels(const LabelMap& labels, std::int32_t label);
 
-/// Centres of the voxel faces between two different brain labels, mm.
-Points tissue_boundary(const LabelMap& labels, std::span<const std::int32_t> brain_labels);
+/// Centres of the voxel faces between two brain labels whose stiffness differs threefold, mm; those of a label without
+/// a stiffness all count.
+Points tissue_boundary(const LabelMap& labels, std::span<const std::int32_t> brain_labels,
+                       const std::map<std::int32_t, double>& stiffness);
 
 }  // namespace brainshift::discretise

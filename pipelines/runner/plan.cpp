@@ -13,6 +13,7 @@
 #include "pipelines/scene/field_load.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "solve/material/material.hpp"
 #include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
@@ -143,6 +144,9 @@ StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
                     .refinement = scene.refinement};
   const auto labels = tissue_labels(scene);
   job.options.brain_labels.assign(labels.begin(), labels.end());
+  for (const Tissue& tissue : scene.tissues) {
+    job.options.stiffness[tissue.label] = solve::shear_modulus(tissue.material);
+  }
   StagePlan plan{.stage = StageId::discretise,
                  .inputs = {},
                  .options = options_of(scene, {"discretise"}),
@@ -155,6 +159,9 @@ StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
     plan.options["load"] = options_of(scene, load);
   }
   plan.options["brain_labels"] = labels;
+  if (job.options.tissue_boundary_factor < 1) {
+    plan.options["stiffness"] = job.options.stiffness;
+  }
   add_artefacts(plan, folder, {"segment/brain.vtp", "segment/labels.nii.gz"});
   job.wall = wall_of(scene, folder);
   if (!job.wall.empty()) {

@@ -141,9 +141,6 @@ void check_options(const Scene& scene) {
   check_at(scene, "segment", [&] { segmentation::check_options(scene.segment); });
   check_at(scene, "discretise", [&] { discretise::check_options(scene.discretise); });
   check_at(scene, "register", [&] { registration::check_options(scene.registration); });
-  if (scene.refinement.factor < 1 && !scene.load) {
-    fail(scene, "discretise.craniotomy_factor", "discretise.craniotomy_factor needs a <load> to refine towards");
-  }
   if (is_ours(scene, StageId::discretise) && scene.solve.points_per_cell) {
     check_at(scene, "solve.points_per_cell",
              [&] { solve::check_points_per_cell(scene.discretise.cells, *scene.solve.points_per_cell); });

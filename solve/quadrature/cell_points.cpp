@@ -8,6 +8,7 @@
 
 #include "solve/quadrature/gauss_points.hpp"
 #include "solve/quadrature/merge_slivers.hpp"
+#include "solve/quadrature/tissue_shares.hpp"
 
 namespace brainshift::solve {
 
@@ -89,6 +90,9 @@ IntegrationPoints integration_points(const BackgroundCells& cells, int points_pe
     result.volume.push_back(points[i].volume);
   }
   take_tissues(cells, labels, tissues, result);
+  if (labels != nullptr) {
+    part_by_tissue(cells, *labels, tissues, result, full);
+  }
   merge_slivers(full, result);
   return result;
 }

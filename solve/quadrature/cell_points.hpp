@@ -27,7 +27,8 @@ void take_tissues(const BackgroundCells& cells, const LabelMap* labels, const st
                   IntegrationPoints& points);
 
 /// Gauss points of the background cells, points_per_cell 1 or most_points_per_cell(), with the tissues of
-/// take_tissues(). Throws std::invalid_argument when points_per_cell does not go with the kind of cell.
+/// take_tissues(), parted where the label map has several (part_by_tissue()). Throws std::invalid_argument when
+/// points_per_cell does not go with the kind of cell.
 IntegrationPoints integration_points(const BackgroundCells& cells, int points_per_cell, const LabelMap* labels,
                                      const std::vector<std::int32_t>& tissues);
 

@@ -35,16 +35,18 @@ TEST(SizingField, IsExactForWhatIsLinearAndContinuesItsBorderOutside) {
   EXPECT_NEAR(field.smallest(), linear({-2, 8, 4}), 1e-12);
 }
 
-TEST(SizingField, OfACraniotomyIsItsFactorWithinTheRadiusAndOneBeyondTwice) {
+TEST(SizingField, OfACraniotomyIsItsFactorWithinTheRadiusAndGrowsBackByAQuarterOfTheDistance) {
   DiscretiseOptions options;
   options.craniotomy = Refinement{.centres = Eigen::RowVector3d(0, 0, 0), .radius = 20, .factor = 0.4};
-  const SizingField field = sizing_field(test::box({-60, -60, -60}, {60, 60, 60}), nullptr, options, 4);
+  constexpr double spacing = 8;
+  const SizingField field = sizing_field(test::box({-60, -60, -60}, {60, 60, 60}), nullptr, options, spacing);
   const auto at = [&](double r) { return field.factor(r * Vector3d(2, -1, 2) / 3); };
-  for (const double r : {0.0, 10.0, 18.0}) {
+  for (const double r : {0.0, 10.0, 15.0}) {
     EXPECT_NEAR(at(r), 0.4, 1e-9) << r;
   }
-  EXPECT_NEAR(at(30), 0.7, 0.01);
-  EXPECT_NEAR(at(35), 0.85, 0.01);
+  for (const double r : {27.0, 32.0}) {
+    EXPECT_NEAR(at(r), 0.4 + 0.25 * (r - 20) / spacing, 0.02) << r;
+  }
   EXPECT_NEAR(at(44), 1, 1e-9);
   EXPECT_NEAR(field.smallest(), 0.4, 1e-12);
 }
@@ -77,6 +79,20 @@ TEST(SizingField, OfATissueBoundaryIsFinestThere) {
   EXPECT_LT(at(9), 0.6);
   EXPECT_GT(at(3), 0.85);
   EXPECT_GT(at(16), 0.85);
+}
+
+TEST(SizingField, CountsATissueBoundaryWhereStiffnessDiffersMuch) {
+  const Vector3d centre(30, -20, 10);
+  const LabelMap labels = test::ball_labels(centre, 9, 20);
+  const auto of = [&](double outer, double inner) {
+    DiscretiseOptions options;
+    options.tissue_boundary_factor = 0.5;
+    options.stiffness = {{1, outer}, {3, inner}};
+    return sizing_field(test::ball(20, centre, 3), &labels, options, 3);
+  };
+  EXPECT_LT(of(1000, 4).factor(centre + Vector3d(0, 0, 9)), 0.6);
+  EXPECT_LT(of(1000, 3000).factor(centre + Vector3d(0, 0, 9)), 0.6);
+  EXPECT_TRUE(of(1000, 2900).is_uniform());
 }
 
 TEST(SizingField, TakesTheFinestOfWhatIsAsked) {

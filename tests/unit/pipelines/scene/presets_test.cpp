@@ -3,12 +3,28 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/pipelines/scene_file.hpp"
+
 namespace brainshift::pipelines::presets_test {
 
 TEST(Presets, AreKnownByName) {
   EXPECT_TRUE(preset_overrides("").empty());
   EXPECT_NE(preset_overrides("fast"), preset_overrides("accurate"));
   EXPECT_THROW(preset_overrides("quick"), std::invalid_argument);
+}
+
+/// A brain that only sinks has no opening to be finer at.
+TEST_F(SceneFile, PresetsGoWithAndWithoutALoad) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  write_load();
+  const std::string body =
+      "<image labels=\"labels.nii.gz\"/><tissues><tissue label=\"1\"/><tissue label=\"3\"/></tissues><contact/>";
+  for (const char* acts :
+       {"<load><craniotomy file=\"load.csv\"/></load>", "<gravity direction=\"0,1,0\" drained=\"30\"/>"}) {
+    for (const char* preset : {"fast", "balanced", "accurate"}) {
+      EXPECT_EQ(fault("<scene>" + body + acts + "</scene>", preset_overrides(preset)), "") << preset << acts;
+    }
+  }
 }
 
 }  // namespace brainshift::pipelines::presets_test
