@@ -23,8 +23,8 @@ const OptionTable<DiscretiseOptions>& discretise_options() {
       number_option<Options>("tumour_label", &Options::tumour_label, label_numbers, "", "label of the tumour"),
       number_option<Options>(
           "tissue_boundary_factor", &Options::tissue_boundary_factor, finer, "",
-          "spacing at boundaries between tissues, in a scene where stiffness changes threefold / uniform "
-          "spacing"),
+          "spacing at boundaries between tissues / uniform spacing; of a scene's those where stiffness changes "
+          "threefold"),
       choice_option<Options>("cells", &Options::cells,
                              {{"hexahedra", CellKind::hexahedron}, {"tetrahedra", CellKind::tetrahedron}},
                              "background cells for integration"),

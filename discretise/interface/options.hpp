@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "discretise/interface/background_cells.hpp"
@@ -34,9 +35,9 @@ struct DiscretiseOptions {
   std::optional<Refinement> craniotomy = {};  ///< finer towards the opening
   double tumour_factor = 1.0;                 ///< spacing inside and at a tumour / uniform spacing
   std::int32_t tumour_label = 3;
-  double tissue_boundary_factor = 1.0;            ///< spacing at boundaries between tissues / uniform spacing
-  std::map<std::int32_t, double> stiffness = {};  ///< µ by label, Pa: boundaries count where it changes threefold
-  CellKind cells = CellKind::hexahedron;          ///< or tetrahedron; a body has no planar cells
+  double tissue_boundary_factor = 1.0;  ///< spacing at boundaries between tissues / uniform spacing
+  std::set<std::pair<std::int32_t, std::int32_t>> alike = {};  ///< labels, lower first, between which none counts
+  CellKind cells = CellKind::hexahedron;                       ///< or tetrahedron; a body has no planar cells
   /// Hexahedra: cells a node (inside volume / cell volume / nodes). With eight points a cell that is six points a node.
   /// Where the nodes are finer the cells are split.
   double cells_per_node = 0.75;

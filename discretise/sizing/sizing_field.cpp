@@ -81,8 +81,7 @@ SizingField sizing_field(const Surface& surface, const LabelMap* labels, const D
     add(label_voxels(*labels, options.tumour_label), voxel_radius, options.tumour_factor);
   }
   if (labels != nullptr && options.tissue_boundary_factor < 1) {
-    add(tissue_boundary(*labels, options.brain_labels, options.stiffness), voxel_radius,
-        options.tissue_boundary_factor);
+    add(tissue_boundary(*labels, options.brain_labels, options.alike), voxel_radius, options.tissue_boundary_factor);
   }
   if (fine.empty()) {
     return {};

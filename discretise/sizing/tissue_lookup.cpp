@@ -40,17 +40,6 @@ Points to_points(const std::vector<Eigen::Vector3d>& list) {
   return points;
 }
 
-/// Strain jumps where stiffness does; where that is little, nodes are as well used elsewhere.
-bool differ(const std::map<std::int32_t, double>& stiffness, std::int32_t a, std::int32_t b) {
-  constexpr double much = 3;
-  const auto of_a = stiffness.find(a), of_b = stiffness.find(b);
-  if (of_a == stiffness.end() || of_b == stiffness.end()) {
-    return true;
-  }
-  const auto [softer, stiffer] = std::minmax(of_a->second, of_b->second);
-  return stiffer >= much * softer;
-}
-
 Eigen::Vector3d centre(const LabelMap& labels, const Eigen::Array3i& voxel) {
   return labels.geometry.to_world(voxel.cast<double>().matrix());
 }
@@ -119,13 +108,13 @@ Points label_voxels(const LabelMap& labels, std::int32_t label) {
 }
 
 Points tissue_boundary(const LabelMap& labels, std::span<const std::int32_t> brain_labels,
-                       const std::map<std::int32_t, double>& stiffness) {
+                       const std::set<std::pair<std::int32_t, std::int32_t>>& alike) {
   std::vector<Eigen::Vector3d> faces;
   for_voxels(labels, [&](const Eigen::Array3i& voxel, std::uint16_t label) {
     for (int axis = 0; axis < 3; ++axis) {
       const std::uint16_t next = neighbour(labels, voxel, axis, 1);
       if (next != label && contains(brain_labels, label) && contains(brain_labels, next) &&
-          differ(stiffness, label, next)) {
+          !alike.contains(std::minmax<std::int32_t>(label, next))) {
         Eigen::Vector3d index = voxel.cast<double>().matrix();
         index[axis] += 0.5;
         faces.push_back(labels.geometry.to_world(index));

@@ -3,9 +3,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <map>
 #include <memory>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "segmentation/geometry/points.hpp"
 #include "segmentation/image/image.hpp"
@@ -33,9 +34,8 @@ class TissueLookup {
 /// Centres of the voxels of a label, mm.
 Points label_voxels(const LabelMap& labels, std::int32_t label);
 
-/// Centres of the voxel faces between two brain labels whose stiffness differs threefold, mm; those of a label without
-/// a stiffness all count.
+/// Centres of the voxel faces between two brain labels, mm, but of those that are alike (DiscretiseOptions::alike).
 Points tissue_boundary(const LabelMap& labels, std::span<const std::int32_t> brain_labels,
-                       const std::map<std::int32_t, double>& stiffness);
+                       const std::set<std::pair<std::int32_t, std::int32_t>>& alike = {});
 
 }  // namespace brainshift::discretise

@@ -2,8 +2,10 @@
 #include "pipelines/runner/plan.hpp"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "pipelines/report/report.hpp"
 #include "pipelines/runner/external_command.hpp"
@@ -90,6 +92,21 @@ std::vector<std::uint16_t> tissue_labels(const Scene& scene) {
   return labels;
 }
 
+/// Strain jumps where stiffness does. Where that changes less than threefold, nodes are as well used elsewhere.
+std::set<std::pair<std::int32_t, std::int32_t>> alike_labels(const Scene& scene) {
+  constexpr double much = 3;
+  std::set<std::pair<std::int32_t, std::int32_t>> alike;
+  for (const Tissue& a : scene.tissues) {
+    for (const Tissue& b : scene.tissues) {
+      const double of_a = solve::shear_modulus(a.material), of_b = solve::shear_modulus(b.material);
+      if (a.label < b.label && std::max(of_a, of_b) < much * std::min(of_a, of_b)) {
+        alike.emplace(a.label, b.label);
+      }
+    }
+  }
+  return alike;
+}
+
 std::vector<std::uint16_t> resected_labels(const Scene& scene) {
   return {scene.resection->labels.begin(), scene.resection->labels.end()};
 }
@@ -144,9 +161,7 @@ StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
                     .refinement = scene.refinement};
   const auto labels = tissue_labels(scene);
   job.options.brain_labels.assign(labels.begin(), labels.end());
-  for (const Tissue& tissue : scene.tissues) {
-    job.options.stiffness[tissue.label] = solve::shear_modulus(tissue.material);
-  }
+  job.options.alike = alike_labels(scene);
   StagePlan plan{.stage = StageId::discretise,
                  .inputs = {},
                  .options = options_of(scene, {"discretise"}),
@@ -160,7 +175,7 @@ StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
   }
   plan.options["brain_labels"] = labels;
   if (job.options.tissue_boundary_factor < 1) {
-    plan.options["stiffness"] = job.options.stiffness;
+    plan.options["alike"] = job.options.alike;
   }
   add_artefacts(plan, folder, {"segment/brain.vtp", "segment/labels.nii.gz"});
   job.wall = wall_of(scene, folder);

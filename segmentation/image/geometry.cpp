@@ -34,8 +34,11 @@ bool same_geometry(const ImageGeometry& a, const ImageGeometry& b) {
 }
 
 std::uint16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world) {
+  return label_at_index(labels, labels.geometry.to_index(world));
+}
+
+std::uint16_t label_at_index(const LabelMap& labels, const Eigen::Vector3d& index) {
   const ImageGeometry& geometry = labels.geometry;
-  const Eigen::Vector3d index = geometry.to_index(world);
   Eigen::Array3i nearest;
   for (int axis = 0; axis < 3; ++axis) {
     const bool inside = index[axis] >= -0.5 && index[axis] <= geometry.size[axis] - 0.5;

@@ -55,6 +55,8 @@ using VectorImage = Image<std::array<float, 3>>;  ///< displacements, mm, LPS
 
 /// The label at a world position: nearest voxel; a position on the outermost half voxel is inside; 0 outside the image.
 std::uint16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world);
+/// The same at voxel indices, which need not be whole.
+std::uint16_t label_at_index(const LabelMap& labels, const Eigen::Vector3d& index);
 
 /// The labels on another grid: the nearest at each of its voxels, 0 where the map does not reach.
 LabelMap on_grid(const LabelMap& labels, const ImageGeometry& grid);

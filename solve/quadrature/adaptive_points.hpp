@@ -23,7 +23,7 @@ struct AdaptiveRule {
 /// Adaptive integration (Wittek et al., section 3; METHOD.md (17)): a cell is split until the integral of the
 /// derivatives of its shape functions, Q = Σ w ∂φ_a/∂X over all its nodes a, changes little, |Q_parts − Q| ≤ τ
 /// |Q_parts|, at most `depth` times. The parts that were compared are the result, so little is evaluated in vain. Of a
-/// cut hexahedron the octants that are not whole stay as they are, with one point. Tissues as of integration_points().
+/// cut hexahedron the octants that are not whole stay as they are, with one point. Tissues as of take_tissues().
 /// Throws std::invalid_argument when the cells do not take so many points a part, or over 3 million are needed.
 AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunctions& shape, const AdaptiveRule& rule,
                                const LabelMap* labels, const std::vector<std::int32_t>& tissues);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "solve/quadrature/gauss_points.hpp"
 
@@ -14,47 +15,22 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int fewest_samples = 4, most_samples = 8;  // along a cell
+// Samples along a cell. They are even in number: none then lies midway between two points of a hexahedron.
+constexpr int fewest_samples = 4, most_samples = 8;
+constexpr double least_part = 0.1;  // of a point
 
 /// Where samples lie: a row a sample, with the share of each of the cell's corners in it.
 using SampleWeights = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Takes the unit square onto the triangle of its first corner, the unit cube onto such a tetrahedron, evenly (Rocchini
-/// & Cignoni 2000, Journal of Graphics Tools 5:4).
-void fold(bool solid, double& s, double& t, double& u) {
-  if (s + t > 1) {
-    s = 1 - s;
-    t = 1 - t;
-  }
-  if (!solid) {
-    return;
-  }
-  const double was = u;
-  if (t + u > 1) {
-    u = 1 - s - t;
-    t = 1 - was;
-  } else if (s + t + u > 1) {
-    u = s + t + u - 1;
-    s = 1 - t - was;
-  }
-}
-
-SampleWeights sample_weights(CellKind kind, int along) {
-  const bool solid = !is_planar(kind);
-  const bool folds = kind == CellKind::tetrahedron || kind == CellKind::triangle;
-  const int layers = solid ? along : 1;
-  SampleWeights weights(along * along * layers, corner_count(kind));
+/// The middles of equal parts of a hexahedron or quadrilateral, `along` of them along each edge.
+SampleWeights samples_of_box(int dimensions, int along) {
+  const int layers = dimensions == 3 ? along : 1;
+  SampleWeights weights(along * along * layers, 1 << dimensions);
   Eigen::Index row = 0;
   for (int k = 0; k < layers; ++k) {
     for (int j = 0; j < along; ++j) {
       for (int i = 0; i < along; ++i, ++row) {
-        double s = (i + 0.5) / along, t = (j + 0.5) / along, u = solid ? (k + 0.5) / along : 0;
-        if (folds) {
-          fold(solid, s, t, u);
-          const std::array<double, 4> shares = {1 - s - t - u, s, t, u};
-          weights.row(row) = Eigen::Map<const Eigen::RowVectorXd>(shares.data(), weights.cols());
-          continue;
-        }
+        const double s = (i + 0.5) / along, t = (j + 0.5) / along, u = dimensions == 3 ? (k + 0.5) / along : 0;
         const double level[4] = {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
         for (Eigen::Index c = 0; c < weights.cols(); ++c) {
           weights(row, c) = level[c % 4] * (c < 4 ? 1 - u : u);
@@ -65,67 +41,112 @@ SampleWeights sample_weights(CellKind kind, int along) {
   return weights;
 }
 
+/// The centroids of the equal simplices that Kuhn's triangulation of a grid has within 1 > x > y (> z) > 0, which is
+/// taken onto the cell: along³ tetrahedra or along² triangles.
+SampleWeights samples_of_simplex(int dimensions, int along) {
+  SampleWeights weights(dimensions == 3 ? along * along * along : along * along, dimensions + 1);
+  Eigen::Index row = 0;
+  for (int k = 0; k < (dimensions == 3 ? along : 1); ++k) {
+    for (int j = 0; j < along; ++j) {
+      for (int i = 0; i < along; ++i) {
+        std::array<int, 3> order = {1, 2, 3};  // of the simplices of a box: which axis its path takes first
+        do {
+          const double parts = dimensions + 1;
+          const double x = (i + order[0] / parts) / along, y = (j + order[1] / parts) / along;
+          const double z = dimensions == 3 ? (k + order[2] / parts) / along : 0;
+          if (x > y && y > z) {
+            const std::array<double, 4> shares = {1 - x, x - y, y - z, z};
+            weights.row(row++) = Eigen::Map<const Eigen::RowVectorXd>(shares.data(), weights.cols());
+          }
+        } while (std::next_permutation(order.begin(), order.begin() + dimensions));
+      }
+    }
+  }
+  return weights;
+}
+
+SampleWeights sample_weights(CellKind kind, int along) {
+  const int dimensions = is_planar(kind) ? 2 : 3;
+  const bool box = kind == CellKind::hexahedron || kind == CellKind::quadrilateral;
+  return box ? samples_of_box(dimensions, along) : samples_of_simplex(dimensions, along);
+}
+
 /// What the samples of one tissue say.
 struct Samples {
   int count = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< of their places
 
-  void add(const Eigen::Vector3d& place) {
-    ++count;
-    sum += place;
-  }
   Eigen::Vector3d middle() const { return sum / count; }
 };
 
 using SamplesByTissue = std::map<std::int32_t, Samples>;
 
-/// The points of one cell, and how it is sampled.
+/// Of points that are equally near the first, or rounding would choose.
+std::size_t nearest_of(const Points& places, std::size_t first, std::size_t count, const Eigen::RowVector3d& place) {
+  constexpr double nearer = 1 - 1e-9;
+  std::size_t nearest = 0;
+  double least = (places.row(static_cast<Eigen::Index>(first)) - place).squaredNorm();
+  for (std::size_t i = 1; i < count; ++i) {
+    const double squared = (places.row(static_cast<Eigen::Index>(first + i)) - place).squaredNorm();
+    if (squared < nearer * least) {
+      least = squared;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
 class CellSampler {
  public:
   CellSampler(const BackgroundCells& cells, const LabelMap& labels, const std::vector<std::int32_t>& tissues)
       : cells_(cells), labels_(labels), tissues_(tissues) {
-    for (int along = fewest_samples; along <= most_samples; ++along) {
+    for (int along = fewest_samples; along <= most_samples; along += 2) {
       weights_.push_back(sample_weights(cells.kind, along));
     }
   }
 
-  /// Of each of the cell's points, which lie in these rows of `places`; nothing where the cell has one tissue.
-  void sample(std::size_t cell, const Points& places, Eigen::Index first, std::span<SamplesByTissue> of_points) const {
+  /// What lies about each of the cell's points, which are `count` from `first` on; empty where the cell has one tissue.
+  std::vector<SamplesByTissue> sample(std::size_t cell, const Points& places, std::size_t first,
+                                      std::size_t count) const {
     const Corners corners = corners_of(cells_, cell);
-    const Points at = weights_for(corners) * corners;
-    std::vector<std::int32_t> tissue(static_cast<std::size_t>(at.rows()));
-    std::int32_t one = 0;
-    bool several = false;
-    for (std::size_t i = 0; i < tissue.size(); ++i) {
-      tissue[i] = tissue_at(at.row(static_cast<Eigen::Index>(i)));
-      several |= one != 0 && tissue[i] != 0 && tissue[i] != one;
-      one = tissue[i] != 0 ? tissue[i] : one;
+    const SampleWeights& weights = weights_for(corners);
+    const std::vector<std::int32_t> tissue = tissues_at(corners, weights);
+    const auto known = std::ranges::find_if(tissue, [](std::int32_t t) { return t != 0; });
+    if (std::ranges::all_of(tissue, [&](std::int32_t t) { return t == 0 || t == *known; })) {
+      return {};
     }
-    for (std::size_t i = 0; several && i < tissue.size(); ++i) {
+    std::vector<SamplesByTissue> about(count);
+    for (std::size_t i = 0; i < tissue.size(); ++i) {
       if (tissue[i] != 0) {
-        const Eigen::Vector3d place = at.row(static_cast<Eigen::Index>(i));
-        Eigen::Index nearest = 0;
-        (places.middleRows(first, std::ssize(of_points)).rowwise() - place.transpose())
-            .rowwise()
-            .squaredNorm()
-            .minCoeff(&nearest);
-        of_points[static_cast<std::size_t>(nearest)][tissue[i]].add(place);
+        const Eigen::RowVector3d place = weights.row(static_cast<Eigen::Index>(i)) * corners;
+        Samples& samples = about[nearest_of(places, first, count, place)][tissue[i]];
+        ++samples.count;
+        samples.sum += place;
       }
     }
+    return about;
   }
 
  private:
   const SampleWeights& weights_for(const Corners& corners) const {
     const double edge = (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).maxCoeff();
-    const double along = std::ceil(edge / labels_.geometry.spacing.minCoeff());
-    const double taken = std::clamp<double>(along, fewest_samples, most_samples);
-    return weights_[static_cast<std::size_t>(taken) - fewest_samples];
+    const double half = std::ceil(edge / (2 * labels_.geometry.spacing.minCoeff()));
+    return weights_[static_cast<std::size_t>(std::clamp(half, fewest_samples / 2.0, most_samples / 2.0)) -
+                    fewest_samples / 2];
   }
 
-  /// 0 where none is known.
-  std::int32_t tissue_at(const Eigen::Vector3d& place) const {
-    const std::int32_t label = label_at(labels_, place);
-    return std::ranges::find(tissues_, label) != tissues_.end() ? label : 0;
+  /// The tissue of each sample; 0 where none is known.
+  std::vector<std::int32_t> tissues_at(Corners corners, const SampleWeights& weights) const {
+    for (auto corner : corners.rowwise()) {
+      corner = labels_.geometry.to_index(corner.transpose()).transpose();
+    }
+    std::vector<std::int32_t> tissue(static_cast<std::size_t>(weights.rows()));
+    for (std::size_t i = 0; i < tissue.size(); ++i) {
+      const Eigen::RowVector3d index = weights.row(static_cast<Eigen::Index>(i)) * corners;
+      const std::int32_t label = label_at_index(labels_, index.transpose());
+      tissue[i] = std::ranges::find(tissues_, label) != tissues_.end() ? label : 0;
+    }
+    return tissue;
   }
 
   const BackgroundCells& cells_;
@@ -144,19 +165,6 @@ std::vector<std::size_t> firsts_of_cells(const IntegrationPoints& points) {
   }
   first.push_back(points.size());
   return first;
-}
-
-/// Of each point what lies about it; nothing where its cell has one tissue.
-std::vector<SamplesByTissue> samples_about(const IntegrationPoints& points, const CellSampler& sampler) {
-  const std::vector<std::size_t> first = firsts_of_cells(points);
-  const std::size_t cells = first.size() - 1;
-  std::vector<SamplesByTissue> about(points.size());
-#pragma omp parallel for schedule(dynamic, 256)
-  for (std::size_t c = 0; c < cells; ++c) {
-    sampler.sample(static_cast<std::size_t>(points.cell[first[c]]), points.positions,
-                   static_cast<Eigen::Index>(first[c]), std::span(about).subspan(first[c], first[c + 1] - first[c]));
-  }
-  return about;
 }
 
 /// Points one after the other.
@@ -182,28 +190,55 @@ class PointList {
   IntegrationPoints points_;
 };
 
+/// Takes out what is too little for a part. Returns all that is left together.
+Samples drop_little(SamplesByTissue& about) {
+  int before = 0;
+  for (const auto& [tissue, samples] : about) {
+    before += samples.count;
+  }
+  std::erase_if(about, [&](const auto& of_tissue) { return of_tissue.second.count < least_part * before; });
+  Samples all;
+  for (const auto& [tissue, samples] : about) {
+    all.count += samples.count;
+    all.sum += samples.sum;
+  }
+  return all;
+}
+
 }  // namespace
 
 void part_by_tissue(const BackgroundCells& cells, const LabelMap& labels, const std::vector<std::int32_t>& tissues,
                     IntegrationPoints& points, std::vector<double>& full) {
-  const std::vector<SamplesByTissue> about = samples_about(points, CellSampler(cells, labels, tissues));
+  const CellSampler sampler(cells, labels, tissues);
+  const std::vector<std::size_t> first = firsts_of_cells(points);
+  const std::size_t count = first.size() - 1;
+  std::vector<std::vector<SamplesByTissue>> about(count);  // a list a cell
+#pragma omp parallel for schedule(dynamic, 256)
+  for (std::size_t c = 0; c < count; ++c) {
+    const auto cell = static_cast<std::size_t>(points.cell[first[c]]);
+    about[c] = sampler.sample(cell, points.positions, first[c], first[c + 1] - first[c]);
+  }
+
   PointList parted;
   std::vector<double> parted_full;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d place = points.positions.row(static_cast<Eigen::Index>(i));
-    parted_full.resize(parted_full.size() + std::max<std::size_t>(1, about[i].size()), full[i]);
-    if (about[i].size() < 2) {
-      parted.add(place, points.volume[i], points.cell[i], points.label[i]);
-      continue;
-    }
-    Samples all;
-    for (const auto& [tissue, samples] : about[i]) {
-      all.count += samples.count;
-      all.sum += samples.sum;
-    }
-    for (const auto& [tissue, samples] : about[i]) {
-      parted.add(place + samples.middle() - all.middle(), points.volume[i] * samples.count / all.count, points.cell[i],
-                 tissue);
+  for (std::size_t c = 0; c < count; ++c) {
+    const std::int32_t cell = points.cell[first[c]];
+    const bool cut = !cells.cut_index.empty() && cells.cut_index[static_cast<std::size_t>(cell)] >= 0;
+    for (std::size_t i = first[c]; i < first[c + 1]; ++i) {
+      const Eigen::Vector3d place = points.positions.row(static_cast<Eigen::Index>(i));
+      if (about[c].empty() || about[c][i - first[c]].empty()) {
+        parted.add(place, points.volume[i], cell, points.label[i]);
+        parted_full.push_back(full[i]);
+        continue;
+      }
+      SamplesByTissue& parts = about[c][i - first[c]];
+      const Samples all = drop_little(parts);
+      for (const auto& [tissue, samples] : parts) {
+        const double share = static_cast<double>(samples.count) / all.count;
+        const Eigen::Vector3d away = samples.middle() - all.middle();
+        parted.add(cut ? place : Eigen::Vector3d(place + away), share * points.volume[i], cell, tissue);
+        parted_full.push_back(share * full[i]);
+      }
     }
   }
   const std::size_t labelled_by_cell = points.labelled_by_cell;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "segmentation/progress/stopwatch.hpp"
+#include "solve/cut/resection.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/gauss_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
@@ -55,12 +56,13 @@ std::vector<std::uint8_t> moving_cells(const BackgroundCells& cells, const Suppo
 }
 
 /// The nodes that the points of these cells see.
-std::vector<std::uint8_t> seen_by(const BackgroundCells& cells, const SolveOptions& options,
+std::vector<std::uint8_t> seen_by(const BackgroundCells& cells, const Model& model, const SolveOptions& options,
                                   const ShapeFunctions& shape) {
   std::vector<std::uint8_t> seen(shape.nodes(), 0);
   if (cells.size() > 0) {
     const IntegrationPoints points =
-        integration_points(cells, points_per_cell(options.points_per_cell, cells.kind, false), nullptr, {});
+        integration_points(cells, points_per_cell(options.points_per_cell, cells.kind, false),
+                           model.labels ? &*model.labels : nullptr, tissues_of(model));
     for (const std::int32_t a : shape.evaluate(points.positions, false).node) {
       seen[static_cast<std::size_t>(a)] = 1;
     }
@@ -75,8 +77,8 @@ Region choose(const Model& model, const SolveOptions& options, const Eigen::Vect
   const ShapeFunctions shape(cloud.positions, cloud.spacing, options.shape);
   Region region;
   region.cells = taken_cells(model.cells, moving, 1);
-  const auto inside = seen_by(region.cells, options, shape);
-  const auto outside = seen_by(taken_cells(model.cells, moving, 0), options, shape);
+  const auto inside = seen_by(region.cells, model, options, shape);
+  const auto outside = seen_by(taken_cells(model.cells, moving, 0), model, options, shape);
   for (std::size_t a = 0; a < cloud.size(); ++a) {
     if (inside[a] != 0) {
       region.nodes.push_back(static_cast<std::int32_t>(a));

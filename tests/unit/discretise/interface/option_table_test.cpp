@@ -18,10 +18,10 @@ std::string fault(const DiscretiseOptions& options) {
 // A new member of the struct does not compile here. It goes into the table, or among those that the scene fills in.
 TEST(DiscretiseOptions, AreAllInTheTable) {
   [[maybe_unused]] const auto& [spacing, nodes, minimum_distance, craniotomy, tumour_factor, tumour_label,
-                                tissue_boundary_factor, stiffness, cells, cells_per_node, brain_labels, seed,
-                                resected] = DiscretiseOptions{};
+                                tissue_boundary_factor, alike, cells, cells_per_node, brain_labels, seed, resected] =
+      DiscretiseOptions{};
   EXPECT_EQ(discretise_options().size() + 4, 13U)
-      << "beside the craniotomy, the labels, their stiffness and what is taken out";
+      << "beside the craniotomy, the labels, which are alike and what is taken out";
   [[maybe_unused]] const auto& [centres, radius, factor] = Refinement{};
   EXPECT_EQ(refinement_options().size() + 1, 3U) << "beside the centres";
 }

@@ -76,14 +76,14 @@ TEST(LabelVoxels, AreTheCentresOfAllVoxelsOfTheLabel) {
 }
 
 TEST(TissueBoundary, LiesMidwayBetweenVoxelsOfDifferentBrainTissues) {
-  const Points faces = tissue_boundary(row_of({1, 1, 3, 0, 1, 5, 3}), brain, {});
+  const Points faces = tissue_boundary(row_of({1, 1, 3, 0, 1, 5, 3}), brain);
   ASSERT_EQ(faces.rows(), 1) << "1|3; what is not of the brain has no boundary";
   EXPECT_EQ(faces.row(0), Eigen::RowVector3d(3, 0, 0));
 }
 
 TEST(TissueBoundary, OfABallInABallIsTheInnerSphere) {
   const LabelMap labels = test::ball_labels(centre, 5, 9);
-  const Points faces = tissue_boundary(labels, brain, {});
+  const Points faces = tissue_boundary(labels, brain);
   const Eigen::VectorXd radii = (faces.rowwise() - centre.transpose()).rowwise().norm();
   EXPECT_GT(radii.minCoeff(), 4.4);
   EXPECT_LT(radii.maxCoeff(), 5.6);

@@ -68,6 +68,14 @@ TEST_F(Stamps, ChangeForTheStagesThatDependOnAnOptionAlone) {
   EXPECT_EQ(changed_by([&] { scene_.tissues.push_back({3, "", "", {}}); }), "sdv-");
 }
 
+/// Which boundaries count follows from the materials, and only where nodes are finer there.
+TEST_F(Stamps, OfFinerNodesAtBoundariesChangeWithThoseThatCount) {
+  scene_.tissues = {{1, "", "", {}}, {3, "", "", {}}};
+  scene_.discretise.tissue_boundary_factor = 0.6;
+  EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.youngs_modulus = 2500; }), "--v-");
+  EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.youngs_modulus = 900; }), "-dv-");
+}
+
 TEST_F(Stamps, ChangeWithTheContentsOfFilesNotTheirNames) {
   EXPECT_EQ(changed_by([&] { write("t1.nii", "another"); }), "s--r");
   EXPECT_EQ(changed_by([&] { write("load.csv", "another"); }), "--v-");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -115,6 +116,56 @@ TEST(TissueShares, OfACutCellHaveItsInsideVolume) {
   EXPECT_NEAR(volumes(parted).at(1), all / 3, 0.05 * all);
   EXPECT_NEAR(volumes(parted).at(1) + volumes(parted).at(2), all, 1e-12 * all);
   EXPECT_LT((first_moment(parted) - first_moment(whole)).norm(), 1e-12 * all * side);
+}
+
+/// Also of cells of an odd number of voxels: no sample lies midway between two points, where rounding would choose.
+TEST(TissueShares, DoNotDependOnWhereTheBodyLies) {
+  for (const int voxels : {4, 5, 6, 7, 8}) {
+    for (const double away : {0.0, 0.1, 17.3, -101.7, 1000.3}) {
+      BackgroundCells cells = box_cells(1, voxels);
+      cells.vertices.array() += away;
+      LabelMap labels;
+      labels.geometry.size.setConstant(voxels);
+      labels.geometry.origin.setConstant(away + 0.5);
+      labels.voxels.assign(labels.geometry.voxel_count(), 2);
+      std::fill_n(labels.voxels.begin(), 3 * voxels * voxels, std::uint16_t{1});  // of the lowest three layers
+      const auto of = volumes(integration_points(cells, 8, &labels, tissues));
+      EXPECT_NEAR(of.at(1) / (voxels * voxels), 3, 0.5) << voxels << " " << away;
+    }
+  }
+}
+
+/// Tetrahedra of one cube are sampled evenly: shares of slabs across it are those of the slabs.
+TEST(TissueShares, OfTetrahedraAreEven) {
+  const BackgroundCells cells = test::box_tetrahedra(test::irregular_box(2, side), 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double below : {3.0, 6.0, 9.0}) {
+      const LabelMap labels = labelled([&](const auto& x) { return x[axis] < below ? 1 : 2; });
+      const auto of = volumes(integration_points(cells, 1, &labels, tissues));
+      EXPECT_NEAR(of.at(1), below * side * side, 0.03 * side * side * side) << axis << " " << below;
+    }
+  }
+}
+
+/// A few voxels of a tissue far from the rest of it make no point: it would be merged into the rest, far away.
+TEST(TissueShares, MakeNothingOfSpecks) {
+  const LabelMap labels = labelled([](const auto& x) {
+    const bool speck = x[0] > 9 && x[0] < 10 && x[1] > 9 && x[1] < 10 && x[2] > 9 && x[2] < 10;
+    return x.maxCoeff() < 4 || speck ? 2 : 1;
+  });
+  const IntegrationPoints points = integration_points(box_cells(3, side), 1, &labels, tissues);
+  EXPECT_EQ(points.size(), 27u);
+  EXPECT_DOUBLE_EQ(volumes(points).at(2), side * side * side / 27);
+}
+
+/// The point itself lies in a voxel that is no tissue: what is about it says more than the cell's label.
+TEST(TissueShares, OfAPointInNoTissueAreThoseAboutIt) {
+  const LabelMap labels = labelled([](const auto& x) { return x.x() > 5 && x.x() < 7 ? 9 : x.y() < 6 ? 1 : 2; });
+  const IntegrationPoints points = integration_points(box_cells(1, side), 8, &labels, tissues);
+  ASSERT_EQ(points.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(points.label[i], points.positions(static_cast<Eigen::Index>(i), 1) < 6 ? 1 : 2);
+  }
 }
 
 TEST(TissueShares, InThePlaneTellTheAreaOfEachTissue) {
