@@ -82,9 +82,10 @@ NodeDemand node_demand(const Surface& surface, const Surface& wall, const Scanli
   NodeDemand demand;
   Room room = room_of(surface, wall, body, demand.sizing);
   demand.spacing = options.spacing ? *options.spacing : spacing_for(room, nodes);
+  const auto sizing_at = sizing_by_spacing(surface, labels, options);
   // The field depends on the spacing (how far a fine place reaches) and the spacing on the field.
   for (int round = 0; round < 4; ++round) {
-    demand.sizing = sizing_field(surface, labels, options, demand.spacing);
+    demand.sizing = sizing_at(demand.spacing);
     if (demand.sizing.is_uniform()) {
       break;
     }

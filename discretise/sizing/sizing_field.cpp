@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <memory>
 #include <utility>
 
 #include "discretise/sizing/tissue_lookup.hpp"
@@ -38,6 +39,28 @@ class FinePlaces {
   double factor_;
 };
 
+using FineList = std::deque<FinePlaces>;  // where each is built it stays: its tree refers to its points
+
+std::shared_ptr<const FineList> fine_places(const LabelMap* labels, const DiscretiseOptions& options) {
+  const auto fine = std::make_shared<FineList>();
+  const auto add = [&](Points places, double reach, double factor) {
+    if (places.rows() > 0) {
+      fine->emplace_back(std::move(places), reach, factor);
+    }
+  };
+  if (options.craniotomy && options.craniotomy->factor < 1) {
+    add(distinct_points(options.craniotomy->centres), options.craniotomy->radius, options.craniotomy->factor);
+  }
+  const double voxel_radius = labels == nullptr ? 0.0 : 0.5 * labels->geometry.spacing.norm();
+  if (labels != nullptr && options.tumour_factor < 1) {
+    add(label_voxels(*labels, options.tumour_label), voxel_radius, options.tumour_factor);
+  }
+  if (labels != nullptr && options.tissue_boundary_factor < 1) {
+    add(tissue_boundary(*labels, options.brain_labels, options.alike), voxel_radius, options.tissue_boundary_factor);
+  }
+  return fine;
+}
+
 }  // namespace
 
 SizingField::SizingField(const Eigen::Vector3d& low, const Eigen::Vector3d& high, double step,
@@ -65,38 +88,25 @@ double SizingField::smallest() const {
   return *std::min_element(factor_.begin(), factor_.end());
 }
 
-SizingField sizing_field(const Surface& surface, const LabelMap* labels, const DiscretiseOptions& options,
-                         double spacing) {
-  std::deque<FinePlaces> fine;  // where each is built it stays: its tree refers to its points
-  const auto add = [&](Points places, double reach, double factor) {
-    if (places.rows() > 0) {
-      fine.emplace_back(std::move(places), reach, factor);
-    }
-  };
-  if (options.craniotomy && options.craniotomy->factor < 1) {
-    add(distinct_points(options.craniotomy->centres), options.craniotomy->radius, options.craniotomy->factor);
-  }
-  const double voxel_radius = labels == nullptr ? 0.0 : 0.5 * labels->geometry.spacing.norm();
-  if (labels != nullptr && options.tumour_factor < 1) {
-    add(label_voxels(*labels, options.tumour_label), voxel_radius, options.tumour_factor);
-  }
-  if (labels != nullptr && options.tissue_boundary_factor < 1) {
-    add(tissue_boundary(*labels, options.brain_labels, options.alike), voxel_radius, options.tissue_boundary_factor);
-  }
-  if (fine.empty()) {
-    return {};
-  }
-  const auto factor = [&](const Eigen::Vector3d& x) {
-    double least = 1;
-    for (const FinePlaces& places : fine) {
-      least = std::min(least, places.factor(x, spacing));
-    }
-    return least;
-  };
+std::function<SizingField(double spacing)> sizing_by_spacing(const Surface& surface, const LabelMap* labels,
+                                                             const DiscretiseOptions& options) {
+  const std::shared_ptr<const FineList> fine = fine_places(labels, options);
   const Eigen::Vector3d low = surface.vertices.colwise().minCoeff();
   const Eigen::Vector3d high = surface.vertices.colwise().maxCoeff();
-  const double step = std::max(0.5 * spacing, std::cbrt((high - low).prod() / most_samples));
-  return {low, high, step, factor};
+  return [=](double spacing) -> SizingField {
+    if (fine->empty()) {
+      return {};
+    }
+    const auto factor = [&](const Eigen::Vector3d& x) {
+      double least = 1;
+      for (const FinePlaces& places : *fine) {
+        least = std::min(least, places.factor(x, spacing));
+      }
+      return least;
+    };
+    const double step = std::max(0.5 * spacing, std::cbrt((high - low).prod() / most_samples));
+    return {low, high, step, factor};
+  };
 }
 
 }  // namespace brainshift::discretise

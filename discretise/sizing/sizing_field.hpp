@@ -32,9 +32,9 @@ class SizingField {
   std::vector<double> factor_ = {1.0};
 };
 
-/// The field that the options ask for over the box of a surface. spacing: the uniform one, mm. Away from where it is
-/// finer the spacing grows by a quarter of the distance.
-SizingField sizing_field(const Surface& surface, const LabelMap* labels, const DiscretiseOptions& options,
-                         double spacing);
+/// The field that the options ask for over the box of a surface, by the uniform spacing, mm. Away from where it is
+/// finer the spacing grows by a quarter of the distance. Where that is, is found once: labels are read here alone.
+std::function<SizingField(double spacing)> sizing_by_spacing(const Surface& surface, const LabelMap* labels,
+                                                             const DiscretiseOptions& options);
 
 }  // namespace brainshift::discretise

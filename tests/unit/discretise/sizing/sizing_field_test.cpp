@@ -17,7 +17,7 @@ TEST(SizingField, AsksForNothingWhereNothingIsAsked) {
   EXPECT_TRUE(none.is_uniform());
   EXPECT_EQ(none.factor({1e3, -1e3, 0}), 1);
   EXPECT_EQ(none.smallest(), 1);
-  EXPECT_TRUE(sizing_field(test::box({0, 0, 0}, {9, 9, 9}), nullptr, {}, 5).is_uniform());
+  EXPECT_TRUE(sizing_by_spacing(test::box({0, 0, 0}, {9, 9, 9}), nullptr, {})(5).is_uniform());
 }
 
 TEST(SizingField, IsExactForWhatIsLinearAndContinuesItsBorderOutside) {
@@ -39,7 +39,7 @@ TEST(SizingField, OfACraniotomyIsItsFactorWithinTheRadiusAndGrowsBackByAQuarterO
   DiscretiseOptions options;
   options.craniotomy = Refinement{.centres = Eigen::RowVector3d(0, 0, 0), .radius = 20, .factor = 0.4};
   constexpr double spacing = 8;
-  const SizingField field = sizing_field(test::box({-60, -60, -60}, {60, 60, 60}), nullptr, options, spacing);
+  const SizingField field = sizing_by_spacing(test::box({-60, -60, -60}, {60, 60, 60}), nullptr, options)(spacing);
   const auto at = [&](double r) { return field.factor(r * Vector3d(2, -1, 2) / 3); };
   for (const double r : {0.0, 10.0, 15.0}) {
     EXPECT_NEAR(at(r), 0.4, 1e-9) << r;
@@ -57,7 +57,7 @@ TEST(SizingField, OfATumourGrowsBackByAQuarterOfTheDistance) {
   DiscretiseOptions options;
   options.tumour_factor = 0.5;
   constexpr double spacing = 4;
-  const SizingField field = sizing_field(test::ball(20, centre, 3), &labels, options, spacing);
+  const SizingField field = sizing_by_spacing(test::ball(20, centre, 3), &labels, options)(spacing);
   const auto at = [&](double r) { return field.factor(centre + r * Vector3d(1, 2, -2) / 3); };
   EXPECT_NEAR(at(0), 0.5, 1e-9);
   EXPECT_NEAR(at(4), 0.5, 0.02);
@@ -66,7 +66,7 @@ TEST(SizingField, OfATumourGrowsBackByAQuarterOfTheDistance) {
   }
   EXPECT_NEAR(at(18), 1, 1e-9);
   options.tumour_label = 7;
-  EXPECT_TRUE(sizing_field(test::ball(20, centre, 3), &labels, options, spacing).is_uniform()) << "no such tissue";
+  EXPECT_TRUE(sizing_by_spacing(test::ball(20, centre, 3), &labels, options)(spacing).is_uniform()) << "no such tissue";
 }
 
 TEST(SizingField, OfATissueBoundaryIsFinestThere) {
@@ -74,7 +74,7 @@ TEST(SizingField, OfATissueBoundaryIsFinestThere) {
   const LabelMap labels = test::ball_labels(centre, 9, 20);
   DiscretiseOptions options;
   options.tissue_boundary_factor = 0.5;
-  const SizingField field = sizing_field(test::ball(20, centre, 3), &labels, options, 3);
+  const SizingField field = sizing_by_spacing(test::ball(20, centre, 3), &labels, options)(3);
   const auto at = [&](double r) { return field.factor(centre + r * Vector3d(1, 2, -2) / 3); };
   EXPECT_LT(at(9), 0.6);
   EXPECT_GT(at(3), 0.85);
@@ -87,9 +87,9 @@ TEST(SizingField, CountsNoBoundaryBetweenTissuesThatAreAlike) {
   DiscretiseOptions options;
   options.tissue_boundary_factor = 0.5;
   options.alike = {{1, 2}, {2, 3}};
-  EXPECT_FALSE(sizing_field(test::ball(20, centre, 3), &labels, options, 3).is_uniform());
+  EXPECT_FALSE(sizing_by_spacing(test::ball(20, centre, 3), &labels, options)(3).is_uniform());
   options.alike = {{1, 3}};
-  EXPECT_TRUE(sizing_field(test::ball(20, centre, 3), &labels, options, 3).is_uniform());
+  EXPECT_TRUE(sizing_by_spacing(test::ball(20, centre, 3), &labels, options)(3).is_uniform());
 }
 
 TEST(SizingField, TakesTheFinestOfWhatIsAsked) {
@@ -98,7 +98,7 @@ TEST(SizingField, TakesTheFinestOfWhatIsAsked) {
   DiscretiseOptions options;
   options.tumour_factor = 0.7;
   options.craniotomy = Refinement{.centres = centre.transpose(), .radius = 8, .factor = 0.3};
-  const SizingField field = sizing_field(test::ball(20, centre, 3), &labels, options, 3);
+  const SizingField field = sizing_by_spacing(test::ball(20, centre, 3), &labels, options)(3);
   EXPECT_NEAR(field.factor(centre), 0.3, 1e-9);
 }
 
