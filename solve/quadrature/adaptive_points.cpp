@@ -9,6 +9,7 @@
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/gauss_points.hpp"
 #include "solve/quadrature/merge_slivers.hpp"
+#include "solve/quadrature/place_points.hpp"
 #include "solve/quadrature/split_cell.hpp"
 
 namespace brainshift::solve {
@@ -310,11 +311,7 @@ AdaptivePoints adaptive_points(const BackgroundCells& cells, const ShapeFunction
     result.capped += batch.capped;
     batches.push_back(std::move(batch.rows));
   }
-  result.points.positions.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    result.points.positions.row(static_cast<Eigen::Index>(i)) = points[i].position;
-    result.points.volume.push_back(points[i].volume);
-  }
+  place_points(points, result.points);
   take_tissues(cells, labels, tissues, result.points);
   const std::vector<MergedPoint> merged = merge_slivers(full, result.points);
   std::vector<Eigen::Index> moved;

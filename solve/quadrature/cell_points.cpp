@@ -8,6 +8,7 @@
 
 #include "solve/quadrature/gauss_points.hpp"
 #include "solve/quadrature/merge_slivers.hpp"
+#include "solve/quadrature/place_points.hpp"
 #include "solve/quadrature/tissue_shares.hpp"
 
 namespace brainshift::solve {
@@ -84,11 +85,7 @@ IntegrationPoints integration_points(const BackgroundCells& cells, int points_pe
     append_points(cells, cell, points_per_cell, points, full);
     result.cell.resize(points.size(), static_cast<std::int32_t>(cell));
   }
-  result.positions.resize(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    result.positions.row(static_cast<Eigen::Index>(i)) = points[i].position;
-    result.volume.push_back(points[i].volume);
-  }
+  place_points(points, result);
   take_tissues(cells, labels, tissues, result);
   if (labels != nullptr) {
     part_by_tissue(cells, *labels, tissues, result, full);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "solve/quadrature/gauss_points.hpp"
+#include "solve/quadrature/place_points.hpp"
 
 namespace brainshift::solve {
 
@@ -167,29 +168,6 @@ std::vector<std::size_t> firsts_of_cells(const IntegrationPoints& points) {
   return first;
 }
 
-/// Points one after the other.
-class PointList {
- public:
-  void add(const Eigen::Vector3d& place, double volume, std::int32_t cell, std::int32_t label) {
-    places_.push_back(place);
-    points_.volume.push_back(volume);
-    points_.cell.push_back(cell);
-    points_.label.push_back(label);
-  }
-
-  IntegrationPoints take() {
-    points_.positions.resize(std::ssize(places_), 3);
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      points_.positions.row(static_cast<Eigen::Index>(i)) = places_[i];
-    }
-    return std::move(points_);
-  }
-
- private:
-  std::vector<Eigen::Vector3d> places_;
-  IntegrationPoints points_;
-};
-
 /// Takes out what is too little for a part. Returns all that is left together.
 Samples drop_little(SamplesByTissue& about) {
   int before = 0;
@@ -219,31 +197,35 @@ void part_by_tissue(const BackgroundCells& cells, const LabelMap& labels, const 
     about[c] = sampler.sample(cell, points.positions, first[c], first[c + 1] - first[c]);
   }
 
-  PointList parted;
+  IntegrationPoints parted{
+      .positions = {}, .volume = {}, .cell = {}, .label = {}, .labelled_by_cell = points.labelled_by_cell};
+  std::vector<WeightedPoint> weighted;
   std::vector<double> parted_full;
+  const auto add = [&](std::size_t i, double share, const Eigen::Vector3d& place, std::int32_t label) {
+    weighted.push_back({place, share * points.volume[i]});
+    parted.cell.push_back(points.cell[i]);
+    parted.label.push_back(label);
+    parted_full.push_back(share * full[i]);
+  };
   for (std::size_t c = 0; c < count; ++c) {
-    const std::int32_t cell = points.cell[first[c]];
-    const bool cut = !cells.cut_index.empty() && cells.cut_index[static_cast<std::size_t>(cell)] >= 0;
+    const auto cell = static_cast<std::size_t>(points.cell[first[c]]);
+    const bool cut = !cells.cut_index.empty() && cells.cut_index[cell] >= 0;
     for (std::size_t i = first[c]; i < first[c + 1]; ++i) {
       const Eigen::Vector3d place = points.positions.row(static_cast<Eigen::Index>(i));
       if (about[c].empty() || about[c][i - first[c]].empty()) {
-        parted.add(place, points.volume[i], cell, points.label[i]);
-        parted_full.push_back(full[i]);
+        add(i, 1, place, points.label[i]);
         continue;
       }
       SamplesByTissue& parts = about[c][i - first[c]];
       const Samples all = drop_little(parts);
       for (const auto& [tissue, samples] : parts) {
-        const double share = static_cast<double>(samples.count) / all.count;
         const Eigen::Vector3d away = samples.middle() - all.middle();
-        parted.add(cut ? place : Eigen::Vector3d(place + away), share * points.volume[i], cell, tissue);
-        parted_full.push_back(share * full[i]);
+        add(i, static_cast<double>(samples.count) / all.count, cut ? place : Eigen::Vector3d(place + away), tissue);
       }
     }
   }
-  const std::size_t labelled_by_cell = points.labelled_by_cell;
-  points = parted.take();
-  points.labelled_by_cell = labelled_by_cell;
+  place_points(weighted, parted);
+  points = std::move(parted);
   full = std::move(parted_full);
 }
 
