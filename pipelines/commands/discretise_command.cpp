@@ -25,9 +25,6 @@ void discretise(const DiscretiseArguments& arguments, const Settings& settings) 
     job.load = Load{};
     job.load->craniotomy = arguments.craniotomy;
   }
-  if (job.refinement.factor < 1 && !job.load) {
-    throw std::invalid_argument("--craniotomy-factor needs --craniotomy FILE, the place to refine towards");
-  }
   run_single_stage(StageId::discretise, arguments.out, settings,
                    [&](const auto& folder, const Progress& progress) { return run_job(job, folder, progress); });
 }
@@ -42,7 +39,7 @@ void add_discretise_command(CLI::App& program, const Settings& settings) {
   command->add_option("--brain-labels", arguments->job.options.brain_labels, "labels that are tissue of the brain")
       ->check(CLI::Range(static_cast<int>(label_numbers.low), static_cast<int>(label_numbers.high)))
       ->capture_default_str();
-  command->add_option("--craniotomy", arguments->craniotomy, "craniotomy.csv, for --craniotomy-factor")
+  command->add_option("--craniotomy", arguments->craniotomy, "craniotomy.csv: where nodes are finer")
       ->type_name("FILE");
   for (const char* name :
        {"nodes", "spacing", "minimum_distance", "craniotomy_factor", "craniotomy_radius", "tumour_factor",

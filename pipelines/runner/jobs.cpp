@@ -29,6 +29,11 @@ void add(const std::vector<std::string>& notes, StageReport& report) {
   report.notes.insert(report.notes.end(), notes.begin(), notes.end());
 }
 
+/// A load on all of the surface has no rim to be finer at.
+bool has_rim(const Load& load) {
+  return !load.field || !load.field->where.empty();
+}
+
 }  // namespace
 
 StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progress& progress) {
@@ -36,7 +41,7 @@ StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progres
   const Surface brain = read_surface(job.surface);
   const std::optional<LabelMap> labels = labels_if(job.labels);
   discretise::DiscretiseOptions options = job.options;
-  if (job.refinement.factor < 1 && job.load) {
+  if (job.refinement.factor < 1 && job.load && has_rim(*job.load)) {
     options.craniotomy = job.refinement;
     options.craniotomy->centres = read_load(*job.load, job.surface).positions;
   }

@@ -44,17 +44,10 @@ std::vector<std::string> preset_overrides(const std::string& name) {
   }
   for (const Preset& preset : presets) {
     if (name == preset.name) {
-      return {"discretise.spacing=",
-              std::string("discretise.nodes=") + preset.nodes,
-              "discretise.tissue_boundary_factor=0.6",
-              "discretise.craniotomy_factor=0.5",
-              "discretise.craniotomy_radius=3",
-              "solve.points_per_cell=auto",
-              "solve.integration_tolerance=0",
-              "solve.basis=linear",
-              "solve.derivatives=full",
-              "solve.precision=single",
-              std::string("solve.tolerance=") + preset.tolerance};
+      return {"discretise.spacing=",        std::string("discretise.nodes=") + preset.nodes,
+              "solve.points_per_cell=auto", "solve.integration_tolerance=0",
+              "solve.basis=linear",         "solve.derivatives=full",
+              "solve.precision=single",     std::string("solve.tolerance=") + preset.tolerance};
     }
   }
   throw std::invalid_argument("--preset is '" + name + "', but must be " + preset_names());

@@ -6,9 +6,8 @@
 
 namespace brainshift::pipelines {
 
-/// The "path=value" overrides of a preset: settings of the measured front of speed and accuracy, with finer nodes at
-/// the load and where stiffness changes (tradeoff/README.md). No name: none. Throws std::invalid_argument, listing the
-/// names, on another name.
+/// The "path=value" overrides of a preset: settings of the measured front of speed and accuracy
+/// (tradeoff/README.md). No name: none. Throws std::invalid_argument, listing the names, on another name.
 std::vector<std::string> preset_overrides(const std::string& name);
 
 /// "fast | balanced | accurate".

@@ -122,6 +122,7 @@ void read_state(const tinyxml2::XMLElement& xml, const std::vector<std::string>&
   if (!first && xml.FirstChildElement() == nullptr) {
     where.fail("the state '" + name + "' changes nothing; it may change " + changeable_elements());
   }
+  state.state->opening = first ? state.load : scene.states.front().load;
   scene.states.push_back(std::move(state));
 }
 

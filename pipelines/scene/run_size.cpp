@@ -28,14 +28,15 @@ const auto& label_file(const Scene& scene) {
 /// Nodes, points and pairs in a brain of the size's volume.
 void add_solve_size(const Scene& scene, SolveSize& solve) {
   const auto& discretise = scene.discretise;
-  solve.nodes = discretise.spacing ? solve.volume / std::pow(*discretise.spacing, 3)
+  const bool finer = discretise.tissue_boundary_factor < 1 || scene.refinement.factor < 1;
+  const double denser = finer ? 1.25 : 1;  // than of the uniform spacing
+  solve.nodes = discretise.spacing ? denser * solve.volume / std::pow(*discretise.spacing, 3)
                                    : static_cast<double>(discretise.nodes.value_or(12000));
   const bool hexahedra = discretise.cells == CellKind::hexahedron;
   // Delaunay tetrahedra of a cloud: about six a node.
   const double cells = solve.nodes * (hexahedra ? discretise.cells_per_node : 6);
   const int points_a_cell = scene.solve.points_per_cell.value_or(hexahedra ? 8 : 4);
-  // Between tissues points are parted, and cells split where nodes are finer there: up to a fifth more with the
-  // presets.
+  // Between tissues points are parted, and cells split where nodes are finer there: up to a fifth more.
   const double parted = scene.tissues.size() > 1 ? 1.25 : 1;
   solve.points = cells * points_a_cell * parted;
   solve.pairs = solve.points * 4 * std::numbers::pi / 3 * std::pow(solve::dilatation(scene.solve.shape), 3);

@@ -145,7 +145,8 @@ inline solve::SolveOptions quickest() {
 /// Which state of a sequence a scene is.
 struct StateOfSequence {
   std::string name;
-  std::string before;  ///< the state that it goes on from; empty: it is the first
+  std::string before;                ///< the state that it goes on from; empty: it is the first
+  std::optional<Load> opening = {};  ///< the first state's load: all states have the same nodes, which are finer there
 };
 
 /// The whole problem. Members that are empty are parts that the scene does not name: they are not built. File names are
@@ -164,9 +165,8 @@ struct Scene {
   std::optional<solve::UncertaintyOptions> uncertainty;
   std::optional<TradeoffLists> tradeoff;
   segmentation::SegmentOptions segment;  ///< brain_labels and skull_label are filled in from tissues and image
-  discretise::DiscretiseOptions discretise;
-  discretise::Refinement refinement = {.centres = {},
-                                       .factor = 1};  ///< towards the load, which gives the centres; 1: none
+  discretise::DiscretiseOptions discretise = {.tissue_boundary_factor = 0.6};
+  discretise::Refinement refinement = {.centres = {}, .radius = 3, .factor = 0.5};  ///< at the load, which says where
   solve::SolveOptions solve = quickest();
   Loading loading;
   registration::RegisterOptions registration;

@@ -225,7 +225,8 @@ TEST_F(Run, AKilledRunIsContinuedToo) {
 TEST_F(Run, AStageMayBeAnExternalCommand) {
   write_text(head_folder() + "/mesher.sh",
              "set -e\n\"$PROGRAM\" discretise --surface \"$1/segment/brain.vtp\" --labels \"$1/segment/labels.nii.gz\" "
-             "--nodes 700 --out \"$2/raw\" --quiet\nmv \"$2\"/raw/*.vtu \"$2\"\nrm -r \"$2/raw\"\n");
+             "--craniotomy craniotomy.csv --nodes 700 --out \"$2/raw\" --quiet\nmv \"$2\"/raw/*.vtu \"$2\"\nrm -r "
+             "\"$2/raw\"\n");
   const std::string scene = scene_with("external.xml", "<stage name=\"discretise\"",
                                        "<stage name=\"discretise\" command=\"sh mesher.sh {in} {out}\"/>");
   const fs::path out = *scratch / "external";
@@ -275,10 +276,10 @@ TEST_F(Run, StagesAloneGiveWhatTheRunGave) {
       "set -e\nbrainshift segment --labels " + head_folder() + "/labels.nii.gz --edge-length " +
       record(finished())["options"]["segment"]["edge_length"].get<std::string>() + " --out " + out + "/segment\n" +
       "brainshift discretise --surface " + out + "/segment/brain.vtp --labels " + out +
-      "/segment/labels.nii.gz --nodes 700 --out " + out + "/discretise\n" + "brainshift solve --nodes " + out +
-      "/discretise/nodes.vtu --cells " + out + "/discretise/cells.vtu --labels " + out +
-      "/segment/labels.nii.gz --surface " + out + "/segment/brain.vtp --skull " + r + "/segment/skull.vtp --load " +
-      head_folder() +
+      "/segment/labels.nii.gz --craniotomy " + head_folder() + "/craniotomy.csv --nodes 700 --out " + out +
+      "/discretise\n" + "brainshift solve --nodes " + out + "/discretise/nodes.vtu --cells " + out +
+      "/discretise/cells.vtu --labels " + out + "/segment/labels.nii.gz --surface " + out +
+      "/segment/brain.vtp --skull " + r + "/segment/skull.vtp --load " + head_folder() +
       "/craniotomy.csv --material 1:3000,0.49 --material 2:10,0.1 --material 3:9000,0.49,1000 --tolerance 0.1 --out " +
       out + "/solve\n" + "brainshift register --solution " + out + "/solve/solution.vtu --brain " + out +
       "/segment/brain.vtp --t1 " + head_folder() + "/t1.nii.gz --warp " + r + "/segment/brain.vtp --out " + out +

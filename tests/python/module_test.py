@@ -132,7 +132,8 @@ class Chain(WithFolder):
     def test_the_stages_in_memory_are_the_run_of_the_program(self):
         run = self.folder / "run"
         record = brainshift.run(self.head / "scene.xml", run, until="register", set={
-            "segment.edge_length": 5, "discretise.nodes": 1000})
+            "segment.edge_length": 5, "discretise.nodes": 1000, "discretise.tissue_boundary_factor": 1,
+            "discretise.craniotomy_factor": 1})
         t1 = brainshift.read_image(self.head / "t1.nii.gz")  # as the program reads them: the last bits count
         labels = brainshift.read_label_map(self.head / "labels.nii.gz")
         head = brainshift.segment(labels, edge_length=5)

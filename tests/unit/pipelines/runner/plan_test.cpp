@@ -68,17 +68,25 @@ TEST_F(Stamps, ChangeForTheStagesThatDependOnAnOptionAlone) {
   EXPECT_EQ(changed_by([&] { scene_.tissues.push_back({3, "", "", {}}); }), "sdv-");
 }
 
-/// Which boundaries count follows from the materials, and only where nodes are finer there.
-TEST_F(Stamps, OfFinerNodesAtBoundariesChangeWithThoseThatCount) {
+/// Which boundaries have nodes follows from the materials.
+TEST_F(Stamps, OfNodesAtBoundariesChangeWithThoseThatCount) {
   scene_.tissues = {{1, "", "", {}}, {3, "", "", {}}};
-  scene_.discretise.tissue_boundary_factor = 0.6;
-  EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.youngs_modulus = 2500; }), "--v-");
-  EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.youngs_modulus = 900; }), "-dv-");
+  for (const double factor : {0.6, 1.0}) {
+    scene_.discretise.tissue_boundary_factor = factor;
+    scene_.tissues[0].material.youngs_modulus = 3000;
+    EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.youngs_modulus = 2500; }), "--v-");
+    EXPECT_EQ(changed_by([&] { scene_.tissues[0].material.youngs_modulus = 900; }), "-dv-");
+  }
+}
+
+TEST_F(Stamps, OfNodesChangeWithTheLoadOnlyWhereTheyAreFinerThere) {
+  scene_.refinement.factor = 1;
+  EXPECT_EQ(changed_by([&] { write("load.csv", "yet another"); }), "--v-");
 }
 
 TEST_F(Stamps, ChangeWithTheContentsOfFilesNotTheirNames) {
   EXPECT_EQ(changed_by([&] { write("t1.nii", "another"); }), "s--r");
-  EXPECT_EQ(changed_by([&] { write("load.csv", "another"); }), "--v-");
+  EXPECT_EQ(changed_by([&] { write("load.csv", "another"); }), "-dv-");
   EXPECT_EQ(changed_by([&] { write("run/segment/brain.vtp", "another"); }), "-dvr");
   EXPECT_EQ(changed_by([&] { write("run/discretise/nodes.vtu", "another"); }), "--v-");
   EXPECT_EQ(changed_by([&] { scene_.load->craniotomy = write("moved.csv", "another"); }), "----");
