@@ -10,6 +10,7 @@
 #include "discretise/body/check_surface.hpp"
 #include "discretise/cells/hexahedra.hpp"
 #include "discretise/cells/tetrahedra.hpp"
+#include "discretise/cloud/boundary_nodes.hpp"
 #include "discretise/cloud/interior_nodes.hpp"
 #include "discretise/cloud/make_cloud.hpp"
 #include "discretise/cloud/node_demand.hpp"
@@ -105,7 +106,8 @@ Discretisation discretise(const Surface& brain, const LabelMap* labels, const Di
   const NodeDemand demand = node_demand(brain, wall ? wall->surface : Surface(), body, labels, options);
 
   Discretisation result;
-  const MadeCloud made = make_cloud(brain, body, wall ? &*wall : nullptr, demand, options, progress);
+  const Points boundary = smooth_tissue_boundary(labels, options);
+  const MadeCloud made = make_cloud(brain, body, wall ? &*wall : nullptr, boundary, demand, options, progress);
   result.cloud = made.cloud;
   check_labels_overlap(result.cloud, tissue);
   report(progress, 0.8, "background cells");
@@ -118,6 +120,7 @@ Discretisation discretise(const Surface& brain, const LabelMap* labels, const Di
   measures.nodes = cloud.size();
   measures.surface_nodes = std::accumulate(cloud.on_surface.begin(), cloud.on_surface.end(), std::size_t{0});
   measures.wall_nodes = made.wall_nodes;
+  measures.boundary_nodes = made.boundary_nodes;
   measures.removed_nodes = made.removed_nodes;
   measures.cells = result.cells.size();
   measures.cut_cells = result.cells.cut_parts.size();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "discretise/cloud/boundary_nodes.hpp"
 #include "discretise/cloud/delaunay.hpp"
 #include "discretise/cloud/interior_nodes.hpp"
 #include "discretise/cloud/keep_apart.hpp"
@@ -16,21 +17,27 @@ namespace {
 /// How many of the first rows of nodes lie where.
 struct Rows {
   std::size_t on_surface;
-  std::size_t on_wall;  ///< those next
-  std::size_t fixed() const { return on_surface + on_wall; }
+  std::size_t on_wall;      ///< those next
+  std::size_t on_boundary;  ///< those after them
+  std::size_t kept_first() const { return on_surface + on_wall + on_boundary; }
 };
 
 /// Rows of nodes with those too near to another taken out. Taking one out changes the spacing around it, hence the
 /// rounds.
 void thin_out(Points& nodes, Rows& rows, double fraction) {
   for (int round = 0; round < 20; ++round) {
-    const std::vector<char> keep = keep_apart(nodes, rows.fixed(), fraction);
+    const std::vector<char> keep = keep_apart(nodes, rows.kept_first(), fraction);
     Eigen::Index kept = 0;
-    Rows rows_kept{0, 0};
+    Rows rows_kept{0, 0, 0};
     for (std::size_t node = 0; node < keep.size(); ++node) {
       if (keep[node] != 0) {
-        rows_kept.on_surface += node < rows.on_surface ? 1 : 0;
-        rows_kept.on_wall += node >= rows.on_surface && node < rows.fixed() ? 1 : 0;
+        if (node < rows.on_surface) {
+          ++rows_kept.on_surface;
+        } else if (node < rows.on_surface + rows.on_wall) {
+          ++rows_kept.on_wall;
+        } else if (node < rows.kept_first()) {
+          ++rows_kept.on_boundary;
+        }
         nodes.row(kept++) = nodes.row(static_cast<Eigen::Index>(node));
       }
     }
@@ -58,8 +65,8 @@ NodeCloud describe(const Points& nodes, std::size_t on_surface) {
 
 }  // namespace
 
-MadeCloud make_cloud(const Surface& surface, const Scanlines& body, const InnerWall* wall, const NodeDemand& demand,
-                     const DiscretiseOptions& options, const Progress& progress) {
+MadeCloud make_cloud(const Surface& surface, const Scanlines& body, const InnerWall* wall, const Points& boundary,
+                     const NodeDemand& demand, const DiscretiseOptions& options, const Progress& progress) {
   Random random(options.seed);
   report(progress, 0.15, "nodes on the surface");
   const Points on_surface =
@@ -72,16 +79,19 @@ MadeCloud make_cloud(const Surface& surface, const Scanlines& body, const InnerW
     fixed << on_surface, on_wall;
   }
   report(progress, 0.4, "nodes in the interior");
-  const Points interior = fill_interior(fixed, body, demand.sizing, demand.spacing, demand.interior_nodes, random);
+  Points interior = fill_interior(fixed, body, demand.sizing, demand.spacing, demand.interior_nodes, random);
+  const Eigen::Index before = fixed.rows() + interior.rows();
+  const std::size_t on_boundary = move_onto_boundary(boundary, fixed, body, demand.sizing, demand.spacing, interior);
   Points nodes(fixed.rows() + interior.rows(), 3);
   nodes << fixed, interior;
 
   MadeCloud made;
-  Rows rows{static_cast<std::size_t>(on_surface.rows()), static_cast<std::size_t>(fixed.rows() - on_surface.rows())};
-  const Eigen::Index before = nodes.rows();
+  Rows rows{static_cast<std::size_t>(on_surface.rows()), static_cast<std::size_t>(fixed.rows() - on_surface.rows()),
+            on_boundary};
   thin_out(nodes, rows, options.minimum_distance);
   made.removed_nodes = static_cast<std::size_t>(before - nodes.rows());
   made.wall_nodes = rows.on_wall;
+  made.boundary_nodes = rows.on_boundary;
   made.cloud = describe(nodes, rows.on_surface);
   const CloudDistances distances = cloud_distances(made.cloud.positions);
   made.cloud.spacing = distances.spacing;

@@ -11,8 +11,9 @@ namespace brainshift::discretise {
 struct DiscretiseMeasures {
   std::size_t nodes = 0;
   std::size_t surface_nodes = 0;
-  std::size_t wall_nodes = 0;     ///< on the wall of what a resection will take out
-  std::size_t removed_nodes = 0;  ///< left out because they were too near to another
+  std::size_t wall_nodes = 0;      ///< on the wall of what a resection will take out
+  std::size_t boundary_nodes = 0;  ///< moved onto a boundary between tissues
+  std::size_t removed_nodes = 0;   ///< left out because they were too near to another
   std::size_t cells = 0;
   std::size_t cut_cells = 0;
   std::size_t dropped_cells = 0;       ///< left out: cut hexahedra with a negligible inside part, flat tetrahedra

@@ -94,12 +94,11 @@ std::vector<std::uint16_t> tissue_labels(const Scene& scene) {
 
 /// Strain jumps where stiffness does. Where that changes less than threefold, nodes are as well used elsewhere.
 std::set<std::pair<std::int32_t, std::int32_t>> alike_labels(const Scene& scene) {
-  constexpr double much = 3;
   std::set<std::pair<std::int32_t, std::int32_t>> alike;
   for (const Tissue& a : scene.tissues) {
     for (const Tissue& b : scene.tissues) {
       const double of_a = solve::shear_modulus(a.material), of_b = solve::shear_modulus(b.material);
-      if (a.label < b.label && std::max(of_a, of_b) < much * std::min(of_a, of_b)) {
+      if (a.label < b.label && !solve::much_stiffer(of_a, of_b) && !solve::much_stiffer(of_b, of_a)) {
         alike.emplace(a.label, b.label);
       }
     }
@@ -153,7 +152,16 @@ StagePlan plan_segment(const Scene& scene) {
   return plan;
 }
 
-StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
+/// With the load at which nodes are finer.
+Scene with_opening(Scene scene) {
+  if (scene.state) {
+    scene.load = scene.state->opening;
+  }
+  return scene;
+}
+
+StagePlan plan_discretise(const Scene& given, const fs::path& folder) {
+  const Scene scene = with_opening(given);
   DiscretiseJob job{.surface = folder / "segment" / "brain.vtp",
                     .labels = if_there(folder / "segment" / "labels.nii.gz"),
                     .options = scene.discretise,
@@ -174,9 +182,7 @@ StagePlan plan_discretise(const Scene& scene, const fs::path& folder) {
     plan.options["load"] = options_of(scene, load);
   }
   plan.options["brain_labels"] = labels;
-  if (job.options.tissue_boundary_factor < 1) {
-    plan.options["alike"] = job.options.alike;
-  }
+  plan.options["alike"] = job.options.alike;
   add_artefacts(plan, folder, {"segment/brain.vtp", "segment/labels.nii.gz"});
   job.wall = wall_of(scene, folder);
   if (!job.wall.empty()) {

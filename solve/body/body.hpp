@@ -34,7 +34,8 @@ struct Body {
   CutFacets cut;                       ///< that parts it; none: empty
   ShapeRows nodal_rows;                ///< at the nodes' own positions, without derivatives
   PointBlocks points;
-  PlacedPoints placed;  ///< for the sentence about a failure
+  PlacedPoints placed;                                      ///< for the sentence about a failure
+  std::vector<std::vector<std::int32_t>> stiff_parts = {};  ///< nodes of each; see stiff_parts()
   PointLaws laws;
   std::vector<std::vector<PronyTerm>> prony;  ///< of a transient run: one list a row of the laws, or none
   std::vector<double> mass;                   ///< of a transient run: physical, g

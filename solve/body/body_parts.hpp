@@ -27,7 +27,8 @@ struct BodyParts {
   ShapeRows point_rows;  ///< with derivatives
   PressurePatches patches;
   MaterialTable materials;
-  std::optional<WallLoad> wall_load = {};  ///< of a cavity that something presses in
+  std::vector<std::vector<std::int32_t>> stiff_parts = {};  ///< nodes of each; see stiff_parts()
+  std::optional<WallLoad> wall_load = {};                   ///< of a cavity that something presses in
 };
 
 }  // namespace brainshift::solve

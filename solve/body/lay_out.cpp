@@ -205,6 +205,7 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
       .nodal_rows = parts.nodal_rows,
       .points = std::move(blocks),
       .placed = in_order(parts.points, parts.patches.order),
+      .stiff_parts = parts.stiff_parts,
       .laws = std::move(laws),
       .prony = in_time ? parts.materials.prony : std::vector<std::vector<PronyTerm>>(),
       .mass = {},

@@ -67,6 +67,9 @@ std::string why_not(const Body& body) {
   if (body.face_contact || body.wall_contact || body.septum_contact) {
     return "has a cut, a cavity or a septum";
   }
+  if (!body.stiff_parts.empty()) {
+    return "has a stiff part that soft tissue holds alone";
+  }
   if (laws.plane_stress || laws.in_time || !laws.prony.empty() || !laws.swelling.empty()) {
     return "is in plane stress, moves in time or swells";
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "solve/force/internal_force.hpp"
@@ -49,16 +50,37 @@ bool swing(const std::vector<std::int32_t>& nodes, const LastSteps& steps) {
   return alignment(nodes, steps) < -0.5;
 }
 
-/// The softest and the stiffest tissue that a node sees.
+/// The softest and the stiffest tissue about a node.
 struct Neighbours {
   double softest = std::numeric_limits<double>::infinity(), stiffest = 0;  // shear modulus, Pa
   std::int32_t soft_point = 0, stiff_point = 0;
 };
 
+/// The nodes that the points that see a node see: what lies beside it, though it may be hidden from some of that.
+std::set<std::int32_t> nodes_about(const PointBlocks& points, std::int32_t node) {
+  std::set<std::int32_t> about_node, of_point;
+  std::int32_t last = -1;
+  for_each_pair(points, [&](const Patch&, std::int32_t point, std::int32_t seen) {
+    if (point != last) {
+      if (of_point.contains(node)) {
+        about_node.merge(of_point);
+      }
+      of_point.clear();
+      last = point;
+    }
+    of_point.insert(seen);
+  });
+  if (of_point.contains(node)) {
+    about_node.merge(of_point);
+  }
+  return about_node;
+}
+
 Neighbours neighbours(const PointBlocks& points, const PointLaws& laws, std::int32_t node) {
+  const std::set<std::int32_t> about = nodes_about(points, node);
   Neighbours found;
   for_each_pair(points, [&](const Patch& patch, std::int32_t point, std::int32_t seen) {
-    if (seen != node) {
+    if (!about.contains(seen)) {
       return;
     }
     const double modulus = std::visit([](const auto& law) { return law.shear_modulus; },

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "solve/dynamics/slow_parts.hpp"
+
 namespace brainshift::solve {
 
 namespace {
@@ -19,11 +21,12 @@ void add(const NodalVectors& a, const NodalVectors& b, NodalVectors& sum) {
 void Quickening::look(Motion& motion, std::span<const double> mass, double beta, double lowest) {
   constexpr int seldom = 10;  // windows
   if (!motion.rigid_modes) {
-    if (!wanted(lowest)) {
+    const Body& body = motion.body;
+    const NodeLists parts = stiff_parts_of(body, false);
+    if (!wanted(lowest) && parts.empty()) {
       return;
     }
-    const Body& body = motion.body;
-    motion.rigid_modes.emplace(body.positions(body.original, Eigen::all), body.essential.nodes());
+    motion.rigid_modes.emplace(body.positions(body.original, Eigen::all), body.essential.nodes(), parts);
     windows_ = 0;
   }
   if (windows_++ % seldom == 0) {
@@ -53,7 +56,7 @@ void Quickening::measure_tissue(Motion& motion) {
 /// tiny motion away from where that step was before contact.
 RigidModes::Matrix Quickening::contact(Motion& motion, std::span<const double> mass, double beta) {
   if (!motion.body.may_touch()) {
-    return RigidModes::Matrix::Zero();
+    return RigidModes::Matrix::Zero(motion.rigid_modes->motions(), motion.rigid_modes->motions());
   }
   constexpr double tiny = 1e-6;  // mm
   NodalVectors untouched = motion.before;

@@ -7,8 +7,9 @@
 
 namespace brainshift::solve {
 
-/// Finds the RigidModes of a relaxation that is slow under the whole load, and keeps them as they should be: what
-/// touches changes from window to window, the tissue's stiffness slowly.
+/// Finds the RigidModes of a relaxation that is slow under the whole load, or of a body with stiff parts in soft
+/// tissue, whose slow motions hide behind quicker ones, and keeps them as they should be: what touches changes from
+/// window to window, the tissue's stiffness slowly.
 class Quickening {
  public:
   explicit Quickening(double alpha) : alpha_(alpha) {}
@@ -27,8 +28,8 @@ class Quickening {
   RigidModes::Matrix contact(Motion& motion, std::span<const double> mass, double beta);
 
   double alpha_;
-  RigidModes::Matrix tissue_ = RigidModes::Matrix::Zero();  ///< Wᵀ K W, µN/mm
-  int windows_ = 0;                                         ///< since there are rigid modes
+  RigidModes::Matrix tissue_;  ///< Wᵀ K W, µN/mm
+  int windows_ = 0;            ///< since there are rigid modes
   NodalVectors state_, resistance_;
 };
 

@@ -11,6 +11,7 @@
 #include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/dynamics/rest_report.hpp"
+#include "solve/dynamics/slow_parts.hpp"
 #include "solve/dynamics/span_bound.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/force/stiffness_bound.hpp"
@@ -22,6 +23,7 @@ namespace {
 constexpr int settled_window = 2;     // steps between looks of a start that is near the end
 constexpr int windows_of_a_row = 60;  // every so manieth of its looks is at the points, too, which costs half a step
 constexpr int settled_steps = 120;    // in which the A_0 of a start near the end is not estimated anew
+constexpr double rate_of_stiff_parts = 0.97;  // slowest of a node in a span, where there are some
 constexpr double alpha = relaxation_alpha;
 
 /// By how much swelling stiffens the body in the end: a tissue that has grown by a stretch s has s times its tangent.
@@ -66,8 +68,7 @@ class Relaxation {
     }
     motion_.weigh(mass_, alpha);
     if (!course_.start.empty()) {
-      motion_.start_from(course_.start);
-      motion_.find_force(laws());
+      start();
       pace_.skip();
       follow_stiffness();
     }
@@ -109,6 +110,21 @@ class Relaxation {
   const PointBlocks& points() const { return motion_.body.points; }
   const PointLaws& laws() const { return motion_.body.laws; }
   std::size_t nodes() const { return motion_.body.nodes(); }
+
+  /// From course_.start, or with its stiff parts as rigid bodies, whichever strains the body less.
+  void start() {
+    motion_.start_from(course_.start);
+    motion_.find_force(laws());
+    if (!motion_.body.stiff_parts.empty()) {
+      const double strained = motion_.energy(laws(), mass_);
+      motion_.start_from(with_rigid_parts(motion_.body, course_.start));
+      motion_.find_force(laws());
+      if (motion_.energy(laws(), mass_) > strained) {
+        motion_.start_from(course_.start);
+        motion_.find_force(laws());
+      }
+    }
+  }
 
   bool no_change_is_left() const { return !course_.change || course_.change.is_done(); }
 
@@ -169,6 +185,7 @@ class Relaxation {
       return;
     }
     const double moved = longest_difference(motion_.now, motion_.before);
+    look_at_stiff_parts();
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     estimate_lowest_eigenvalue(moved);
     bound_.add(moved, std::sqrt(critical_beta(lowest_)), motion_.time >= 1, rounding_of_places());
@@ -185,6 +202,18 @@ class Relaxation {
     if (motion_.time >= 1 && !cautious_ && (motion_.rigid_modes || bound_.value() > far_from_rest * tolerance())) {
       quickening_.look(motion_, mass_, critical_beta(lowest_), lowest_);
     }
+  }
+
+  /// What rigid motions of stiff parts would tell of A_0, if they were not hidden behind quicker ones.
+  void look_at_stiff_parts() {
+    constexpr int seldom = 10;                    // windows
+    constexpr double surroundings_follow = 0.25;  // which a part that moves alone strains more
+    if (motion_.time < 1 || motion_.body.stiff_parts.empty() || looks_at_parts_++ % seldom != 0) {
+      return;
+    }
+    const NodeLists parts = cautious_ ? motion_.body.stiff_parts : stiff_parts_of(motion_.body, true);
+    const double slowest = slowest_rigid_motion(motion_.body, parts, mass_, motion_.now, motion_.scratch);
+    of_parts_ = std::max(surroundings_follow * slowest, smallest_eigenvalue);
   }
 
   void complete_row() {
@@ -213,6 +242,7 @@ class Relaxation {
       // More damping makes steps shorter, but not what is left: near the end that would pass for rest.
       lowest_ = course_.settled ? std::min(lowest_, estimate) : estimate;
     }
+    lowest_ = std::min(lowest_, of_parts_);
   }
 
   /// Rayleigh's quotient of the change from (place, force) to `before` and its force; not above 0: it does not tell.
@@ -307,10 +337,12 @@ class Relaxation {
   NodalVectors place_at_look_, force_at_look_;  // `before` and the force there of the last look under the whole load
   std::vector<double> mass_;
   double mass_scale_ = 1;
-  double lowest_ = 1e-4;      // A_0: a guess until there are increments
+  double lowest_ = 1e-4;                                       // A_0: a guess until there are increments
+  double of_parts_ = std::numeric_limits<double>::infinity();  // A_0 of stiff parts that conditions see
+  int looks_at_parts_ = 0;
   double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow
   ErrorBound bound_{window_};
-  SpanBound spans_{window_};
+  SpanBound spans_{window_, motion_.body.stiff_parts.empty() ? SpanBound::usual_rate : rate_of_stiff_parts};
   double error_bound_ = std::numeric_limits<double>::infinity();  // at the last look, mm
   LoadPace pace_;
   Quickening quickening_{alpha};

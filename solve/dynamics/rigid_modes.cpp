@@ -41,7 +41,8 @@ Eigen::MatrixXd orthonormal(const RigidModes::Matrix& inertia) {
 
 }  // namespace
 
-RigidModes::RigidModes(const Points& positions, std::span<const std::int32_t> held)
+RigidModes::RigidModes(const Points& positions, std::span<const std::int32_t> held,
+                       std::span<const std::vector<std::int32_t>> parts)
     : nodes_(static_cast<std::size_t>(positions.rows())) {
   const Eigen::RowVector3d middle = positions.colwise().mean();
   radius_ = std::sqrt((positions.rowwise() - middle).rowwise().squaredNorm().maxCoeff());
@@ -58,31 +59,54 @@ RigidModes::RigidModes(const Points& positions, std::span<const std::int32_t> he
       nodes_[a].fade = {smooth_step(distance / 0.7), smooth_step(distance / 1.4)};
     }
   }
+  for (const auto& part : parts.first(std::min(parts.size(), most_parts))) {
+    add_part(positions, part);
+  }
+  gain_ = less_ = Matrix::Zero(motions_, motions_);
+}
+
+void RigidModes::add_part(const Points& positions, const std::vector<std::int32_t>& nodes) {
+  const Points places = positions(nodes, Eigen::all);
+  const Eigen::RowVector3d middle = places.colwise().mean();
+  const double radius = std::sqrt((places.rowwise() - middle).rowwise().squaredNorm().maxCoeff());
+  for (const std::int32_t a : nodes) {
+    Node& node = nodes_[static_cast<std::size_t>(a)];
+    node.part = motions_;
+    node.in_part = (positions.row(a) - middle) / radius;
+  }
+  motions_ += 6;
 }
 
 Eigen::Vector3d RigidModes::motion(std::size_t node, const Vector& weights) const {
-  const auto& [arm, fade] = nodes_[node];
-  return fade[0] * (weights.segment<3>(0) + weights.segment<3>(3).cross(arm)) +
-         fade[1] * (weights.segment<3>(6) + weights.segment<3>(9).cross(arm));
+  const auto& [arm, fade, part, in_part] = nodes_[node];
+  Eigen::Vector3d moved = fade[0] * (weights.segment<3>(0) + weights.segment<3>(3).cross(arm)) +
+                          fade[1] * (weights.segment<3>(6) + weights.segment<3>(9).cross(arm));
+  if (part > 0) {
+    moved += weights.segment<3>(part) + weights.segment<3>(part + 3).cross(in_part);
+  }
+  return moved;
 }
 
 RigidModes::Vector RigidModes::moments(std::size_t node, const Eigen::Vector3d& force) const {
-  const auto& [arm, fade] = nodes_[node];
-  Vector m;
-  m << fade[0] * force, fade[0] * arm.cross(force), fade[1] * force, fade[1] * arm.cross(force);
+  const auto& [arm, fade, part, in_part] = nodes_[node];
+  Vector m = Vector::Zero(motions_);
+  m.head<12>() << fade[0] * force, fade[0] * arm.cross(force), fade[1] * force, fade[1] * arm.cross(force);
+  if (part > 0) {
+    m.segment<6>(part) << force, in_part.cross(force);
+  }
   return m;
 }
 
 template <class Force>
 RigidModes::Vector RigidModes::moments_of(const Force& force) const {
-  const Vector none = Vector::Zero();
+  const Vector none = Vector::Zero(motions_);
   return sum_over_nodes(
       nodes_.size(), [&](std::size_t a) { return moments(a, force(a)); }, none);
 }
 
 RigidModes::Matrix RigidModes::stiffness(const Resistance& resistance, double amplitude) const {
   NodalVectors moved(4 * nodes_.size(), 0.0);
-  Matrix columns;
+  Matrix columns(motions_, motions_);
   const auto resisting = [&](const Vector& weights) {
     for (std::size_t a = 0; a < nodes_.size(); ++a) {
       at(moved, a).head<3>() = motion(a, weights);
@@ -91,16 +115,16 @@ RigidModes::Matrix RigidModes::stiffness(const Resistance& resistance, double am
     return moments_of([&](std::size_t a) -> Eigen::Vector3d { return at(force, a).head<3>(); });
   };
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    columns.col(i) = resisting(amplitude * Vector::Unit(i));
+    columns.col(i) = resisting(amplitude * Vector::Unit(motions_, i));
   }
-  columns.colwise() -= resisting(Vector::Zero());
+  columns.colwise() -= resisting(Vector::Zero(motions_));
   return (columns + columns.transpose()) / (2 * amplitude);
 }
 
 RigidModes::Matrix RigidModes::inertia(std::span<const double> mass) const {
-  Matrix inertia;
+  Matrix inertia(motions_, motions_);
   for (Eigen::Index i = 0; i < inertia.cols(); ++i) {
-    const Vector unit = Vector::Unit(i);
+    const Vector unit = Vector::Unit(motions_, i);
     inertia.col(i) = moments_of([&](std::size_t a) -> Eigen::Vector3d { return mass[a] * motion(a, unit); });
   }
   return inertia;

@@ -12,7 +12,8 @@ constexpr int shortest_span = 8;  // steps
 
 }  // namespace
 
-SpanBound::SpanBound(int window) : windows_(static_cast<std::size_t>((shortest_span + window - 1) / window)) {}
+SpanBound::SpanBound(int window, double slowest)
+    : windows_(static_cast<std::size_t>((shortest_span + window - 1) / window)), slowest_(slowest) {}
 
 void SpanBound::add(const NodalVectors& now) {
   NodalVectors state;
@@ -33,7 +34,7 @@ double SpanBound::value() const {
   for (std::size_t a = 0; a < last.size() / 4; ++a) {
     const Eigen::Vector4d step = at(last, a) - at(middle, a), step_before = at(middle, a) - at(first, a);
     const double went = step.norm(), before = step_before.norm();
-    of_nodes = std::max(of_nodes, of_node(went, before));
+    of_nodes = std::max(of_nodes, of_node(went, before, slowest_));
     longest = std::max(longest, went);
     both += step.dot(step_before);
     squares += before * before;

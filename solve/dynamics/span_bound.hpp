@@ -15,14 +15,16 @@ namespace brainshift::solve {
 /// quick motions cancel.
 class SpanBound {
  public:
-  /// window: steps between two calls of add().
-  explicit SpanBound(int window);
+  static constexpr double usual_rate = 0.9;  // at 0.95 the bound of the demo is 2.4 times its error
+
+  /// window: steps between two calls of add(). slowest: the largest q of a node.
+  explicit SpanBound(int window, double slowest = usual_rate);
 
   /// now: û, mm; of as many nodes as before.
   void add(const NodalVectors& now);
 
   /// The larger of two, mm; 0 until two spans are known.
-  /// Of a node that went d in the last span and d' in the one before: d q/(1 − q) with q = d/d', at most 0.9, as
+  /// Of a node that went d in the last span and d' in the one before: d q/(1 − q) with q = d/d', at most `slowest`, as
   /// nothing can be read off a node that hardly moves. Of all nodes: a third more than max d q/(1 − q) with q = Σ d·d'
   /// / Σ d'·d', at most 0.98. The third is for motions of several rates together, of which the slowest has more to go
   /// than their mean tells.
@@ -32,8 +34,7 @@ class SpanBound {
   void reset() { states_.clear(); }
 
   /// Of value(), what one node says that went so far in the last span, and in the one before, mm.
-  BRAINSHIFT_ON_DEVICE static double of_node(double went, double before) {
-    constexpr double slowest = 0.9;  // q; at 0.95 the bound of the demo is 2.4 times its error
+  BRAINSHIFT_ON_DEVICE static double of_node(double went, double before, double slowest = usual_rate) {
     return still_to_go(went < slowest * before ? went / before : slowest) * went;
   }
   /// What all nodes say together: the most that one went, Σ d·d', Σ d'·d'.
@@ -43,7 +44,8 @@ class SpanBound {
   /// Σ rate^k, k from 1: of what was gone last, how much there is still to go.
   BRAINSHIFT_ON_DEVICE static double still_to_go(double rate) { return rate / (1 - rate); }
 
-  std::size_t windows_;              // of a span
+  std::size_t windows_;  // of a span
+  double slowest_;
   std::deque<NodalVectors> states_;  // the latest last
 };
 

@@ -248,8 +248,8 @@ bool may_go_together(const Body& body, std::span<const Member> loads, const Solv
     return laws.swelling.empty() && laws.prony.empty() && !laws.plane_stress && !laws.in_time;
   };
   return options.dynamics == Dynamics::relaxation && options.imposition == Imposition::exact && options.region == 0 &&
-         options.snapshot_every == 0 && body.cut.empty() && !body.face_contact && !body.wall_contact &&
-         !body.septum_contact && std::all_of(loads.begin(), loads.end(), has_plain_laws);
+         options.snapshot_every == 0 && body.stiff_parts.empty() && body.cut.empty() && !body.face_contact &&
+         !body.wall_contact && !body.septum_contact && std::all_of(loads.begin(), loads.end(), has_plain_laws);
 }
 
 std::vector<MemberResult> relax_together(const Body& body, std::span<const Member> loads, const LoadCurve& curve,

@@ -28,8 +28,8 @@ struct MemberResult {
 };
 
 /// Whether these loads of a body can be stepped as an ensemble: at rest it may hold prescribed displacements, exact or
-/// with noise, touch a skull and have forces; it may not be cut, parted, planar or held by the simplified imposition,
-/// and no member may swell or relax in time.
+/// with noise, touch a skull and have forces; it may not be cut, parted, planar or held by the simplified imposition or
+/// have stiff parts, and no member may swell or relax in time.
 bool may_go_together(const Body& body, std::span<const Member> loads, const SolveOptions& options);
 
 /// relax() of up to `members` loads of one body at once. What a step reads of the body is read once for all of them.

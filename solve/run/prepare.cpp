@@ -9,6 +9,8 @@
 #include "solve/body/check_discretisation.hpp"
 #include "solve/body/check_model.hpp"
 #include "solve/body/lay_out.hpp"
+#include "solve/body/soft_nodes.hpp"
+#include "solve/body/stiff_parts.hpp"
 #include "solve/cut/boundary_normals.hpp"
 #include "solve/cut/cut_patches.hpp"
 #include "solve/cut/resection.hpp"
@@ -187,6 +189,38 @@ bool cuts_go_on(const Model& model) {
   return last_time(model.cuts) > 0 || model.rupture;
 }
 
+/// One a node: whether its displacement is prescribed.
+std::vector<std::uint8_t> held_nodes(const OrderedCloud& cloud) {
+  std::vector<std::uint8_t> held;
+  for (const auto& displacement : cloud.conditions.displacement.rowwise()) {
+    held.push_back(displacement.array().isNaN().all() ? 0 : 1);
+  }
+  return held;
+}
+
+/// Tissue sees no nodes in tissue that is much softer. Where cuts go on all are seen, as rows come and go there. Notes
+/// the stiff parts.
+void part_by_stiffness(const Model& model, const SolveOptions& options, std::shared_ptr<const Visibility> visibility,
+                       BodyParts& parts) {
+  std::vector<double> of_row, of_point;
+  for (const Material& material : parts.materials.material) {
+    of_row.push_back(shear_modulus(material));
+  }
+  const auto [softest, stiffest] = std::ranges::minmax(of_row);
+  if (!much_stiffer(stiffest, softest) || cuts_go_on(model)) {
+    return;
+  }
+  for (const std::int32_t row : parts.materials.row_of_point) {
+    of_point.push_back(of_row[static_cast<std::size_t>(row)]);
+  }
+  const std::vector<double> of_node =
+      moduli_at_nodes(parts.points.volume, of_point, parts.point_rows, parts.cloud.size());
+  const MixedCloud cloud{parts.cloud.positions, parts.cloud.spacing, options.shape, std::move(visibility), of_node};
+  hide_soft_nodes(cloud, parts.points.positions, of_point, parts.point_rows);
+  hide_soft_nodes(cloud, parts.cloud.positions, of_node, parts.nodal_rows);
+  parts.stiff_parts = stiff_parts(of_point, of_node, parts.point_rows, held_nodes(parts.cloud));
+}
+
 }  // namespace
 
 SolveOptions completed(SolveOptions options, const Model& model) {
@@ -215,9 +249,6 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   const ShapeFunctions shape(parts.cloud.positions, parts.cloud.spacing, options.shape, visibility);
   const std::vector<std::int32_t> held = pinned_nodes(parts.cloud, pinned);
   parts.nodal_rows = shape.evaluate(parts.cloud.positions, false);
-  if (!held.empty()) {
-    parts.nodal_rows = with_pinned(parts.nodal_rows, held);
-  }
   if (parts.cloud.conditions.measured) {
     parts.inner_rows = inner_rows(shape, parts.cloud.conditions.measured->inner);
   }
@@ -233,8 +264,12 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   }
   parts.points = std::move(placed.points);
   parts.point_rows = std::move(placed.rows);
-  measures.fewest_points = check_points(parts.cloud, parts.points, parts.point_rows, parts.nodal_rows);
   parts.materials = material_table(model.materials, parts.points.label);
+  part_by_stiffness(model, options, visibility, parts);
+  if (!held.empty()) {
+    parts.nodal_rows = with_pinned(parts.nodal_rows, held);
+  }
+  measures.fewest_points = check_points(parts.cloud, parts.points, parts.point_rows, parts.nodal_rows);
   measure_sizes(parts, placed.capped, measures);
   measures.single_precision = options.precision == Precision::single_precision;
   if (options.integration == Integration::consistent) {

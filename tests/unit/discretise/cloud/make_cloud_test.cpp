@@ -18,7 +18,7 @@ constexpr double radius = 40;
 MadeCloud made(const DiscretiseOptions& options, const Progress& progress = {}) {
   const Surface surface = test::ball(radius, centre, 4);
   const Scanlines body(surface);
-  return make_cloud(surface, body, nullptr, node_demand(surface, {}, body, nullptr, options), options, progress);
+  return make_cloud(surface, body, nullptr, {}, node_demand(surface, {}, body, nullptr, options), options, progress);
 }
 
 /// Distance of each node to its nearest, by looking at all pairs.

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <numeric>
+
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift::solve::rigid_modes_test {
@@ -40,7 +43,7 @@ struct Body {
 
 TEST(RigidModes, AreTheInverseOfTheMassesThatTheyStandFor) {
   Body body;
-  body.modes.weigh(body.mass, Matrix::Zero(), Matrix::Zero());
+  body.modes.weigh(body.mass, Matrix::Zero(12, 12), Matrix::Zero(12, 12));
   const NodalVectors v = body.random_vectors(6);
   NodalVectors step = v;
   body.modes.lighten(body.mass, step);                         // M⁻¹ P⁻¹ v
@@ -50,7 +53,7 @@ TEST(RigidModes, AreTheInverseOfTheMassesThatTheyStandFor) {
 
 TEST(RigidModes, TakeOffTheInertiaWhatTheyAddToTheStep) {
   Body body;
-  body.modes.weigh(body.mass, Matrix::Zero(), Matrix::Zero());
+  body.modes.weigh(body.mass, Matrix::Zero(12, 12), Matrix::Zero(12, 12));
   const NodalVectors v = body.random_vectors(7);
   NodalVectors light = v;
   body.modes.lighten(body.mass, light);
@@ -62,7 +65,7 @@ TEST(RigidModes, TakeOffTheInertiaWhatTheyAddToTheStep) {
 
 TEST(RigidModes, LeaveTheHeldNodesAndTheStateAtRestAlone) {
   Body body;
-  body.modes.weigh(body.mass, Matrix::Zero(), Matrix::Zero());
+  body.modes.weigh(body.mass, Matrix::Zero(12, 12), Matrix::Zero(12, 12));
   const NodalVectors v = body.random_vectors(8);
   NodalVectors step = v;
   body.modes.add(body.mass, 0.5, body.rest, body.rest, step);
@@ -78,7 +81,7 @@ TEST(RigidModes, LeaveTheHeldNodesAndTheStateAtRestAlone) {
 TEST(RigidModes, MakeAFreeBodyAHundredTimesLighterInRigidMotions) {
   Body body;
   RigidModes modes(body.positions, {});
-  modes.weigh(body.mass, Matrix::Zero(), Matrix::Zero());
+  modes.weigh(body.mass, Matrix::Zero(12, 12), Matrix::Zero(12, 12));
   NodalVectors turn = body.rest;
   for (std::size_t a = 0; a < 200; ++a) {
     const Eigen::Vector3d x = body.positions.row(static_cast<Eigen::Index>(a));
@@ -86,6 +89,27 @@ TEST(RigidModes, MakeAFreeBodyAHundredTimesLighterInRigidMotions) {
   }
   EXPECT_NEAR(modes.less_inertia(body.mass, turn, body.rest), 100.0 / 101 * body.inertia(turn),
               1e-9 * body.inertia(turn));
+}
+
+/// Nodes 100 to 149 move together and are lighter so; what moves them one by one is as heavy as before.
+TEST(RigidModes, HaveThoseOfEachStiffPart) {
+  Body body;
+  std::vector<std::int32_t> part(50);
+  std::iota(part.begin(), part.end(), 100);
+  RigidModes modes(body.positions, body.held, std::vector<std::vector<std::int32_t>>(1, part));
+  EXPECT_EQ(modes.motions(), 18);
+  modes.weigh(body.mass, Matrix::Zero(18, 18), Matrix::Zero(18, 18));
+  NodalVectors turn = body.rest;
+  for (const std::int32_t a : part) {
+    const Eigen::Vector3d x = body.positions.row(a);
+    at(turn, static_cast<std::size_t>(a)).head<3>() =
+        Eigen::Vector3d(1, 2, 3) + Eigen::Vector3d(0.3, -0.1, 0.2).cross(x);
+  }
+  EXPECT_NEAR(modes.less_inertia(body.mass, turn, body.rest), 100.0 / 101 * body.inertia(turn),
+              1e-9 * body.inertia(turn));
+  NodalVectors one = body.rest;
+  at(one, 120)[0] = 1;
+  EXPECT_LT(modes.less_inertia(body.mass, one, body.rest), 0.3 * body.inertia(one));
 }
 
 /// All nodes on springs of this many times their mass: every eigenvalue of M⁻¹K.
@@ -104,7 +128,7 @@ Matrix springs(const Body& body, double eigenvalue) {
 TEST(RigidModes, GiveSlowMotionsTheEigenvalueOfQuickOnes) {
   Body body;
   const double slow = RigidModes::quick / 20;
-  body.modes.weigh(body.mass, springs(body, slow), Matrix::Zero());
+  body.modes.weigh(body.mass, springs(body, slow), Matrix::Zero(12, 12));
   NodalVectors shift = body.rest;  // in W: what a push makes of a body at rest
   NodalVectors push = body.random_vectors(9);
   body.modes.add(body.mass, 0, body.rest, body.rest, push);
@@ -118,7 +142,7 @@ TEST(RigidModes, GiveSlowMotionsTheEigenvalueOfQuickOnes) {
 
 TEST(RigidModes, LeaveQuickMotionsAlone) {
   Body body;
-  body.modes.weigh(body.mass, springs(body, 2 * RigidModes::quick), Matrix::Zero());
+  body.modes.weigh(body.mass, springs(body, 2 * RigidModes::quick), Matrix::Zero(12, 12));
   const NodalVectors v = body.random_vectors(10);
   NodalVectors step = v;
   body.modes.add(body.mass, 0.5, body.rest, body.rest, step);
@@ -128,7 +152,7 @@ TEST(RigidModes, LeaveQuickMotionsAlone) {
 TEST(RigidModes, LetContactRaiseTheLargestEigenvalueByATenthAtMost) {
   Body body;
   const double contact = 0.05;
-  body.modes.weigh(body.mass, Matrix::Zero(), springs(body, contact));
+  body.modes.weigh(body.mass, Matrix::Zero(12, 12), springs(body, contact));
   const NodalVectors v = body.random_vectors(11);
   NodalVectors push = v;
   body.modes.add(body.mass, 0, body.rest, body.rest, push);

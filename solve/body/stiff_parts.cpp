@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/body/stiff_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace brainshift::solve {
+
+namespace {
+
+constexpr double much = 30;           // times as stiff
+constexpr std::size_t fewest = 2;     // nodes of a part
+constexpr double most_of_body = 0.6;  // of all nodes
+
+/// Which step of stiffness each value is on: the first is that of the softest tissue, and each begins thirty times
+/// higher than the one below.
+class Levels {
+ public:
+  explicit Levels(std::span<const double> of_point) {
+    std::vector<double> sorted(of_point.begin(), of_point.end());
+    std::ranges::sort(sorted);
+    for (const double modulus : sorted) {
+      if (begin_.empty() || modulus >= much * begin_.back()) {
+        begin_.push_back(modulus);
+      }
+    }
+  }
+
+  bool one() const { return begin_.size() < 2; }
+
+  /// From 0; -1 of what no point is of.
+  int of(double modulus) const {
+    return std::isfinite(modulus) ? static_cast<int>(std::ranges::upper_bound(begin_, modulus) - begin_.begin()) - 1
+                                  : -1;
+  }
+
+ private:
+  std::vector<double> begin_;
+};
+
+/// Sets of nodes that grow together.
+class Joined {
+ public:
+  explicit Joined(std::size_t nodes) : parent_(nodes) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  std::int32_t root(std::int32_t a) {
+    while (parent(a) != a) {
+      parent(a) = parent(parent(a));
+      a = parent(a);
+    }
+    return a;
+  }
+
+  void join(std::int32_t a, std::int32_t b) {
+    const std::int32_t first = root(a), second = root(b);
+    parent(std::max(first, second)) = std::min(first, second);
+  }
+
+ private:
+  std::int32_t& parent(std::int32_t a) { return parent_[static_cast<std::size_t>(a)]; }
+
+  std::vector<std::int32_t> parent_;
+};
+
+}  // namespace
+
+std::vector<std::vector<std::int32_t>> stiff_parts(std::span<const double> of_point, std::span<const double> of_node,
+                                                   const ShapeRows& rows, std::span<const std::uint8_t> held) {
+  const Levels levels(of_point);
+  if (levels.one()) {
+    return {};
+  }
+  Joined joined(of_node.size());
+  const auto level_of_node = [&](std::int32_t a) { return levels.of(of_node[static_cast<std::size_t>(a)]); };
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    const int level = levels.of(of_point[p]);
+    std::int32_t last = -1;
+    for (const std::int32_t a : rows[p].node) {
+      if (level > 0 && level_of_node(a) == level) {
+        if (last >= 0) {
+          joined.join(last, a);
+        }
+        last = a;
+      }
+    }
+  }
+  std::map<std::int32_t, std::vector<std::int32_t>> by_root;
+  for (std::int32_t a = 0; a < static_cast<std::int32_t>(of_node.size()); ++a) {
+    if (level_of_node(a) > 0) {
+      by_root[joined.root(a)].push_back(a);
+    }
+  }
+  std::vector<std::vector<std::int32_t>> parts;
+  for (auto& [root, nodes] : by_root) {
+    const bool is_held =
+        std::ranges::any_of(nodes, [&](std::int32_t a) { return held[static_cast<std::size_t>(a)] != 0; });
+    const bool is_body = static_cast<double>(nodes.size()) > most_of_body * static_cast<double>(of_node.size());
+    if (nodes.size() >= fewest && !is_held && !is_body) {
+      parts.push_back(std::move(nodes));
+    }
+  }
+  std::ranges::stable_sort(parts, std::greater<>(), &std::vector<std::int32_t>::size);
+  return parts;
+}
+
+}  // namespace brainshift::solve
