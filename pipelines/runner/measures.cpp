@@ -37,8 +37,13 @@ StageReport report_of(const segmentation::Segmentation& result) {
 
 StageReport report_of(const discretise::DiscretiseMeasures& m) {
   StageReport report;
-  report.sizes = {{"nodes", m.nodes},         {"surface_nodes", m.surface_nodes}, {"cells", m.cells},
-                  {"cut_cells", m.cut_cells}, {"removed_nodes", m.removed_nodes}, {"dropped_cells", m.dropped_cells}};
+  report.sizes = {{"nodes", m.nodes},
+                  {"surface_nodes", m.surface_nodes},
+                  {"boundary_nodes", m.boundary_nodes},
+                  {"cells", m.cells},
+                  {"cut_cells", m.cut_cells},
+                  {"removed_nodes", m.removed_nodes},
+                  {"dropped_cells", m.dropped_cells}};
   report.measures = {{"spacing_mm", m.spacing},
                      {"mean_spacing_mm", m.mean_spacing},
                      {"smallest_distance_ratio", m.smallest_distance_ratio},

@@ -93,10 +93,10 @@ std::vector<std::uint16_t> tissue_labels(const Scene& scene) {
 }
 
 /// Strain jumps where stiffness does. Where that changes less than threefold, nodes are as well used elsewhere.
-std::set<std::pair<std::int32_t, std::int32_t>> alike_labels(const Scene& scene) {
+std::set<std::pair<std::int32_t, std::int32_t>> alike_labels(const std::vector<Tissue>& tissues) {
   std::set<std::pair<std::int32_t, std::int32_t>> alike;
-  for (const Tissue& a : scene.tissues) {
-    for (const Tissue& b : scene.tissues) {
+  for (const Tissue& a : tissues) {
+    for (const Tissue& b : tissues) {
       const double of_a = solve::shear_modulus(a.material), of_b = solve::shear_modulus(b.material);
       if (a.label < b.label && !solve::much_stiffer(of_a, of_b) && !solve::much_stiffer(of_b, of_a)) {
         alike.emplace(a.label, b.label);
@@ -169,7 +169,7 @@ StagePlan plan_discretise(const Scene& given, const fs::path& folder) {
                     .refinement = scene.refinement};
   const auto labels = tissue_labels(scene);
   job.options.brain_labels.assign(labels.begin(), labels.end());
-  job.options.alike = alike_labels(scene);
+  job.options.alike = alike_labels(scene.state ? scene.state->tissues : scene.tissues);
   StagePlan plan{.stage = StageId::discretise,
                  .inputs = {},
                  .options = options_of(scene, {"discretise"}),

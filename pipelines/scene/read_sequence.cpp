@@ -122,7 +122,9 @@ void read_state(const tinyxml2::XMLElement& xml, const std::vector<std::string>&
   if (!first && xml.FirstChildElement() == nullptr) {
     where.fail("the state '" + name + "' changes nothing; it may change " + changeable_elements());
   }
-  state.state->opening = first ? state.load : scene.states.front().load;
+  const Scene& front = first ? state : scene.states.front();
+  state.state->opening = front.load;
+  state.state->tissues = front.tissues;
   scene.states.push_back(std::move(state));
 }
 

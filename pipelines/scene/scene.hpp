@@ -145,8 +145,10 @@ inline solve::SolveOptions quickest() {
 /// Which state of a sequence a scene is.
 struct StateOfSequence {
   std::string name;
-  std::string before;                ///< the state that it goes on from; empty: it is the first
-  std::optional<Load> opening = {};  ///< the first state's load: all states have the same nodes, which are finer there
+  std::string before;  ///< the state that it goes on from; empty: it is the first
+  // All states have the nodes of the first, which follow from its load and where its tissues differ.
+  std::optional<Load> opening = {};
+  std::vector<Tissue> tissues = {};
 };
 
 /// The whole problem. Members that are empty are parts that the scene does not name: they are not built. File names are

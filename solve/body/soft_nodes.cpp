@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "solve/material/material.hpp"
 #include "solve/shape/shape_functions.hpp"
@@ -25,10 +26,10 @@ std::vector<double> distinct(std::span<const double> values) {
   return sorted;
 }
 
-/// Whether shape functions of these nodes need no others.
+/// Whether shape functions of these nodes need no others. The quadratic basis needs too many.
 bool can_support(const MixedCloud& cloud, std::span<const std::int32_t> nodes) {
   const bool planar = cloud.options.planar;
-  if (nodes.size() < (planar ? enough_in_plane : enough_in_space)) {
+  if (cloud.options.basis == Basis::quadratic || nodes.size() < (planar ? enough_in_plane : enough_in_space)) {
     return false;
   }
   Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
@@ -97,15 +98,33 @@ ShapeRows rows_of_seen(const MixedCloud& cloud, const SeenNodes& seen, const Poi
   return rows;
 }
 
-/// `changed` in place of the rows `which`, ascending.
-ShapeRows with_changed(const ShapeRows& rows, std::span<const std::int32_t> which, const ShapeRows& changed) {
-  ShapeRows result;
-  std::size_t next = 0;
-  for (std::size_t p = 0; p < rows.size(); ++p) {
-    const bool is_next = next < which.size() && which[next] == static_cast<std::int32_t>(p);
-    result.append(is_next ? changed[next++] : rows[p]);
+/// Rows that take the place of others.
+struct ChangedRows {
+  std::vector<std::int32_t> which;  ///< ascending
+  ShapeRows rows;
+};
+
+/// All of these in their places, in one pass: rows may be most of what a body holds.
+ShapeRows with_changed(const ShapeRows& rows, const std::vector<ChangedRows>& changes) {
+  std::vector<std::pair<const ShapeRows*, std::size_t>> source(rows.size(), {nullptr, 0});
+  std::size_t pairs = rows.node.size(), grown = rows.grown;
+  for (const ChangedRows& change : changes) {
+    grown = std::max(grown, change.rows.grown);
+    for (std::size_t i = 0; i < change.which.size(); ++i) {
+      const auto p = static_cast<std::size_t>(change.which[i]);
+      source[p] = {&change.rows, i};
+      pairs = pairs + change.rows[i].size() - rows[p].size();
+    }
   }
-  result.grown = rows.grown + changed.grown;
+  ShapeRows result;
+  result.begin.reserve(rows.begin.size());
+  result.node.reserve(pairs);
+  result.value.reserve(pairs);
+  result.derivative.reserve(rows.derivative.empty() ? 0 : 3 * pairs);
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    result.append(source[p].first != nullptr ? (*source[p].first)[source[p].second] : rows[p]);
+  }
+  result.grown = grown;
   return result;
 }
 
@@ -142,14 +161,19 @@ std::vector<double> moduli_at_nodes(std::span<const double> volume, std::span<co
 
 std::size_t hide_soft_nodes(const MixedCloud& cloud, const Points& places, std::span<const double> modulus,
                             ShapeRows& rows) {
+  std::vector<ChangedRows> changes;
   std::size_t changed = 0;
   for (const double of : distinct(modulus)) {
     const SeenNodes seen(cloud.modulus, of);
-    const std::vector<std::int32_t> which = places_to_change(cloud, seen, modulus, of, rows);
+    std::vector<std::int32_t> which = places_to_change(cloud, seen, modulus, of, rows);
     if (!which.empty()) {
-      rows = with_changed(rows, which, rows_of_seen(cloud, seen, places(which, Eigen::all), !rows.derivative.empty()));
+      ShapeRows made = rows_of_seen(cloud, seen, places(which, Eigen::all), !rows.derivative.empty());
       changed += which.size();
+      changes.push_back({std::move(which), std::move(made)});
     }
+  }
+  if (changed > 0) {
+    rows = with_changed(rows, changes);
   }
   return changed;
 }

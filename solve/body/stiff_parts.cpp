@@ -11,7 +11,7 @@ namespace brainshift::solve {
 namespace {
 
 constexpr double much = 30;           // times as stiff
-constexpr std::size_t fewest = 2;     // nodes of a part
+constexpr std::size_t fewest = 8;     // nodes of a part
 constexpr double most_of_body = 0.6;  // of all nodes
 
 /// Which step of stiffness each value is on: the first is that of the softest tissue, and each begins thirty times

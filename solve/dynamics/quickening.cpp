@@ -22,7 +22,7 @@ void Quickening::look(Motion& motion, std::span<const double> mass, double beta,
   constexpr int seldom = 10;  // windows
   if (!motion.rigid_modes) {
     const Body& body = motion.body;
-    const NodeLists parts = stiff_parts_of(body, false);
+    const NodeLists parts = free_stiff_parts(body);
     if (!wanted(lowest) && parts.empty()) {
       return;
     }

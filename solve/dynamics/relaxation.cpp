@@ -114,12 +114,10 @@ class Relaxation {
   /// From course_.start, or with its stiff parts as rigid bodies, whichever strains the body less.
   void start() {
     motion_.start_from(course_.start);
-    motion_.find_force(laws());
+    const double strained = motion_.energy(laws(), mass_);
     if (!motion_.body.stiff_parts.empty()) {
-      const double strained = motion_.energy(laws(), mass_);
       motion_.start_from(with_rigid_parts(motion_.body, course_.start));
-      motion_.find_force(laws());
-      if (motion_.energy(laws(), mass_) > strained) {
+      if (!(motion_.energy(laws(), mass_) <= strained)) {  // it is no number where a point turned inside out
         motion_.start_from(course_.start);
         motion_.find_force(laws());
       }
@@ -206,14 +204,15 @@ class Relaxation {
 
   /// What rigid motions of stiff parts would tell of A_0, if they were not hidden behind quicker ones.
   void look_at_stiff_parts() {
-    constexpr int seldom = 10;                    // windows
+    constexpr int seldom = 200;                   // steps
     constexpr double surroundings_follow = 0.25;  // which a part that moves alone strains more
-    if (motion_.time < 1 || motion_.body.stiff_parts.empty() || looks_at_parts_++ % seldom != 0) {
+    if (motion_.time < 1 || motion_.body.stiff_parts.empty() || motion_.result.steps < next_look_at_parts_) {
       return;
     }
-    const NodeLists parts = cautious_ ? motion_.body.stiff_parts : stiff_parts_of(motion_.body, true);
+    next_look_at_parts_ = motion_.result.steps + seldom;
+    const NodeLists parts = cautious_ ? motion_.body.stiff_parts : parts_without_modes(motion_.body);
     const double slowest = slowest_rigid_motion(motion_.body, parts, mass_, motion_.now, motion_.scratch);
-    of_parts_ = std::max(surroundings_follow * slowest, smallest_eigenvalue);
+    of_parts_ = slowest > 0 ? std::max(surroundings_follow * slowest, smallest_eigenvalue) : of_parts_;
   }
 
   void complete_row() {
@@ -339,7 +338,7 @@ class Relaxation {
   double mass_scale_ = 1;
   double lowest_ = 1e-4;                                       // A_0: a guess until there are increments
   double of_parts_ = std::numeric_limits<double>::infinity();  // A_0 of stiff parts that conditions see
-  int looks_at_parts_ = 0;
+  int next_look_at_parts_ = 0;
   double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow
   ErrorBound bound_{window_};
   SpanBound spans_{window_, motion_.body.stiff_parts.empty() ? SpanBound::usual_rate : rate_of_stiff_parts};

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solve/dynamics/rigid_modes.hpp"
+
 namespace brainshift::solve {
 
 namespace {
@@ -51,13 +53,22 @@ double least_eigenvalue(const Matrix6& stiffness, const Matrix6& inertia) {
 
 }  // namespace
 
-NodeLists stiff_parts_of(const Body& body, bool seen_by_conditions) {
-  const std::vector<std::int32_t> held = body.essential.nodes();
+NodeLists free_stiff_parts(const Body& body) {
   NodeLists parts = body.stiff_parts;
+  if (parts.empty()) {
+    return parts;
+  }
+  const std::vector<std::int32_t> held = body.essential.nodes();
   std::erase_if(parts, [&](const std::vector<std::int32_t>& part) {
-    const bool seen = std::ranges::any_of(part, [&](std::int32_t a) { return std::ranges::binary_search(held, a); });
-    return seen != seen_by_conditions;
+    return std::ranges::any_of(part, [&](std::int32_t a) { return std::ranges::binary_search(held, a); });
   });
+  return parts;
+}
+
+NodeLists parts_without_modes(const Body& body) {
+  NodeLists with = free_stiff_parts(body), parts = body.stiff_parts;
+  with.resize(std::min(with.size(), RigidModes::most_parts));
+  std::erase_if(parts, [&](const auto& part) { return std::ranges::find(with, part) != with.end(); });
   return parts;
 }
 

@@ -12,8 +12,11 @@ namespace brainshift::solve {
 
 using NodeLists = std::vector<std::vector<std::int32_t>>;
 
-/// The body's stiff parts, by whether conditions see a node of them. RigidModes may move those that none does.
-NodeLists stiff_parts_of(const Body& body, bool seen_by_conditions);
+/// The stiff parts of which conditions see no node. RigidModes may move these, the first most_parts of them.
+NodeLists free_stiff_parts(const Body& body);
+
+/// All others.
+NodeLists parts_without_modes(const Body& body);
 
 /// û with the stiff parts moved as rigid bodies, each as near as may be to where û, mm, takes it: an answer that comes
 /// from a coarser cloud may strain them.

@@ -15,8 +15,12 @@ struct Constants {
   std::optional<DrainedFluid> fluid = {};
 };
 
-/// The model with these constants.
+/// The model with these constants. Which tissue sees whose nodes stays as with its own: samples differ by what they
+/// sample alone.
 inline Model with_constants(Model model, const Constants& constants) {
+  if (model.contrast.empty()) {
+    model.contrast = model.materials;
+  }
   model.materials = constants.materials;
   model.gravity = constants.gravity;
   model.fluid = constants.fluid;

@@ -53,7 +53,9 @@ struct Model {
   std::optional<Surface> boundary = {};        ///< the body's, closed; absent: that of the cells where they conform
   std::optional<LabelMap> labels;              ///< tissue at an integration point; absent, or 0 there: the cell's label
   std::map<std::int32_t, Material> materials;  ///< by label
-  std::optional<Surface> skull;                ///< rigid, frictionless contact from inside; absent: none
+  /// Which tissue sees whose nodes follows from these; empty: from `materials`. Samples keep those of their answer.
+  std::map<std::int32_t, Material> contrast = {};
+  std::optional<Surface> skull;  ///< rigid, frictionless contact from inside; absent: none
   Plane plane = Plane::none;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< m/s²
   std::optional<DrainedFluid> fluid = {};             ///< what its draining changes; absent: nothing

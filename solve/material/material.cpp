@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "solve/material/own_elasticity.hpp"
 
@@ -31,19 +30,6 @@ double bulk_modulus(const Material& material) {
 bool much_stiffer(double shear_modulus, double other) {
   constexpr double much = 3;
   return shear_modulus >= much * other;
-}
-
-bool alike_in_contrast(const std::map<std::int32_t, Material>& materials,
-                       const std::map<std::int32_t, Material>& others) {
-  const auto steps = [](const std::map<std::int32_t, Material>& of, std::int32_t a, std::int32_t b) {
-    const double first = shear_modulus(of.at(a)), second = shear_modulus(of.at(b));
-    return std::pair(first > second, much_stiffer(first, second));
-  };
-  return std::ranges::all_of(materials, [&](const auto& a) {
-    return std::ranges::all_of(materials, [&](const auto& b) {
-      return steps(materials, a.first, b.first) == steps(others, a.first, b.first);
-    });
-  });
 }
 
 double stiffness_contrast(const std::map<std::int32_t, Material>& materials) {

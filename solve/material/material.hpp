@@ -58,11 +58,6 @@ double bulk_modulus(const Material& material);
 /// Whether the stiffness changes so much between two tissues that strain jumps there: threefold. Moduli in Pa.
 bool much_stiffer(double shear_modulus, double other);
 
-/// Whether two sets of materials, of the same labels, are in the same order of stiffness, and differ much between the
-/// same labels.
-bool alike_in_contrast(const std::map<std::int32_t, Material>& materials,
-                       const std::map<std::int32_t, Material>& others);
-
 /// The largest shear modulus at rest over the least.
 double stiffness_contrast(const std::map<std::int32_t, Material>& materials);
 

@@ -202,16 +202,14 @@ std::vector<std::uint8_t> held_nodes(const OrderedCloud& cloud) {
 /// the stiff parts.
 void part_by_stiffness(const Model& model, const SolveOptions& options, std::shared_ptr<const Visibility> visibility,
                        BodyParts& parts) {
-  std::vector<double> of_row, of_point;
-  for (const Material& material : parts.materials.material) {
-    of_row.push_back(shear_modulus(material));
+  const auto& contrast = model.contrast.empty() ? model.materials : model.contrast;
+  std::vector<double> of_point;
+  for (const std::int32_t label : parts.points.label) {
+    of_point.push_back(shear_modulus(contrast.at(label)));
   }
-  const auto [softest, stiffest] = std::ranges::minmax(of_row);
+  const auto [softest, stiffest] = std::ranges::minmax(of_point);
   if (!much_stiffer(stiffest, softest) || cuts_go_on(model)) {
     return;
-  }
-  for (const std::int32_t row : parts.materials.row_of_point) {
-    of_point.push_back(of_row[static_cast<std::size_t>(row)]);
   }
   const std::vector<double> of_node =
       moduli_at_nodes(parts.points.volume, of_point, parts.point_rows, parts.cloud.size());
@@ -249,6 +247,9 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   const ShapeFunctions shape(parts.cloud.positions, parts.cloud.spacing, options.shape, visibility);
   const std::vector<std::int32_t> held = pinned_nodes(parts.cloud, pinned);
   parts.nodal_rows = shape.evaluate(parts.cloud.positions, false);
+  if (!held.empty()) {
+    parts.nodal_rows = with_pinned(parts.nodal_rows, held);
+  }
   if (parts.cloud.conditions.measured) {
     parts.inner_rows = inner_rows(shape, parts.cloud.conditions.measured->inner);
   }
@@ -264,12 +265,9 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   }
   parts.points = std::move(placed.points);
   parts.point_rows = std::move(placed.rows);
+  measures.fewest_points = check_points(parts.cloud, parts.points, parts.point_rows, parts.nodal_rows);
   parts.materials = material_table(model.materials, parts.points.label);
   part_by_stiffness(model, options, visibility, parts);
-  if (!held.empty()) {
-    parts.nodal_rows = with_pinned(parts.nodal_rows, held);
-  }
-  measures.fewest_points = check_points(parts.cloud, parts.points, parts.point_rows, parts.nodal_rows);
   measure_sizes(parts, placed.capped, measures);
   measures.single_precision = options.precision == Precision::single_precision;
   if (options.integration == Integration::consistent) {

@@ -59,14 +59,13 @@ bool holds(const MemberResult& result, const Body& body) {
   return result.end == MemberResult::End::rest && !(body.contact && body.contact->measure(result.parameters).lost);
 }
 
-/// With other constants the precision, which an option leaves to the model, may be another, and so may which nodes
-/// which tissue sees.
-bool same_body(const Model& model, const SolveOptions& options, std::span<const Constants> constants) {
+/// The precision that an option leaves to the model may be another with other constants.
+bool same_precision(const Model& model, const SolveOptions& options, std::span<const Constants> constants) {
   Model with = model;
   const Precision own = completed(options, model).precision;
   return std::all_of(constants.begin(), constants.end(), [&](const Constants& c) {
     with = with_constants(std::move(with), c);
-    return completed(options, with).precision == own && alike_in_contrast(model.materials, with.materials);
+    return completed(options, with).precision == own;
   });
 }
 
@@ -90,7 +89,7 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
                                    std::span<const Constants> constants, const Progress& progress) {
   const auto one = [&](const Model& with) { return coarse_displacement(with, options, {}); };
   const std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
-  if (nodes.size() < fewest_coarse_nodes || !same_body(model, options, constants)) {
+  if (nodes.size() < fewest_coarse_nodes || !same_precision(model, options, constants)) {
     return alone(model, constants, one);
   }
   try {
@@ -105,7 +104,8 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
     Displacements displacements(constants.size());
     for (std::size_t m = 0; m < results.size(); ++m) {
       if (holds(results[m], body)) {
-        const Points parameters = in_cloud_order(results[m].parameters, body.original);
+        const Points displacement = nodal_displacement(body.nodal_rows, results[m].parameters, body.original);
+        const Points parameters = parameters_from_displacement(shape, coarse.model.cloud.positions, displacement);
         displacements[m] = as_prescribed(shape.interpolate(model.cloud.positions, parameters), model.conditions);
       } else if (results[m].end == MemberResult::End::left) {
         displacements[m] = one(with_constants(model, constants[m]));
@@ -124,7 +124,7 @@ Displacements whole_displacements(const Model& model, const SolveOptions& given,
   const SolveOptions options = completed(given, model);
   const auto one = [&](const Model& with) { return whole_displacement(with, given, progress); };
   const bool parts = !model.cuts.empty() || model.rupture;
-  if (parts || is_confined(model) || !same_body(model, given, constants)) {
+  if (parts || is_confined(model) || !same_precision(model, given, constants)) {
     return alone(model, constants, one);
   }
   Displacements starts(constants.size());

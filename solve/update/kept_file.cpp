@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view format = "brainshift kept run 4\n";
+constexpr std::string_view format = "brainshift kept run 5\n";
 constexpr std::size_t head_size = 256;
 
 /// Tells damage; eight bytes at a time, every fourth in a sum of its own, which do not wait for each other.
@@ -79,6 +79,26 @@ void divisions(ArchiveReader& reader, PointBlocks& points) {
   }
 }
 
+/// The nodes of each part, after how many there are.
+void stiff_parts(ArchiveWriter& writer, const Body& body) {
+  std::vector<std::int32_t> flat;
+  for (const std::vector<std::int32_t>& part : body.stiff_parts) {
+    flat.push_back(static_cast<std::int32_t>(part.size()));
+    flat.insert(flat.end(), part.begin(), part.end());
+  }
+  writer.many(flat);
+}
+
+void stiff_parts(ArchiveReader& reader, Body& body) {
+  std::vector<std::int32_t> flat;
+  reader.many(flat);
+  for (auto next = flat.begin(); next < flat.end();) {
+    const std::ptrdiff_t count = std::min<std::ptrdiff_t>(*next++, flat.end() - next);
+    body.stiff_parts.emplace_back(next, next + count);
+    next += count;
+  }
+}
+
 template <class Archive, class Blocks>
 void blocks(Archive& archive, Blocks& points) {
   divisions(archive, points);
@@ -105,6 +125,7 @@ void kept_body(Archive& archive, Kept& kept) {
   blocks(archive, kept.body.points);
   archive.points(kept.body.placed.position);
   archive.many(kept.body.placed.tissue);
+  stiff_parts(archive, kept.body);
   archive.many(kept.parameters);
   archive.many(kept.settled.mass);
   archive.plain(kept.settled.mass_scale);

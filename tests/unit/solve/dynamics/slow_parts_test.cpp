@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "solve/dynamics/rigid_modes.hpp"
 #include "solve/force/stiffness_bound.hpp"
 #include "solve/run/prepare.hpp"
 #include "tests/unit/solve/models.hpp"
@@ -65,9 +66,17 @@ TEST(SlowParts, AreNoneOfABodyWithout) {
   EXPECT_TRUE(std::isinf(none.eigenvalue));
 }
 
-TEST(SlowParts, AreFreeOrSeenByConditions) {
-  const Body body = body_of(cube_in_cube(100));
-  EXPECT_EQ(stiff_parts_of(body, false).size() + stiff_parts_of(body, true).size(), body.stiff_parts.size());
+TEST(SlowParts, HaveModesOrAreTheOthers) {
+  Body body = body_of(cube_in_cube(100));
+  EXPECT_EQ(free_stiff_parts(body).size(), 1U) << "three spacings from what is held";
+  EXPECT_TRUE(parts_without_modes(body).empty());
+  body.stiff_parts.push_back({body.essential.nodes().front()});
+  EXPECT_EQ(free_stiff_parts(body).size(), 1U);
+  EXPECT_EQ(parts_without_modes(body), NodeLists{body.stiff_parts.back()});
+  while (body.stiff_parts.size() < 7) {
+    body.stiff_parts.push_back({body.stiff_parts[0][body.stiff_parts.size()]});
+  }
+  EXPECT_EQ(parts_without_modes(body).size(), body.stiff_parts.size() - RigidModes::most_parts);
 }
 
 TEST(SlowParts, MoveAsRigidBodiesWhereTheyAreToldTo) {
