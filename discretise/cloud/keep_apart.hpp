@@ -17,7 +17,8 @@ struct CloudDistances {
 CloudDistances cloud_distances(const Points& nodes);
 
 /// Which nodes to leave out so that none is nearer to another than `fraction` of its spacing: of two such the one in
-/// the interior, else the later. The first `on_surface` rows lie on the surface, a wall or a boundary. Returns one flag a node, 1: keep.
+/// the interior, else the later. The first `on_surface` rows lie on the surface, a wall or a boundary. Returns one flag
+/// a node, 1: keep.
 std::vector<char> keep_apart(const Points& nodes, std::size_t on_surface, double fraction);
 
 }  // namespace brainshift::discretise
