@@ -39,6 +39,7 @@ TEST(StageMeasures, OfTheSegmentationNameEachSurface) {
 TEST(StageMeasures, OfTheDiscretisationAreItsNumbers) {
   const StageReport report = report_of(discretise::DiscretiseMeasures{.nodes = 1,
                                                                       .surface_nodes = 2,
+                                                                      .boundary_nodes = 13,
                                                                       .removed_nodes = 3,
                                                                       .cells = 4,
                                                                       .cut_cells = 5,
@@ -49,8 +50,8 @@ TEST(StageMeasures, OfTheDiscretisationAreItsNumbers) {
                                                                       .smallest_distance_ratio = 10,
                                                                       .surface_volume = 11,
                                                                       .cells_inside_volume = 12});
-  EXPECT_EQ(report.sizes, ordered_json::parse(R"({"nodes": 1, "surface_nodes": 2, "cells": 4, "cut_cells": 5,
-    "removed_nodes": 3, "dropped_cells": 6})"));
+  EXPECT_EQ(report.sizes, ordered_json::parse(R"({"nodes": 1, "surface_nodes": 2, "boundary_nodes": 13,
+    "cells": 4, "cut_cells": 5, "removed_nodes": 3, "dropped_cells": 6})"));
   EXPECT_EQ(report.measures, ordered_json::parse(R"({"spacing_mm": 8.0, "mean_spacing_mm": 9.0,
     "smallest_distance_ratio": 10.0, "surface_volume_mm3": 11.0, "cells_inside_volume_mm3": 12.0})"));
 }
