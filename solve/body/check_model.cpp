@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "solve/body/check_discretisation.hpp"
+#include "solve/body/joined_nodes.hpp"
 #include "solve/boundary/wall_load.hpp"
 #include "solve/interface/option_table.hpp"
 
@@ -82,25 +82,18 @@ void check_plane(const Model& model) {
   }
 }
 
-/// Of each node the part that it belongs to, numbered from 0.
+/// Of each node the node that stands for the part that it belongs to.
 std::vector<std::int32_t> parts_of(std::size_t nodes, const ShapeRows& rows) {
-  std::vector<std::int32_t> part(nodes);
-  std::iota(part.begin(), part.end(), 0);
-  const auto root = [&](std::int32_t a) {
-    while (part[static_cast<std::size_t>(a)] != a) {
-      a = part[static_cast<std::size_t>(a)] = part[static_cast<std::size_t>(part[static_cast<std::size_t>(a)])];
-    }
-    return a;
-  };
+  JoinedNodes joined(nodes);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::span<const std::int32_t> support = rows[i].node;
-    const std::int32_t first = root(support.front());
     for (const std::int32_t a : support) {
-      part[static_cast<std::size_t>(root(a))] = first;
+      joined.join(support.front(), a);
     }
   }
+  std::vector<std::int32_t> part;
   for (std::size_t a = 0; a < nodes; ++a) {
-    part[a] = root(static_cast<std::int32_t>(a));
+    part.push_back(joined.root(static_cast<std::int32_t>(a)));
   }
   return part;
 }

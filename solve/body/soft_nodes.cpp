@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 #include "solve/material/material.hpp"
 #include "solve/shape/shape_functions.hpp"
@@ -48,14 +47,15 @@ bool can_support(const MixedCloud& cloud, std::span<const std::int32_t> nodes) {
   return eigen.eigenvalues()[planar ? 1 : 0] >= least * least;
 }
 
-/// The nodes that tissue of a modulus sees, and where each of all nodes stands among them; -1: hidden.
+/// The nodes that tissue of a modulus sees.
 struct SeenNodes {
-  std::vector<std::int32_t> nodes, place;
+  std::vector<std::int32_t> nodes;
+  std::vector<char> is_seen;  ///< one for each of all nodes
 
-  SeenNodes(std::span<const double> node_modulus, double modulus) : place(node_modulus.size(), -1) {
+  SeenNodes(std::span<const double> node_modulus, double modulus) : is_seen(node_modulus.size(), 0) {
     for (std::size_t a = 0; a < node_modulus.size(); ++a) {
       if (!much_stiffer(modulus, node_modulus[a])) {
-        place[a] = static_cast<std::int32_t>(nodes.size());
+        is_seen[a] = 1;
         nodes.push_back(static_cast<std::int32_t>(a));
       }
     }
@@ -64,7 +64,7 @@ struct SeenNodes {
   std::vector<std::int32_t> of(std::span<const std::int32_t> support) const {
     std::vector<std::int32_t> seen;
     std::ranges::copy_if(support, std::back_inserter(seen),
-                         [&](std::int32_t a) { return place[static_cast<std::size_t>(a)] >= 0; });
+                         [&](std::int32_t a) { return is_seen[static_cast<std::size_t>(a)] != 0; });
     return seen;
   }
 };
@@ -96,36 +96,6 @@ ShapeRows rows_of_seen(const MixedCloud& cloud, const SeenNodes& seen, const Poi
     node = seen.nodes[static_cast<std::size_t>(node)];
   }
   return rows;
-}
-
-/// Rows that take the place of others.
-struct ChangedRows {
-  std::vector<std::int32_t> which;  ///< ascending
-  ShapeRows rows;
-};
-
-/// All of these in their places, in one pass: rows may be most of what a body holds.
-ShapeRows with_changed(const ShapeRows& rows, const std::vector<ChangedRows>& changes) {
-  std::vector<std::pair<const ShapeRows*, std::size_t>> source(rows.size(), {nullptr, 0});
-  std::size_t pairs = rows.node.size(), grown = rows.grown;
-  for (const ChangedRows& change : changes) {
-    grown = std::max(grown, change.rows.grown);
-    for (std::size_t i = 0; i < change.which.size(); ++i) {
-      const auto p = static_cast<std::size_t>(change.which[i]);
-      source[p] = {&change.rows, i};
-      pairs = pairs + change.rows[i].size() - rows[p].size();
-    }
-  }
-  ShapeRows result;
-  result.begin.reserve(rows.begin.size());
-  result.node.reserve(pairs);
-  result.value.reserve(pairs);
-  result.derivative.reserve(rows.derivative.empty() ? 0 : 3 * pairs);
-  for (std::size_t p = 0; p < rows.size(); ++p) {
-    result.append(source[p].first != nullptr ? (*source[p].first)[source[p].second] : rows[p]);
-  }
-  result.grown = grown;
-  return result;
 }
 
 /// Of the stiffest that, with all that is stiffer, has its share. share: of each modulus, ascending.
@@ -161,19 +131,17 @@ std::vector<double> moduli_at_nodes(std::span<const double> volume, std::span<co
 
 std::size_t hide_soft_nodes(const MixedCloud& cloud, const Points& places, std::span<const double> modulus,
                             ShapeRows& rows) {
-  std::vector<ChangedRows> changes;
   std::size_t changed = 0;
   for (const double of : distinct(modulus)) {
     const SeenNodes seen(cloud.modulus, of);
-    std::vector<std::int32_t> which = places_to_change(cloud, seen, modulus, of, rows);
+    const std::vector<std::int32_t> which = places_to_change(cloud, seen, modulus, of, rows);
     if (!which.empty()) {
-      ShapeRows made = rows_of_seen(cloud, seen, places(which, Eigen::all), !rows.derivative.empty());
+      const ShapeRows made = rows_of_seen(cloud, seen, places(which, Eigen::all), !rows.derivative.empty());
+      const std::size_t grown = std::max(rows.grown, made.grown);  // the rows that go may have grown, too
+      rows = with_rows(rows, which, made);
+      rows.grown = grown;
       changed += which.size();
-      changes.push_back({std::move(which), std::move(made)});
     }
-  }
-  if (changed > 0) {
-    rows = with_changed(rows, changes);
   }
   return changed;
 }

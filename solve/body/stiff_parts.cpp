@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+
+#include "solve/body/joined_nodes.hpp"
 
 namespace brainshift::solve {
 
@@ -40,30 +41,6 @@ class Levels {
   std::vector<double> begin_;
 };
 
-/// Sets of nodes that grow together.
-class Joined {
- public:
-  explicit Joined(std::size_t nodes) : parent_(nodes) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  std::int32_t root(std::int32_t a) {
-    while (parent(a) != a) {
-      parent(a) = parent(parent(a));
-      a = parent(a);
-    }
-    return a;
-  }
-
-  void join(std::int32_t a, std::int32_t b) {
-    const std::int32_t first = root(a), second = root(b);
-    parent(std::max(first, second)) = std::min(first, second);
-  }
-
- private:
-  std::int32_t& parent(std::int32_t a) { return parent_[static_cast<std::size_t>(a)]; }
-
-  std::vector<std::int32_t> parent_;
-};
-
 }  // namespace
 
 std::vector<std::vector<std::int32_t>> stiff_parts(std::span<const double> of_point, std::span<const double> of_node,
@@ -72,7 +49,7 @@ std::vector<std::vector<std::int32_t>> stiff_parts(std::span<const double> of_po
   if (levels.one()) {
     return {};
   }
-  Joined joined(of_node.size());
+  JoinedNodes joined(of_node.size());
   const auto level_of_node = [&](std::int32_t a) { return levels.of(of_node[static_cast<std::size_t>(a)]); };
   for (std::size_t p = 0; p < rows.size(); ++p) {
     const int level = levels.of(of_point[p]);
@@ -101,7 +78,9 @@ std::vector<std::vector<std::int32_t>> stiff_parts(std::span<const double> of_po
       parts.push_back(std::move(nodes));
     }
   }
-  std::ranges::stable_sort(parts, std::greater<>(), &std::vector<std::int32_t>::size);
+  std::ranges::sort(parts, [](const auto& a, const auto& b) {
+    return a.size() != b.size() ? a.size() > b.size() : a.front() < b.front();
+  });
   return parts;
 }
 

@@ -38,19 +38,4 @@ std::vector<std::int32_t> touched_rows(const ShapeRows& rows, const Points& poin
   return list;
 }
 
-ShapeRows with_rows(const ShapeRows& rows, std::span<const std::int32_t> which, const ShapeRows& others) {
-  ShapeRows joined;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool replaced = next < which.size() && which[next] == static_cast<std::int32_t>(i);
-    joined.append(replaced ? others[next] : rows[i]);
-    next += replaced ? 1 : 0;
-  }
-  for (; next < which.size(); ++next) {
-    joined.append(others[next]);
-  }
-  joined.grown = rows.grown + others.grown;
-  return joined;
-}
-
 }  // namespace brainshift::solve

@@ -22,7 +22,4 @@ struct Advance {
 /// is new or moved. points (m × 3): where the rows are.
 std::vector<std::int32_t> touched_rows(const ShapeRows& rows, const Points& points, const Advance& advance);
 
-/// The rows with these replaced by others, in order; rows beyond the old ones are appended.
-ShapeRows with_rows(const ShapeRows& rows, std::span<const std::int32_t> which, const ShapeRows& others);
-
 }  // namespace brainshift::solve

@@ -114,13 +114,15 @@ class Relaxation {
   /// From course_.start, or with its stiff parts as rigid bodies, whichever strains the body less.
   void start() {
     motion_.start_from(course_.start);
+    if (motion_.body.stiff_parts.empty()) {
+      motion_.find_force(laws());
+      return;
+    }
     const double strained = motion_.energy(laws(), mass_);
-    if (!motion_.body.stiff_parts.empty()) {
-      motion_.start_from(with_rigid_parts(motion_.body, course_.start));
-      if (!(motion_.energy(laws(), mass_) <= strained)) {  // it is no number where a point turned inside out
-        motion_.start_from(course_.start);
-        motion_.find_force(laws());
-      }
+    motion_.start_from(with_rigid_parts(motion_.body, course_.start));
+    if (!(motion_.energy(laws(), mass_) <= strained)) {  // it is no number where a point turned inside out
+      motion_.start_from(course_.start);
+      motion_.find_force(laws());
     }
   }
 

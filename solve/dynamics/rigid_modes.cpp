@@ -25,10 +25,11 @@ double radius_of_gyration(const Points& positions) {
   return std::sqrt(arms.squaredNorm() / static_cast<double>(positions.rows()));
 }
 
-/// The columns span what `inertia` has of independent directions, and are orthonormal in it.
-Eigen::MatrixXd orthonormal(const RigidModes::Matrix& inertia) {
+}  // namespace
+
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& inertia) {
   constexpr double independent = 1e-6;  // of the largest: what has less is a combination of others
-  const Eigen::SelfAdjointEigenSolver<RigidModes::Matrix> space(inertia);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> space(inertia);
   Eigen::MatrixXd basis(inertia.rows(), 0);
   for (Eigen::Index i = 0; i < inertia.cols(); ++i) {
     if (space.eigenvalues()[i] > independent * space.eigenvalues().maxCoeff()) {
@@ -38,8 +39,6 @@ Eigen::MatrixXd orthonormal(const RigidModes::Matrix& inertia) {
   }
   return basis;
 }
-
-}  // namespace
 
 RigidModes::RigidModes(const Points& positions, std::span<const std::int32_t> held,
                        std::span<const std::vector<std::int32_t>> parts)

@@ -12,6 +12,9 @@
 
 namespace brainshift::solve {
 
+/// The columns span what a matrix of inertia has of independent directions, and are orthonormal in it.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& inertia);
+
 /// The second level of a two-level preconditioner (Tang, Nabben, Vuik & Erlangga 2009) for a body that little holds, as
 /// a brain in fluid, which rocks about its opening. Its space W has the six rigid motions, each faded to zero where
 /// essential conditions hold, once over a short and once over a long distance, and those of each stiff part that soft

@@ -37,15 +37,7 @@ std::vector<SixMotions> rigid_motions(const Body& body, const std::vector<std::i
 
 /// Of (K, M) within the space of M; K symmetric.
 double least_eigenvalue(const Matrix6& stiffness, const Matrix6& inertia) {
-  constexpr double independent = 1e-6;  // of the largest
-  const Eigen::SelfAdjointEigenSolver<Matrix6> space(inertia);
-  Eigen::MatrixXd basis(6, 0);
-  for (Eigen::Index i = 0; i < 6; ++i) {
-    if (space.eigenvalues()[i] > independent * space.eigenvalues()[5]) {
-      basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-      basis.rightCols<1>() = space.eigenvectors().col(i) / std::sqrt(space.eigenvalues()[i]);
-    }
-  }
+  const Eigen::MatrixXd basis = orthonormal(inertia);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(basis.transpose() * stiffness * basis,
                                                             Eigen::EigenvaluesOnly);
   return ritz.eigenvalues().minCoeff();

@@ -112,6 +112,12 @@ Points as_prescribed(Points displacement, const Conditions& conditions) {
   return displacement;
 }
 
+Points from_coarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Points& displacement,
+                   const Model& model) {
+  const Points parameters = parameters_from_displacement(shape, coarse.positions, displacement);
+  return as_prescribed(shape.interpolate(model.cloud.positions, parameters), model.conditions);
+}
+
 namespace {
 
 std::optional<Points> solved_on(const std::vector<std::int32_t>& nodes, const Model& model, const SolveOptions& given,
@@ -122,8 +128,7 @@ std::optional<Points> solved_on(const std::vector<std::int32_t>& nodes, const Mo
     return std::nullopt;
   }
   const ShapeFunctions shape(coarse.cloud.positions, coarse.cloud.spacing, result.solution.shape);
-  const Points parameters = parameters_from_displacement(shape, coarse.cloud.positions, result.solution.displacement);
-  return as_prescribed(shape.interpolate(model.cloud.positions, parameters), model.conditions);
+  return from_coarse(shape, coarse.cloud, result.solution.displacement, model);
 }
 
 }  // namespace

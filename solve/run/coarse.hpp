@@ -9,6 +9,7 @@
 #include "solve/interface/model.hpp"
 #include "solve/interface/options.hpp"
 #include "solve/run/prepare.hpp"
+#include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::solve {
 
@@ -33,6 +34,10 @@ inline constexpr std::size_t fewest_coarse_nodes = 24;
 
 /// A displacement of the coarse solution at all nodes, with what is prescribed exactly as it is prescribed.
 Points as_prescribed(Points displacement, const Conditions& conditions);
+
+/// A displacement of the coarse nodes, mm, at all nodes, as as_prescribed() has it. shape: of the coarse cloud.
+Points from_coarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Points& displacement,
+                   const Model& model);
 
 /// The displacement at all nodes (n × 3) mm of the solution on the coarse nodes, their spacing doubled, with linear
 /// shape functions and one point a cell; prescribed components as prescribed. Empty when that cannot be solved: too few

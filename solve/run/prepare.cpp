@@ -192,8 +192,8 @@ bool cuts_go_on(const Model& model) {
 /// One a node: whether its displacement is prescribed.
 std::vector<std::uint8_t> held_nodes(const OrderedCloud& cloud) {
   std::vector<std::uint8_t> held;
-  for (const auto& displacement : cloud.conditions.displacement.rowwise()) {
-    held.push_back(displacement.array().isNaN().all() ? 0 : 1);
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    held.push_back(cloud.conditions.is_prescribed(a) ? 1 : 0);
   }
   return held;
 }

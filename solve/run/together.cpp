@@ -105,8 +105,7 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
     for (std::size_t m = 0; m < results.size(); ++m) {
       if (holds(results[m], body)) {
         const Points displacement = nodal_displacement(body.nodal_rows, results[m].parameters, body.original);
-        const Points parameters = parameters_from_displacement(shape, coarse.model.cloud.positions, displacement);
-        displacements[m] = as_prescribed(shape.interpolate(model.cloud.positions, parameters), model.conditions);
+        displacements[m] = from_coarse(shape, coarse.model.cloud, displacement, model);
       } else if (results[m].end == MemberResult::End::left) {
         displacements[m] = one(with_constants(model, constants[m]));
       }

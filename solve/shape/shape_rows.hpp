@@ -53,4 +53,24 @@ inline ShapeRows rows_at(const ShapeRows& rows, std::span<const std::int32_t> wh
   return some;
 }
 
+/// The rows with these, ascending, replaced by others; rows beyond the old ones are appended.
+inline ShapeRows with_rows(const ShapeRows& rows, std::span<const std::int32_t> which, const ShapeRows& others) {
+  ShapeRows joined;  // rows may be most of what a body holds: never twice what they take
+  joined.begin.reserve(rows.begin.size() + which.size());
+  joined.node.reserve(rows.node.size() + others.node.size());
+  joined.value.reserve(rows.value.size() + others.value.size());
+  joined.derivative.reserve(rows.derivative.size() + others.derivative.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool replaced = next < which.size() && which[next] == static_cast<std::int32_t>(i);
+    joined.append(replaced ? others[next] : rows[i]);
+    next += replaced ? 1 : 0;
+  }
+  for (; next < which.size(); ++next) {
+    joined.append(others[next]);
+  }
+  joined.grown = rows.grown + others.grown;
+  return joined;
+}
+
 }  // namespace brainshift::solve
