@@ -72,8 +72,10 @@ std::size_t move_onto_boundary(const Points& boundary, const Points& fixed, cons
   if (boundary.rows() == 0 || nodes.rows() == 0) {
     return 0;
   }
-  const Eigen::Vector3d low = fixed.colwise().minCoeff().cwiseMin(boundary.colwise().minCoeff());
-  const Eigen::Vector3d high = fixed.colwise().maxCoeff().cwiseMax(boundary.colwise().maxCoeff());
+  Points all(nodes.rows() + fixed.rows(), 3);
+  all << nodes, fixed;
+  const Eigen::Vector3d low = all.colwise().minCoeff().cwiseMin(boundary.colwise().minCoeff());
+  const Eigen::Vector3d high = all.colwise().maxCoeff().cwiseMax(boundary.colwise().maxCoeff());
   DartGrid taken(low, high, least_apart * spacing);
   for (const auto& node : fixed.rowwise()) {
     taken.accept(node.transpose());
@@ -90,7 +92,6 @@ std::size_t move_onto_boundary(const Points& boundary, const Points& fixed, cons
       moved.push_back(near.place);
     }
   }
-  Points all(nodes.rows(), 3);
   Eigen::Index count = 0;
   for (const Eigen::Vector3d& place : moved) {
     all.row(count++) = place;

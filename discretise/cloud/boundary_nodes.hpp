@@ -16,7 +16,7 @@ Points smooth_tissue_boundary(const LabelMap* labels, const DiscretiseOptions& o
 
 /// Moves the nodes that are nearest to a boundary onto it, so that strain may jump there: those within 0.45 of their
 /// spacing. One that would come nearer than half a spacing to a node there, or to one of `fixed`, goes; one whose place
-/// lies outside the body stays where it is. nodes: in the interior; on return those that were moved come first.
+/// lies outside the body stays where it is. nodes: on return those that were moved come first.
 /// boundary: places on it, dense. spacing: the uniform one, mm. Returns how many were moved.
 std::size_t move_onto_boundary(const Points& boundary, const Points& fixed, const Scanlines& body,
                                const SizingField& sizing, double spacing, Points& nodes);

@@ -69,12 +69,13 @@ MadeCloud make_cloud(const Surface& surface, const Scanlines& body, const InnerW
                      const NodeDemand& demand, const DiscretiseOptions& options, const Progress& progress) {
   Random random(options.seed);
   report(progress, 0.15, "nodes on the surface");
+  const Points rim = options.craniotomy ? options.craniotomy->rim : Points(0, 3);
   const Points on_surface =
-      spread_over_surface(surface, body, demand.sizing, demand.spacing, demand.surface_nodes, random);
+      spread_over_surface(surface, body, demand.sizing, demand.spacing, demand.surface_nodes, rim, random);
   Points fixed = on_surface;
   if (wall != nullptr) {
-    const Points on_wall =
-        spread_over_surface(wall->surface, wall->beyond, demand.sizing, demand.spacing, demand.wall_nodes, random);
+    const Points on_wall = spread_over_surface(wall->surface, wall->beyond, demand.sizing, demand.spacing,
+                                               demand.wall_nodes, Points(0, 3), random);
     fixed.resize(on_surface.rows() + on_wall.rows(), 3);
     fixed << on_surface, on_wall;
   }

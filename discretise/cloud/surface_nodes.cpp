@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "discretise/cloud/boundary_nodes.hpp"
 #include "discretise/cloud/dart_grid.hpp"
 #include "segmentation/geometry/point_tree.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
@@ -131,6 +132,19 @@ bool move_inside(Eigen::Vector3d& x, const Eigen::Vector3d& normal, const Scanli
   return false;
 }
 
+/// The places of the surface nearest to these, a hair inside; those that no way leads to are left out.
+Points just_inside(const Points& places, const SurfaceTree& tree, const Scanlines& body, double hair) {
+  Points inside(places.rows(), 3);
+  Eigen::Index kept = 0;
+  for (const auto& place : places.rowwise()) {
+    SurfacePlace foot = tree.nearest(place.transpose());
+    if (move_inside(foot.position, foot.normal, body, hair)) {
+      inside.row(kept++) = foot.position;
+    }
+  }
+  return inside.topRows(kept);
+}
+
 }  // namespace
 
 double surface_demand(const Surface& surface, const SizingField& sizing) {
@@ -139,7 +153,7 @@ double surface_demand(const Surface& surface, const SizingField& sizing) {
 }
 
 Points spread_over_surface(const Surface& surface, const Scanlines& body, const SizingField& sizing, double spacing,
-                           std::size_t count, Random& random) {
+                           std::size_t count, const Points& rim, Random& random) {
   const std::vector<Sample> samples = sample(surface, sizing, samples_per_node * count, random);
   Points nodes = pick_apart(surface, samples, spacing, count, random);
   const SurfaceTree tree(surface);
@@ -149,14 +163,9 @@ Points spread_over_surface(const Surface& surface, const Scanlines& body, const 
       node = tree.nearest(node.transpose()).position;
     }
   }
-  Eigen::Index kept = 0;
-  for (Eigen::Index node = 0; node < nodes.rows(); ++node) {
-    SurfacePlace foot = tree.nearest(nodes.row(node).transpose());
-    if (move_inside(foot.position, foot.normal, body, inward * spacing)) {
-      nodes.row(kept++) = foot.position;
-    }
-  }
-  nodes.conservativeResize(kept, 3);
+  nodes = just_inside(nodes, tree, body, inward * spacing);
+  const Points places = just_inside(rim, tree, body, inward * spacing);
+  move_onto_boundary(places, Points(0, 3), body, sizing, spacing, nodes);
   return nodes;
 }
 

@@ -37,8 +37,9 @@ const OptionTable<DiscretiseOptions>& discretise_options() {
 
 const OptionTable<Refinement>& refinement_options() {
   static const OptionTable<Refinement> table = {
-      number_option<Refinement>("craniotomy_factor", &Refinement::factor, finer, "",
-                                "spacing near the load, if there is one / uniform spacing"),
+      number_option<Refinement>(
+          "craniotomy_factor", &Refinement::factor, finer, "",
+          "spacing near the load, if there is one / uniform spacing; at 1 nodes know nothing of the load"),
       number_option<Refinement>("craniotomy_radius", &Refinement::radius, {.low = 1e-3, .high = 1e6}, "mm",
                                 "how far near the load is; beyond it the spacing grows by a quarter of the distance")};
   return table;

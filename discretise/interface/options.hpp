@@ -18,6 +18,7 @@ struct Refinement {
   Points centres;
   double radius = 20.0;
   double factor = 0.5;
+  Points rim = Points(0, 3);  ///< places on the surface, dense, where what acts at the centres ends: nodes lie there
 };
 
 /// Tissue that a resection will take out.

@@ -43,7 +43,11 @@ StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progres
   discretise::DiscretiseOptions options = job.options;
   if (job.refinement.factor < 1 && job.load && has_rim(*job.load)) {
     options.craniotomy = job.refinement;
-    options.craniotomy->centres = read_load(*job.load, job.surface).positions;
+    const solve::CraniotomyLoad load = read_load(*job.load, job.surface);
+    options.craniotomy->centres = load.positions;
+    if (!job.load->field) {
+      options.craniotomy->rim = solve::opening_rim(brain, load, job.load->opening);
+    }
   }
   if (!job.wall.empty()) {
     options.resected = discretise::ResectedTissue{read_surface(job.wall), job.resected};

@@ -36,6 +36,7 @@ struct Body {
   PointBlocks points;
   PlacedPoints placed;                                      ///< for the sentence about a failure
   std::vector<std::vector<std::int32_t>> stiff_parts = {};  ///< nodes of each; see stiff_parts()
+  std::vector<double> node_modulus = {};                    ///< moduli_at_nodes(), Pa; none: all see each other
   PointLaws laws;
   std::vector<std::vector<PronyTerm>> prony;  ///< of a transient run: one list a row of the laws, or none
   std::vector<double> mass;                   ///< of a transient run: physical, g

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "solve/body/ordered_cloud.hpp"
+#include "solve/boundary/patch_rim.hpp"
 #include "solve/boundary/wall_load.hpp"
 #include "solve/material/material_table.hpp"
 #include "solve/quadrature/integration_points.hpp"
@@ -22,12 +23,14 @@ struct WallLoad {
 struct BodyParts {
   OrderedCloud cloud;
   ShapeRows nodal_rows;  ///< at the nodes, without derivatives
+  PatchRim rim = {};     ///< of what is prescribed
   ShapeRows inner_rows;  ///< at the measured points inside the body; none: empty
   IntegrationPoints points;
   ShapeRows point_rows;  ///< with derivatives
   PressurePatches patches;
   MaterialTable materials;
   std::vector<std::vector<std::int32_t>> stiff_parts = {};  ///< nodes of each; see stiff_parts()
+  std::vector<double> node_modulus = {};                    ///< moduli_at_nodes(), Pa; none: all see each other
   std::optional<WallLoad> wall_load = {};                   ///< of a cavity that something presses in
 };
 

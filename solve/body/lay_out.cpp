@@ -115,10 +115,11 @@ namespace {
 
 EssentialConditions essential_conditions(const SolveOptions& options, const BodyParts& parts) {
   const Conditions& conditions = parts.cloud.conditions;
+  const Points& prescribed = conditions.displacement;
   if (conditions.measured) {
-    return {conditions.displacement, parts.nodal_rows, parts.cloud.original, *conditions.measured, parts.inner_rows};
+    return {prescribed, parts.nodal_rows, parts.cloud.original, *conditions.measured, parts.inner_rows, parts.rim};
   }
-  return {conditions.displacement, parts.nodal_rows, parts.cloud.original, options.imposition};
+  return {prescribed, parts.nodal_rows, parts.cloud.original, options.imposition, parts.rim};
 }
 
 PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::int32_t>& order) {
@@ -206,6 +207,7 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
       .points = std::move(blocks),
       .placed = in_order(parts.points, parts.patches.order),
       .stiff_parts = parts.stiff_parts,
+      .node_modulus = parts.node_modulus,
       .laws = std::move(laws),
       .prony = in_time ? parts.materials.prony : std::vector<std::vector<PronyTerm>>(),
       .mass = {},

@@ -146,4 +146,20 @@ std::size_t hide_soft_nodes(const MixedCloud& cloud, const Points& places, std::
   return changed;
 }
 
+ShapeRows rows_at_rim(const MixedCloud& cloud, const PatchRim& rim) {
+  if (rim.node.empty()) {
+    return {};
+  }
+  const ShapeFunctions shape(cloud.positions, cloud.spacing, cloud.options, cloud.visibility);
+  ShapeRows rows = shape.evaluate(rim.places, false);
+  if (!cloud.modulus.empty()) {
+    std::vector<double> modulus;
+    for (const std::int32_t a : rim.node) {
+      modulus.push_back(cloud.modulus[static_cast<std::size_t>(a)]);
+    }
+    hide_soft_nodes(cloud, rim.places, modulus, rows);
+  }
+  return rows;
+}
+
 }  // namespace brainshift::solve

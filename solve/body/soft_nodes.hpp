@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "segmentation/geometry/points.hpp"
+#include "solve/boundary/patch_rim.hpp"
 #include "solve/interface/shape_options.hpp"
 #include "solve/shape/shape_rows.hpp"
 #include "solve/shape/visibility.hpp"
@@ -25,7 +26,7 @@ struct MixedCloud {
   std::span<const double> spacing;
   const ShapeOptions& options;
   std::shared_ptr<const Visibility> visibility;
-  std::span<const double> modulus;  ///< moduli_at_nodes(), Pa
+  std::span<const double> modulus;  ///< moduli_at_nodes(), Pa; none: all see each other
 };
 
 /// Hides nodes of soft tissue from places in tissue that is much stiffer (much_stiffer()): the rows of these places
@@ -36,5 +37,8 @@ struct MixedCloud {
 /// rows changed. After the visibility criterion for discontinuities of the material (Cordes & Moran 1996), one way.
 std::size_t hide_soft_nodes(const MixedCloud& cloud, const Points& places, std::span<const double> modulus,
                             ShapeRows& rows);
+
+/// The shape functions at the places of a rim, each hiding what its node's tissue does not see.
+ShapeRows rows_at_rim(const MixedCloud& cloud, const PatchRim& rim);
 
 }  // namespace brainshift::solve

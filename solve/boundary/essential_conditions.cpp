@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -34,24 +35,47 @@ Eigen::VectorXd stacked(const Eigen::VectorXd& above, const Eigen::VectorXd& bel
   return both;
 }
 
-/// C of the conditions at these nodes, then at the inner points; mm².
-Eigen::SparseMatrix<double> compliance(const Measurement& measured, const std::vector<std::int32_t>& nodes, int axis) {
-  Eigen::SparseMatrix<double> root(static_cast<Eigen::Index>(nodes.size()) + measured.inner.rows(),
+/// C of the conditions of the nodes, then of the inner points; mm². extension: EssentialConditions::Component.
+Eigen::SparseMatrix<double> compliance(const Measurement& measured, const EssentialConditions::RowMatrix& extension,
+                                       int axis) {
+  const EssentialConditions::RowMatrix spread = measured.spread;
+  const EssentialConditions::RowMatrix at_conditions = extension * spread;
+  Eigen::SparseMatrix<double> root(extension.rows() + measured.inner.rows(),
                                    measured.sigma.rows() + measured.inner.rows());
   std::vector<Eigen::Triplet<double>> entries;
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> spread = measured.spread;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(spread, nodes[i]); entry; ++entry) {
+  for (Eigen::Index i = 0; i < at_conditions.rows(); ++i) {
+    for (EssentialConditions::RowMatrix::InnerIterator entry(at_conditions, i); entry; ++entry) {
       entries.emplace_back(static_cast<int>(i), static_cast<int>(entry.col()),
                            entry.value() * measured.sigma(entry.col(), axis));
     }
   }
   for (Eigen::Index i = 0; i < measured.inner.rows(); ++i) {
-    entries.emplace_back(static_cast<int>(nodes.size()) + static_cast<int>(i),
-                         static_cast<int>(measured.sigma.rows() + i), measured.inner_sigma(i, axis));
+    entries.emplace_back(static_cast<int>(extension.rows() + i), static_cast<int>(measured.sigma.rows() + i),
+                         measured.inner_sigma(i, axis));
   }
   root.setFromTriplets(entries.begin(), entries.end());
   return root * root.transpose();
+}
+
+/// Rows of the conditions of these nodes: those at the nodes, or, of nodes on a rim, others.
+ShapeRows rows_of_conditions(std::span<const std::int32_t> nodes, const PatchRim& rim, const ShapeRows& at_rim,
+                             const std::function<void(std::int32_t, ShapeRows&)>& append_at_node) {
+  ShapeRows rows;
+  for (const std::int32_t a : nodes) {
+    const auto found = std::lower_bound(rim.node.begin(), rim.node.end(), a);
+    if (found != rim.node.end() && *found == a) {
+      rows.append(at_rim[static_cast<std::size_t>(found - rim.node.begin())]);
+    } else {
+      append_at_node(a, rows);
+    }
+  }
+  return rows;
+}
+
+EssentialConditions::RowMatrix all_of(const ShapeRows& rows, Eigen::Index nodes) {
+  std::vector<std::int32_t> all(rows.size());
+  std::iota(all.begin(), all.end(), 0);
+  return shape_matrix(rows, all, nodes);
 }
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> stacked(const Eigen::SparseMatrix<double, Eigen::RowMajor>& above,
@@ -65,11 +89,16 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> stacked(const Eigen::SparseMatrix<d
 }  // namespace
 
 EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows,
-                                         std::vector<std::int32_t> names, Imposition imposition)
+                                         std::vector<std::int32_t> names, Imposition imposition, const PatchRim& rim)
     : names_(std::move(names)), imposition_(imposition) {
+  const auto shape_at = [&](std::int32_t a, ShapeRows& rows) { rows.append(nodal_rows[static_cast<std::size_t>(a)]); };
+  const auto own_value = [](std::int32_t a, ShapeRows& rows) {
+    constexpr double one = 1;
+    rows.append({std::span(&a, 1), std::span(&one, 1), {}});
+  };
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
-    std::vector<double> values, loaded;
+    std::vector<double> loaded;
     for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
       const double value = prescribed(a, axis);
       if (std::isinf(value)) {
@@ -79,12 +108,12 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
       }
       if (!std::isnan(value)) {
         c.node.push_back(static_cast<std::int32_t>(a));
-        values.push_back(value);
         loaded.push_back((prescribed.row(a).array().abs() > 0).any() ? 1.0 : 0.0);
       }
     }
-    c.shape = shape_matrix(nodal_rows, c.node, prescribed.rows());
-    c.prescribed = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    c.shape = all_of(rows_of_conditions(c.node, rim, rim.rows, shape_at), prescribed.rows());
+    c.extension = all_of(rows_of_conditions(c.node, rim, rim.extension, own_value), prescribed.rows());
+    c.prescribed = c.extension * prescribed.col(axis);  // of free nodes no value is in it
     c.loaded = Eigen::Map<const Eigen::VectorXd>(loaded.data(), static_cast<Eigen::Index>(loaded.size()));
     c.multiplier = c.scratch = Eigen::VectorXd::Zero(c.prescribed.size());
   }
@@ -95,18 +124,16 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
 
 EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows,
                                          std::vector<std::int32_t> names, const Measurement& measured,
-                                         const ShapeRows& inner_rows)
-    : EssentialConditions(prescribed, nodal_rows, names) {
+                                         const ShapeRows& inner_rows, const PatchRim& rim)
+    : EssentialConditions(prescribed, nodal_rows, names, Imposition::exact, rim) {
   constexpr double millijoule = 1e6;  // µN mm
   const double weight = millijoule * measured.weight;
   names_ = std::move(names);
-  std::vector<std::int32_t> inner(inner_rows.size());
-  std::iota(inner.begin(), inner.end(), 0);
-  const RowMatrix inner_shape = shape_matrix(inner_rows, inner, prescribed.rows());
+  const RowMatrix inner_shape = all_of(inner_rows, prescribed.rows());
   same_compliance_ = same_columns(measured.sigma) && same_columns(measured.inner_sigma);
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
-    c.compliance = compliance(measured, c.node, axis) / weight;
+    c.compliance = compliance(measured, c.extension, axis) / weight;
     if (measured.inner.rows() > 0) {
       c.shape = stacked(c.shape, inner_shape);
       c.prescribed = stacked(c.prescribed, measured.inner_displacement.col(axis));

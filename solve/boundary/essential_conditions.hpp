@@ -12,6 +12,7 @@
 
 #include "segmentation/geometry/points.hpp"
 #include "solve/arrays/nodal_vectors.hpp"
+#include "solve/boundary/patch_rim.hpp"
 #include "solve/interface/conditions.hpp"
 #include "solve/interface/options.hpp"
 #include "solve/shape/shape_rows.hpp"
@@ -20,7 +21,8 @@ namespace brainshift::solve {
 
 /// Essential conditions on Σφû, EBCIEM (Joldes et al. 2017): after a step the parameters are projected onto V û = ū,
 ///   û ← û + M⁻¹Vᵀ μ,  (V M⁻¹ Vᵀ) μ = ū − V û,
-/// with V the shape functions at the constrained nodes. The multipliers give the reaction forces.
+/// with V the shape functions at the constrained nodes, or, of those on the rim of a patch, a little inside it
+/// (PatchRim). The multipliers give the reaction forces.
 /// Each component (x, y, z) has its own constrained nodes.
 class EssentialConditions {
  public:
@@ -39,6 +41,7 @@ class EssentialConditions {
   struct Component {
     std::vector<std::int32_t> node;
     RowMatrix shape;                         ///< V, (conditions × nodes)
+    RowMatrix extension;                     ///< ū of the nodes' conditions from what is prescribed at the nodes
     Eigen::VectorXd prescribed;              ///< ū, mm
     Eigen::VectorXd multiplier;              ///< μ
     Eigen::VectorXd loaded;                  ///< 1 where the node is loaded, else 0
@@ -52,15 +55,16 @@ class EssentialConditions {
   /// Nothing is prescribed.
   EssentialConditions() = default;
   /// prescribed (n × 3) mm, NaN: free. nodal_rows: shape functions at all nodes' positions. names: what the user calls
-  /// the nodes. Throws std::invalid_argument, naming the node, where a prescribed value is infinite.
+  /// the nodes. rim: where nodes are held inside the rim of a patch. Throws std::invalid_argument, naming the node,
+  /// where a prescribed value is infinite.
   EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names,
-                      Imposition imposition = Imposition::exact);
+                      Imposition imposition = Imposition::exact, const PatchRim& rim = {});
 
   /// The same with the noise of a measurement. inner_rows: shape functions at its inner points. Conditions that give
   /// way are springs s C⁻¹ that act at the end of the step: (V M⁻¹ Vᵀ + C/(sα)) μ = ū − V û. This is stable however
   /// stiff they are, and as σ → 0 it is the exact imposition.
   EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names,
-                      const Measurement& measured, const ShapeRows& inner_rows);
+                      const Measurement& measured, const ShapeRows& inner_rows, const PatchRim& rim = {});
 
   /// Nodes whose parameters are in any of the conditions, ascending.
   std::vector<std::int32_t> nodes() const;

@@ -52,9 +52,12 @@ EachConditions::EachConditions(const EssentialConditions& essential, std::span<c
     c.prescribed.assign(size, {});
     for (std::size_t i = 0; i < size; ++i) {
       numbers(c.prescribed[i].of) = all.prescribed[static_cast<Eigen::Index>(i)];
-      for (std::size_t m = 0; m < prescribed.size() && i < all.node.size(); ++m) {
-        if (prescribed[m].rows() > 0) {
-          c.prescribed[i].of[m] = prescribed[m](all.node[i], static_cast<Eigen::Index>(axis));
+    }
+    for (std::size_t m = 0; m < prescribed.size(); ++m) {
+      if (prescribed[m].rows() > 0) {
+        const Eigen::VectorXd of_member = all.extension * prescribed[m].col(static_cast<Eigen::Index>(axis));
+        for (std::size_t i = 0; i < all.node.size(); ++i) {
+          c.prescribed[i].of[m] = of_member[static_cast<Eigen::Index>(i)];
         }
       }
     }

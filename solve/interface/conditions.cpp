@@ -63,6 +63,7 @@ std::size_t count_loaded(const Conditions& conditions) {
 
 Conditions subset(const Conditions& conditions, const std::vector<std::int32_t>& nodes) {
   Conditions part;
+  part.at_nodes_alone = conditions.at_nodes_alone;
   if (conditions.displacement.rows() > 0) {
     part.displacement = conditions.displacement(nodes, Eigen::all);
   }

@@ -37,6 +37,9 @@ struct Conditions {
   Points force = Points(0, 3);
   /// Of what is prescribed; absent: it is held exactly.
   std::optional<Measurement> measured = {};
+  /// Displacements are held at the nodes themselves, at the rim of a patch, too (PatchRim): for a cloud that was
+  /// thinned and whose outermost nodes of a patch lie inside it.
+  bool at_nodes_alone = false;
 
   /// Whether a component of a node's displacement is prescribed; axis 0, 1 or 2.
   bool is_prescribed(Eigen::Index node, int axis) const;

@@ -5,7 +5,6 @@
 #include <CGAL/convex_hull_2.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -33,16 +32,21 @@ std::vector<Eigen::Vector2d> convex_hull(const PlanePoints& points) {
   return hull;
 }
 
-double distance_to_hull(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& place) {
+Eigen::Vector2d nearest_of_hull(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& place) {
   const Kernel::Point_2 here = as_cgal(place);
   bool inside = hull.size() > 2;
-  double squared = std::numeric_limits<double>::infinity();
+  Eigen::Vector2d nearest = hull.front();
   for (std::size_t n = 0; n < hull.size(); ++n) {
-    const Kernel::Point_2 from = as_cgal(hull[n]), to = as_cgal(hull[(n + 1) % hull.size()]);
-    inside = inside && !CGAL::right_turn(from, to, here);
-    squared = std::min(squared, CGAL::squared_distance(Kernel::Segment_2(from, to), here));
+    const Eigen::Vector2d &from = hull[n], &to = hull[(n + 1) % hull.size()];
+    inside = inside && !CGAL::right_turn(as_cgal(from), as_cgal(to), here);
+    const Eigen::Vector2d side = to - from;
+    const double along = (place - from).dot(side) / std::max(side.squaredNorm(), std::numeric_limits<double>::min());
+    const Eigen::Vector2d on_side = from + std::clamp(along, 0.0, 1.0) * side;
+    if ((place - on_side).squaredNorm() < (place - nearest).squaredNorm()) {
+      nearest = on_side;
+    }
   }
-  return inside ? 0.0 : std::sqrt(squared);
+  return inside ? place : nearest;
 }
 
 }  // namespace brainshift::solve

@@ -11,7 +11,7 @@ namespace brainshift::solve {
 /// a single place (CGAL, exact predicates).
 std::vector<Eigen::Vector2d> convex_hull(const PlanePoints& points);
 
-/// Distance of a place to a convex polygon with these corners, 0 inside it.
-double distance_to_hull(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& place);
+/// The place of a convex polygon with these corners that is nearest to a place: itself inside it.
+Eigen::Vector2d nearest_of_hull(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& place);
 
 }  // namespace brainshift::solve

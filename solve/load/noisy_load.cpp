@@ -93,7 +93,8 @@ std::vector<Eigen::Index> inner_points(const NodeCloud& cloud, const CraniotomyL
 }
 
 /// The share of each point of the cortex in what is prescribed at each node: what becomes of a displacement of 1 mm of
-/// this point alone, three points at once.
+/// this point alone, three points at once. The limits of the extension would let shares near the rim sum to less or
+/// more than one; then not even what moves alike would.
 Eigen::SparseMatrix<double> shares(const NodeCloud& cloud, const CraniotomyLoad& cortex,
                                    const OpeningOptions& options) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -113,7 +114,8 @@ Eigen::SparseMatrix<double> shares(const NodeCloud& cloud, const CraniotomyLoad&
   }
   Eigen::SparseMatrix<double> spread(cloud.positions.rows(), cortex.positions.rows());
   spread.setFromTriplets(entries.begin(), entries.end());
-  return spread;
+  const Eigen::VectorXd sum = spread * Eigen::VectorXd::Ones(spread.cols());
+  return (sum.array() == 0).select(1, sum).cwiseInverse().asDiagonal() * spread;
 }
 
 /// What each node has of the faults of some others: Shepard's weights of the four nearest (Shepard 1968).

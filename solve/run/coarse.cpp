@@ -76,6 +76,7 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
   CoarseBody coarse{.model = model, .options = given, .measures = {}, .prepared = {}};
   coarse.model.cloud = subset(model.cloud, nodes);
   coarse.model.conditions = subset(model.conditions, nodes);
+  coarse.model.conditions.at_nodes_alone = true;
   for (double& spacing : coarse.model.cloud.spacing) {
     spacing *= coarser;
   }

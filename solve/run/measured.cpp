@@ -258,6 +258,7 @@ LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const 
       model.cloud, {seen.positions(kept, Eigen::all), seen.displacement(kept, Eigen::all), raised(kept, Eigen::all)},
       opening);
   weighed.force = std::move(model.conditions.force);
+  weighed.at_nodes_alone = model.conditions.at_nodes_alone;
   weighed.measured->weight = weight;
   model.conditions = std::move(weighed);
   return {seen.positions(lessened, Eigen::all), trust.size()};

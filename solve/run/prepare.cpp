@@ -11,6 +11,7 @@
 #include "solve/body/lay_out.hpp"
 #include "solve/body/soft_nodes.hpp"
 #include "solve/body/stiff_parts.hpp"
+#include "solve/boundary/patch_rim.hpp"
 #include "solve/cut/boundary_normals.hpp"
 #include "solve/cut/cut_patches.hpp"
 #include "solve/cut/resection.hpp"
@@ -211,12 +212,27 @@ void part_by_stiffness(const Model& model, const SolveOptions& options, std::sha
   if (!much_stiffer(stiffest, softest) || cuts_go_on(model)) {
     return;
   }
-  const std::vector<double> of_node =
-      moduli_at_nodes(parts.points.volume, of_point, parts.point_rows, parts.cloud.size());
-  const MixedCloud cloud{parts.cloud.positions, parts.cloud.spacing, options.shape, std::move(visibility), of_node};
+  parts.node_modulus = moduli_at_nodes(parts.points.volume, of_point, parts.point_rows, parts.cloud.size());
+  const MixedCloud cloud{parts.cloud.positions, parts.cloud.spacing, options.shape, std::move(visibility),
+                         parts.node_modulus};
   hide_soft_nodes(cloud, parts.points.positions, of_point, parts.point_rows);
-  hide_soft_nodes(cloud, parts.cloud.positions, of_node, parts.nodal_rows);
-  parts.stiff_parts = stiff_parts(of_point, of_node, parts.point_rows, held_nodes(parts.cloud));
+  hide_soft_nodes(cloud, parts.cloud.positions, parts.node_modulus, parts.nodal_rows);
+  parts.stiff_parts = stiff_parts(of_point, parts.node_modulus, parts.point_rows, held_nodes(parts.cloud));
+}
+
+/// Where a patch of what is prescribed ends. None in a plane, where the surface is a line, where cuts go on, as rows
+/// come and go there, and for the simplified form, which errs the other way.
+PatchRim rim_of(const Model& model, const SolveOptions& options, std::shared_ptr<const Visibility> visibility,
+                std::span<const std::int32_t> held, const BodyParts& parts) {
+  const OrderedCloud& cloud = parts.cloud;
+  const bool at_nodes = cloud.conditions.at_nodes_alone || options.imposition != Imposition::exact;
+  if (at_nodes || model.plane != Plane::none || cuts_go_on(model)) {
+    return {};
+  }
+  PatchRim rim = patch_rim(cloud, cloud.conditions.displacement, held);
+  rim.rows =
+      rows_at_rim({cloud.positions, cloud.spacing, options.shape, std::move(visibility), parts.node_modulus}, rim);
+  return rim;
 }
 
 }  // namespace
@@ -268,6 +284,7 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   measures.fewest_points = check_points(parts.cloud, parts.points, parts.point_rows, parts.nodal_rows);
   parts.materials = material_table(model.materials, parts.points.label);
   part_by_stiffness(model, options, visibility, parts);
+  parts.rim = rim_of(model, options, visibility, held, parts);
   measure_sizes(parts, placed.capped, measures);
   measures.single_precision = options.precision == Precision::single_precision;
   if (options.integration == Integration::consistent) {

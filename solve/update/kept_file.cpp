@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view format = "brainshift kept run 5\n";
+constexpr std::string_view format = "brainshift kept run 6\n";
 constexpr std::size_t head_size = 256;
 
 /// Tells damage; eight bytes at a time, every fourth in a sum of its own, which do not wait for each other.
@@ -126,6 +126,7 @@ void kept_body(Archive& archive, Kept& kept) {
   archive.points(kept.body.placed.position);
   archive.many(kept.body.placed.tissue);
   stiff_parts(archive, kept.body);
+  archive.many(kept.body.node_modulus);
   archive.many(kept.parameters);
   archive.many(kept.settled.mass);
   archive.plain(kept.settled.mass_scale);
@@ -238,7 +239,7 @@ std::optional<KeptRun> read_kept(const fs::path& file, const std::string& key,
     ArchiveReader reader(payload);
     KeptRun run;
     kept_run(reader, run);
-    run.origin = {run.fine.parameters, run.displacement};
+    run.origin = {run.fine.parameters, run.prescribed, run.displacement};
     run.options = options;
     run.options.precision = run.fine.body.points.precision();
     read_forces(reader, run.fine.body);

@@ -9,6 +9,8 @@
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/body/ordered_cloud.hpp"
+#include "solve/body/soft_nodes.hpp"
+#include "solve/boundary/patch_rim.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
@@ -36,13 +38,20 @@ std::vector<std::int32_t> free_nodes(const std::vector<std::uint8_t>& on_surface
   return nodes;
 }
 
-void hold(const Points& prescribed, Imposition imposition, Body& body) {
-  body.essential = {prescribed(body.original, Eigen::all), body.nodal_rows, body.original, imposition};
+/// As a run from the beginning holds it.
+void hold(const Points& prescribed, KeptRun& run) {
+  Body& body = run.fine.body;
+  const NodeCloud given{.positions = body.positions, .spacing = body.spacing, .on_surface = run.on_surface};
+  const NodeCloud cloud = subset(given, body.original);
+  const Points ordered = prescribed(body.original, Eigen::all);
+  PatchRim rim = patch_rim(cloud, ordered, {});
+  rim.rows = rows_at_rim({cloud.positions, cloud.spacing, run.options.shape, {}, body.node_modulus}, rim);
+  body.essential = {ordered, body.nodal_rows, body.original, Imposition::exact, rim};
 }
 
 void set_fine_load(const Points& prescribed, KeptRun& run) {
   Body& body = run.fine.body;
-  hold(prescribed, run.options.imposition, body);
+  hold(prescribed, run);
   if (!body.contact) {
     return;
   }
@@ -66,12 +75,14 @@ void take(SteppingResult& stepped, KeptBody& kept) {
   kept.settled = std::move(stepped.settled);
 }
 
-/// What the new load moves the loaded nodes by; 0 elsewhere.
-Points change_of(const Points& prescribed, const Points& displacement) {
+/// What the new load moves the loaded nodes by, from what was prescribed before or, of nodes that were free, from where
+/// they came to rest; 0 elsewhere.
+Points change_of(const Points& prescribed, const Points& before, const Points& displacement) {
   Points change = Points::Zero(prescribed.rows(), 3);
   for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
     if (!std::isnan(prescribed.data()[i])) {
-      change.data()[i] = prescribed.data()[i] - displacement.data()[i];
+      const double from = std::isnan(before.data()[i]) ? displacement.data()[i] : before.data()[i];
+      change.data()[i] = prescribed.data()[i] - from;
     }
   }
   return change;
@@ -80,8 +91,8 @@ Points change_of(const Points& prescribed, const Points& displacement) {
 /// û to begin with. The responses are of the run's own load: with a the change from it and b that from the last one,
 /// what the first order leaves open goes with a² from the one and with b (2 a − b) from the other.
 NodalVectors start_of(const Points& prescribed, const KeptRun& run) {
-  const Points from_last = change_of(prescribed, run.displacement);
-  const Points from_origin = change_of(prescribed, run.origin.displacement);
+  const Points from_last = change_of(prescribed, run.prescribed, run.displacement);
+  const Points from_origin = change_of(prescribed, run.origin.prescribed, run.origin.displacement);
   const bool last = from_last.norm() * (2 * from_origin - from_last).norm() < from_origin.squaredNorm();
   return answered(last ? run.fine.parameters : run.origin.parameters, run.responses, last ? from_last : from_origin);
 }
@@ -134,6 +145,9 @@ std::string cannot_keep(const Model& model, const SolveOptions& options) {
   if (options.dynamics != Dynamics::relaxation || options.region > 0) {
     return options.region > 0 ? "it solves a region alone" : "it is a motion in time";
   }
+  if (model.conditions.at_nodes_alone) {
+    return "it is held at its nodes alone";
+  }
   if (model.plane != Plane::none || options.imposition != Imposition::exact) {
     return model.plane != Plane::none ? "it is a plane problem" : "its conditions are imposed in the simplified form";
   }
@@ -165,7 +179,10 @@ KeptRun keep(const Model& model, const SolveOptions& given, const Points& displa
               .origin = {},
               .responses = {}};
   take(stepped, run.fine);
-  run.origin = {run.fine.parameters, run.displacement};
+  if (run.prescribed.rows() == 0) {
+    run.prescribed = Points::Constant(run.displacement.rows(), 3, std::nan(""));
+  }
+  run.origin = {run.fine.parameters, run.prescribed, run.displacement};
   run.responses = responses_of(run.fine, run.prescribed, options, progress);
   return run;
 }

@@ -19,6 +19,7 @@ namespace brainshift::solve {
 /// Where a body came to rest.
 struct RestState {
   NodalVectors parameters;  ///< û in the body's order, mm
+  Points prescribed;        ///< (n × 3) mm, NaN: free
   Points displacement;      ///< (n × 3) mm
 };
 

@@ -29,6 +29,12 @@ class BallFolder : public RunFolder {
     load.displacement = Eigen::RowVector3d(0, 0, -1).replicate(load.positions.rows(), 1);
     solve::write_craniotomy_csv(folder_ / "load.csv", load);
   }
+  /// Lets the load press by 1 mm amid it and by a fifth of that where it ends: what moves alike deforms nothing.
+  void press_unevenly() const {
+    solve::CraniotomyLoad load = solve::read_craniotomy_csv(folder_ / "load.csv");
+    load.displacement.col(2) = (15 - load.positions.col(2).array()) / 5;
+    solve::write_craniotomy_csv(folder_ / "load.csv", load);
+  }
   void TearDown() override { omp_set_num_threads(threads_); }
 
   /// Its scene, of 60 nodes and without a T1, checked.

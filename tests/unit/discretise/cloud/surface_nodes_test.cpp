@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "discretise/discretise.hpp"
 #include "tests/unit/discretise/bodies.hpp"
@@ -47,6 +48,31 @@ TEST(Cloud, HasItsSurfaceNodesOnTheSphere) {
   }
   EXPECT_EQ(on_surface, result.measures.surface_nodes);
   EXPECT_GT(on_surface, 300U);
+}
+
+TEST(Cloud, HasNodesOnTheRimOfALoadAndNoneBesideIt) {
+  constexpr double radius = 40, height = 30;  // of the ball, of the rim's plane
+  const double circle = std::sqrt(radius * radius - height * height);
+  DiscretiseOptions options{.nodes = 3000, .craniotomy = Refinement{.centres = centre.transpose(), .factor = 1}};
+  options.craniotomy->rim.resize(600, 3);
+  for (Eigen::Index p = 0; p < 600; ++p) {
+    const double angle = M_PI * static_cast<double>(p) / 300;
+    options.craniotomy->rim.row(p) =
+        centre.transpose() + Eigen::RowVector3d(circle * std::cos(angle), circle * std::sin(angle), height);
+  }
+  const Discretisation result = discretise(ball(radius, centre, 6), nullptr, options);
+  double on_rim = 0, beside = 0;
+  for (std::size_t node = 0; node < result.cloud.size(); ++node) {
+    const Eigen::RowVector3d x = result.cloud.positions.row(static_cast<Eigen::Index>(node)) - centre.transpose();
+    const double off = std::hypot(x.head<2>().norm() - circle, x.z() - height) / result.measures.spacing;
+    if (result.cloud.on_surface[node] != 0) {
+      on_rim += off < 0.05 ? 1 : 0;
+      beside += off >= 0.05 && off < 0.3 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(on_rim, 0.7 * 2 * M_PI * circle / result.measures.spacing);
+  EXPECT_EQ(beside, 0);
+  EXPECT_GE(result.measures.smallest_distance_ratio, options.minimum_distance);
 }
 
 }  // namespace brainshift::discretise::surface_nodes_test

@@ -22,8 +22,8 @@ TEST(DiscretiseOptions, AreAllInTheTable) {
       DiscretiseOptions{};
   EXPECT_EQ(discretise_options().size() + 4, 13U)
       << "beside the craniotomy, the labels, which are alike and what is taken out";
-  [[maybe_unused]] const auto& [centres, radius, factor] = Refinement{};
-  EXPECT_EQ(refinement_options().size() + 1, 3U) << "beside the centres";
+  [[maybe_unused]] const auto& [centres, radius, factor, rim] = Refinement{};
+  EXPECT_EQ(refinement_options().size() + 2, 4U) << "beside the centres and the rim";
 }
 
 TEST(DiscretiseOptions, AreAllowedAsTheyAreByDefaultAndAtTheirEnds) {

@@ -37,6 +37,7 @@ class SweepTest : public BallFolder {
 };
 
 TEST_F(SweepTest, MeasuresEachChoiceAgainstTheReference) {
+  press_unevenly();
   const Sweep result = run_sweep(scene("40 640", "1300"), {"discretise.craniotomy_factor=1"});
   EXPECT_EQ(result.reference.front(), "1300");
   ASSERT_EQ(result.points.size(), 2U);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/unit/solve/weighted_box.hpp"
 
 namespace brainshift::solve::each_conditions_test {
@@ -12,6 +14,7 @@ struct Held {
   WeightedBox cloud;
   Points prescribed = Points::Constant(static_cast<Eigen::Index>(cloud.nodes.size()), 3, std::nan(""));
   std::vector<std::int32_t> names;
+  PatchRim rim;  // none
 
   Held() {
     for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
@@ -62,7 +65,7 @@ void expect_each_alone(const EssentialConditions& conditions, const Held& held, 
   for (std::size_t m = 0; m < members; ++m) {
     EssentialConditions alone = conditions;
     if (own_values) {
-      alone = EssentialConditions(values[m], held.cloud.rows, held.names);
+      alone = EssentialConditions(values[m], held.cloud.rows, held.names, Imposition::exact, held.rim);
     }
     std::vector<double> of_member(mass.size());
     std::transform(mass.begin(), mass.end(), of_member.begin(), [m](const auto& each_mass) { return each_mass.of[m]; });
@@ -77,6 +80,28 @@ void expect_each_alone(const EssentialConditions& conditions, const Held& held, 
     EXPECT_NEAR(each.spring_work(between, vectors)[i], alone.spring_work(expected_between, expected),
                 1e-9 * std::abs(alone.spring_work(expected_between, expected)) + 1e-12);
   }
+}
+
+TEST(EachConditions, HoldEachMemberInsideARimByItsOwnLoad) {
+  Held held;
+  std::vector<std::int32_t> above;
+  std::int32_t inner = -1;
+  for (const std::int32_t a : held.names) {
+    if (held.prescribed.row(a).allFinite()) {
+      above.push_back(a);
+      held.prescribed(a, 1) += 0.1 * a;
+    } else if (held.prescribed.row(a).array().isNaN().all()) {
+      inner = a;
+    }
+  }
+  constexpr std::array shares{1.5, -0.5};
+  held.rim.node = {above[3]};
+  held.rim.rows.append(held.cloud.rows[static_cast<std::size_t>(inner)]);
+  held.rim.extension.append({std::span(above).subspan(3, 2), shares, {}});
+  const EssentialConditions conditions(held.prescribed, held.cloud.rows, held.names, Imposition::exact, held.rim);
+  EXPECT_NEAR(conditions.components()[1].prescribed[3],
+              1.5 * held.prescribed(above[3], 1) - 0.5 * held.prescribed(above[4], 1), 1e-12);
+  expect_each_alone(conditions, held, true);
 }
 
 TEST(EachConditions, HoldEachMemberAsItWouldBeHeldAlone) {

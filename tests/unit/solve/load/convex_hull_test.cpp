@@ -40,15 +40,16 @@ TEST(ConvexHull, DegeneratesToALineAndAPlace) {
   EXPECT_EQ(convex_hull(places({{1, 1}, {1, 1}})).size(), 1U);
 }
 
-TEST(ConvexHull, DistanceIsZeroInsideAndToTheNearestSideOutside) {
+TEST(ConvexHull, IsNearestAtAPlaceItselfInsideAndOnTheNearestSideOutside) {
+  using Place = Eigen::Vector2d;
   const auto hull = convex_hull(square_and_more);
-  EXPECT_EQ(distance_to_hull(hull, {1.9, 0.1}), 0);
-  EXPECT_EQ(distance_to_hull(hull, {2, 1}), 0) << "on a side";
-  EXPECT_DOUBLE_EQ(distance_to_hull(hull, {3, 1}), 1);
-  EXPECT_DOUBLE_EQ(distance_to_hull(hull, {-3, 6}), 5) << "to a corner";
+  EXPECT_EQ(nearest_of_hull(hull, {1.9, 0.1}), Place(1.9, 0.1));
+  EXPECT_EQ(nearest_of_hull(hull, {2, 1}), Place(2, 1)) << "on a side";
+  EXPECT_EQ(nearest_of_hull(hull, {3, 1}), Place(2, 1));
+  EXPECT_EQ(nearest_of_hull(hull, {-3, 6}), Place(0, 2)) << "a corner";
   const auto line = convex_hull(places({{0, 0}, {2, 0}}));
-  EXPECT_DOUBLE_EQ(distance_to_hull(line, {1, 0.5}), 0.5);
-  EXPECT_DOUBLE_EQ(distance_to_hull(convex_hull(places({{1, 1}})), {4, 5}), 5);
+  EXPECT_EQ(nearest_of_hull(line, {1, 0.5}), Place(1, 0));
+  EXPECT_EQ(nearest_of_hull(convex_hull(places({{1, 1}})), {4, 5}), Place(1, 1));
 }
 
 }  // namespace brainshift::solve::convex_hull_test

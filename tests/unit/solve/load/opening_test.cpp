@@ -177,7 +177,7 @@ TEST(Opening, OfOnePointOrOfPointsOnALineLoadsTheNodesBesideThem) {
     if (is_loaded(line, n)) {
       ++loaded;
       EXPECT_NEAR(line(n, 2), 1.5, 1e-9);
-      EXPECT_LT(std::abs(cloud.positions(n, 1) - centre[1]), 5.1);
+      EXPECT_LT(std::abs(cloud.positions(n, 1) - centre[1]), 5.1 + cloud.spacing.front() / 4) << "on the rim";
       EXPECT_GT(cloud.positions(n, 2), centre[2]);
     }
   }
@@ -201,6 +201,7 @@ TEST(Opening, RefusesAPointFarFromTheSurfaceWithItsDistanceAndGuessesAFlippedFra
 
 TEST(Opening, RefusesToLoadNoNode) {
   NodeCloud cloud = head();
+  cloud.spacing.assign(cloud.size(), 1e-3);  // no node counts as lying on the rim
   CraniotomyLoad between;
   between.positions = 0.5 * (cloud.positions.row(12) + cloud.positions.row(0));
   between.displacement = Points::Constant(1, 3, 1.0);

@@ -5,6 +5,7 @@
 
 #include "solve/solve.hpp"
 #include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/pressed_bar.hpp"
 
 namespace brainshift::solve::kept_run_test {
 
@@ -31,6 +32,18 @@ TEST(KeptRun, AnswersAnotherLoadAsARunFromTheBeginning) {
   EXPECT_TRUE(answer.measures.converged) << answer.failure;
   EXPECT_LE(answer.measures.error_bound, tolerance);
   EXPECT_LE(distance(answer.solution.displacement, solve(other, options()).solution.displacement), 2 * tolerance);
+}
+
+TEST(KeptRun, HoldsInsideTheRimOfAPatchAsARunFromTheBeginning) {
+  Model model = pressed_bar();
+  KeptRun run = kept(model);
+  model.conditions.displacement *= 1.2;
+  const SolveResult answer = update(run, model.conditions.displacement), anew = solve(model, options());
+  EXPECT_TRUE(answer.measures.converged) << answer.failure;
+  EXPECT_LE(distance(answer.solution.displacement, anew.solution.displacement), 2 * tolerance);
+  model.conditions.at_nodes_alone = true;
+  EXPECT_GT(distance(solve(model, options()).solution.displacement, anew.solution.displacement), 0.1);
+  EXPECT_NE(cannot_keep(model, options()), "");
 }
 
 /// The responses are of the run's own load: back at it nothing is left to do, wherever the last answer lies.
