@@ -65,6 +65,16 @@ NodeCloud read_node_cloud(const std::filesystem::path& file) {
   return cloud;
 }
 
+std::vector<std::int32_t> surface_nodes(const NodeCloud& cloud) {
+  std::vector<std::int32_t> nodes;
+  for (std::size_t a = 0; a < cloud.on_surface.size(); ++a) {
+    if (cloud.on_surface[a] != 0) {
+      nodes.push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  return nodes;
+}
+
 void write_node_cloud(const std::filesystem::path& file, const NodeCloud& cloud, std::span<const NodeVectors> vectors) {
   const auto grid = vtu::vertex_grid(cloud.positions);
   vtkPointData& data = *grid->GetPointData();

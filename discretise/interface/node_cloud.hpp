@@ -19,6 +19,9 @@ struct NodeCloud {
   std::size_t size() const { return static_cast<std::size_t>(positions.rows()); }
 };
 
+/// The nodes on the surface, ascending.
+std::vector<std::int32_t> surface_nodes(const NodeCloud& cloud);
+
 /// Vectors at the nodes, (n × 3), under the name that they have in a file.
 struct NodeVectors {
   const char* name;

@@ -29,13 +29,7 @@ bool on_a_line(const Points& points) {
 }
 
 Points surface_of(const NodeCloud& cloud) {
-  std::vector<Eigen::Index> rows;
-  for (std::size_t n = 0; n < cloud.size(); ++n) {
-    if (cloud.on_surface[n] != 0) {
-      rows.push_back(static_cast<Eigen::Index>(n));
-    }
-  }
-  return cloud.positions(rows, Eigen::all);
+  return cloud.positions(surface_nodes(cloud), Eigen::all);
 }
 
 double median(std::vector<double> values) {

@@ -119,15 +119,6 @@ struct PointsFile::Content {
 
 namespace {
 
-/// The rows of places as one matrix.
-Points stacked(const std::vector<Eigen::RowVector3d>& places) {
-  Points points(static_cast<Eigen::Index>(places.size()), 3);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    points.row(static_cast<Eigen::Index>(i)) = places[i];
-  }
-  return points;
-}
-
 /// Calls use(point, pointer to its position, frame, name for messages) for all control points.
 template <class Use>
 void for_each_control_point(const Json& document, const std::filesystem::path& file, const Use& use) {
@@ -192,7 +183,7 @@ PointsFile::PointsFile(const std::filesystem::path& file) {
                              labels_.push_back(label_of(point));
                              markups.points.push_back(control);
                            });
-    positions_ = stacked(places);
+    positions_ = as_points(places);
     lists_ = markups.document.at("markups").size();
     content->as_read = std::move(markups);
   } else if (ends_with(file, ".csv") || ends_with(file, ".fcsv")) {

@@ -28,16 +28,6 @@ OrderedCloud order_nodes(const NodeCloud& cloud, const Conditions& conditions) {
   return {subset(cloud, order), std::move(ordered), std::move(order)};
 }
 
-std::vector<std::int32_t> surface_nodes(const NodeCloud& cloud) {
-  std::vector<std::int32_t> nodes;
-  for (std::size_t a = 0; a < cloud.on_surface.size(); ++a) {
-    if (cloud.on_surface[a] != 0) {
-      nodes.push_back(static_cast<std::int32_t>(a));
-    }
-  }
-  return nodes;
-}
-
 std::vector<std::int32_t> free_surface_nodes(const NodeCloud& cloud, const Conditions& conditions) {
   std::vector<std::int32_t> nodes = surface_nodes(cloud);
   std::erase_if(nodes, [&](std::int32_t a) { return conditions.is_prescribed(a); });

@@ -21,8 +21,6 @@ NodeCloud subset(const NodeCloud& cloud, const std::vector<std::int32_t>& nodes)
 /// All of its rows.
 OrderedCloud order_nodes(const NodeCloud& cloud, const Conditions& conditions);
 
-std::vector<std::int32_t> surface_nodes(const NodeCloud& cloud);
-
 /// Surface nodes that nothing prescribes.
 std::vector<std::int32_t> free_surface_nodes(const NodeCloud& cloud, const Conditions& conditions);
 

@@ -138,16 +138,6 @@ double inset(double spacing, const Points& inner, const Eigen::RowVector3d& outw
   return std::min({rim_inset * spacing, part_to_next * nearest, part_of_width * farthest});
 }
 
-std::vector<std::int32_t> nodes_on_surface(const NodeCloud& cloud) {
-  std::vector<std::int32_t> nodes;
-  for (std::size_t a = 0; a < cloud.size(); ++a) {
-    if (cloud.on_surface[a] != 0) {
-      nodes.push_back(static_cast<std::int32_t>(a));
-    }
-  }
-  return nodes;
-}
-
 /// Surface nodes near a node, other than those in its place.
 struct Near {
   std::vector<std::int32_t> held, free;
@@ -160,7 +150,7 @@ class Surroundings {
       : cloud_(cloud),
         prescribed_(prescribed),
         fixed_(fixed),
-        surface_(nodes_on_surface(cloud)),
+        surface_(surface_nodes(cloud)),
         places_(cloud.positions(surface_, Eigen::all)),
         search_(places_, radii()) {}
 
@@ -245,10 +235,7 @@ PatchRim patch_rim(const NodeCloud& cloud, const Points& prescribed, std::span<c
       append_extension(a, std::move(others), smooth, way, rim.extension);
     }
   }
-  rim.places.resize(static_cast<Eigen::Index>(places.size()), 3);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    rim.places.row(static_cast<Eigen::Index>(i)) = places[i];
-  }
+  rim.places = as_points(places);
   return rim;
 }
 

@@ -68,12 +68,7 @@ double depth_below(const Points& rim, const PointTree& tree, const Eigen::RowVec
 
 /// Which points lie inside the brain.
 std::vector<Eigen::Index> inner_points(const NodeCloud& cloud, const CraniotomyLoad& load) {
-  std::vector<Eigen::Index> surface;
-  for (std::size_t a = 0; a < cloud.size(); ++a) {
-    if (cloud.on_surface[a] != 0) {
-      surface.push_back(static_cast<Eigen::Index>(a));
-    }
-  }
+  const std::vector<std::int32_t> surface = surface_nodes(cloud);
   const Points rim = cloud.positions(surface, Eigen::all);
   const PointTree nodes(cloud.positions), outer(rim);
   const Eigen::RowVector3d middle = cloud.positions.colwise().mean();

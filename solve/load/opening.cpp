@@ -32,13 +32,8 @@ void check_load(const CraniotomyLoad& load) {
   }
 }
 
-std::vector<Eigen::Index> surface_nodes(const NodeCloud& cloud) {
-  std::vector<Eigen::Index> nodes;
-  for (std::size_t n = 0; n < cloud.size(); ++n) {
-    if (cloud.on_surface[n] != 0) {
-      nodes.push_back(static_cast<Eigen::Index>(n));
-    }
-  }
+std::vector<std::int32_t> nodes_to_load(const NodeCloud& cloud) {
+  std::vector<std::int32_t> nodes = surface_nodes(cloud);
   if (nodes.empty()) {
     throw std::invalid_argument("load: the cloud has no surface node (on_surface is 0 everywhere) to carry a load");
   }
@@ -51,7 +46,7 @@ double distance_to(const PointTree& points, const Eigen::RowVector3d& place) {
 
 /// Of a single place the spacing of the nearest node.
 double margin_of(const CraniotomyLoad& load, const OpeningOptions& options, const NodeCloud& cloud,
-                 const std::vector<Eigen::Index>& nodes) {
+                 const std::vector<std::int32_t>& nodes) {
   if (options.margin >= 0) {
     return options.margin;
   }
@@ -68,7 +63,7 @@ double margin_of(const CraniotomyLoad& load, const OpeningOptions& options, cons
 Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options) {
   check_table(opening_options(), options);
   check_load(load);
-  const std::vector<Eigen::Index> nodes = surface_nodes(cloud);
+  const std::vector<std::int32_t> nodes = nodes_to_load(cloud);
   const Points surface = cloud.positions(nodes, Eigen::all);
   check_near_surface(load.positions, surface, options.farthest);
   check_moved(load.displacement, surface);
@@ -76,7 +71,7 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
   const Points candidates = opening.local(surface);
   Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
   share_work(candidates.rows(), places_a_part, [&](std::int64_t n) {
-    const Eigen::Index node = nodes[static_cast<std::size_t>(n)];
+    const std::int32_t node = nodes[static_cast<std::size_t>(n)];
     const double past = on_rim * cloud.spacing[static_cast<std::size_t>(node)];
     if (const auto displacement = opening.displacement_at(candidates.row(n), past, options.depth)) {
       prescribed.row(node) = *displacement;

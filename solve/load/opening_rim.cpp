@@ -88,12 +88,7 @@ Points opening_rim(const Surface& brain, const CraniotomyLoad& load, const Openi
     return Points(0, 3);
   }
   const OpeningShape opening(cortex, brain.vertices, options.margin >= 0 ? options.margin : *margin);
-  const std::vector<Eigen::RowVector3d> places = places_on_rim(brain, opening, options.depth);
-  Points rim(static_cast<Eigen::Index>(places.size()), 3);
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    rim.row(static_cast<Eigen::Index>(p)) = places[p];
-  }
-  return rim;
+  return as_points(places_on_rim(brain, opening, options.depth));
 }
 
 }  // namespace brainshift::solve
