@@ -66,6 +66,17 @@ LiveRun::LiveRun(const fs::path& run, bool with_image, Interruption& interruptio
   }
   lock_.emplace(live_, "end it first");
   number_ = last_number(live_);
+  rehearse();
+}
+
+/// Its memory is then there, so that the first answer takes no longer than others.
+void LiveRun::rehearse() {
+  if (!updated_->answer_own_load().failure.empty()) {
+    updated_.reset();
+    return;
+  }
+  resampling_ =
+      registration::resampling_field(field_->forward(updated_->parameters()), options_.inverse_tolerance).field;
 }
 
 UpdatedRun& LiveRun::updated() {

@@ -39,6 +39,7 @@ class LiveRun {
 
  private:
   UpdatedRun& updated();
+  void rehearse();
 
   std::filesystem::path run_, live_;
   Interruption& interruption_;

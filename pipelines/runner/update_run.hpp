@@ -29,6 +29,9 @@ class UpdatedRun {
   solve::SolveResult solve(const solve::CraniotomyLoad& load, const std::filesystem::path& file,
                            const Progress& progress);
 
+  /// Once more the load that the run was solved with. After a failure the run must be made anew.
+  solve::SolveResult answer_own_load() { return solve::update(kept_, kept_.origin.prescribed); }
+
   /// û of the last answer, in the order of the cloud, (n × 3) mm.
   Points parameters() const;
 

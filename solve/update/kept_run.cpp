@@ -23,9 +23,9 @@ namespace {
 
 constexpr double closer_at_rest = 0.1;  // of the tolerance: what is open here every answer begins with
 
-/// A_0 of what responses leave open: it is local. Lower takes more steps; at a higher one a few nodes that slide along
-/// the skull end far off, as with 0.0025 by twice the bound of the error.
-constexpr double local_eigenvalue = 0.0015;
+/// A_0 of what responses leave open: it is local. Lower takes more steps; at a higher one nodes that slide along the
+/// skull end farther off.
+constexpr double local_eigenvalue = 0.0025;
 
 /// Surface nodes of the whole cloud that nothing prescribes.
 std::vector<std::int32_t> free_nodes(const std::vector<std::uint8_t>& on_surface, const Points& prescribed) {
@@ -88,18 +88,21 @@ Points change_of(const Points& prescribed, const Points& before, const Points& d
   return change;
 }
 
-/// û to begin with. The responses are of the run's own load: with a the change from it and b that from the last one,
-/// what the first order leaves open goes with a² from the one and with b (2 a − b) from the other.
-NodalVectors start_of(const Points& prescribed, const KeptRun& run) {
-  const Points from_last = change_of(prescribed, run.prescribed, run.displacement);
-  const Points from_origin = change_of(prescribed, run.origin.prescribed, run.origin.displacement);
-  const bool last = from_last.norm() * (2 * from_origin - from_last).norm() < from_origin.squaredNorm();
-  return answered(last ? run.fine.parameters : run.origin.parameters, run.responses, last ? from_last : from_origin);
-}
-
 bool knows_responses(const KeptRun& run) {
   const std::vector<float>& parameters = run.responses.parameters;
   return std::any_of(parameters.begin(), parameters.end(), [](float change) { return change != 0; });
+}
+
+/// û to begin with: by the first order and what answers departed from it; where no responses are known, as it was under
+/// the last load or the run's own, whichever is nearer.
+NodalVectors start_of(const Points& prescribed, const Points& from_origin, const KeptRun& run) {
+  if (!knows_responses(run)) {
+    const Points from_last = change_of(prescribed, run.prescribed, run.displacement);
+    return from_last.norm() < from_origin.norm() ? run.fine.parameters : run.origin.parameters;
+  }
+  NodalVectors start = answered(run.origin.parameters, run.responses, from_origin);
+  run.departures.add_expected(run.responses, from_origin, start);
+  return start;
 }
 
 void check_same_opening(const Points& before, const Points& now) {
@@ -177,7 +180,8 @@ KeptRun keep(const Model& model, const SolveOptions& given, const Points& displa
               .displacement = nodal_displacement(stepped.body.nodal_rows, stepped.parameters, stepped.body.original),
               .fine = {},
               .origin = {},
-              .responses = {}};
+              .responses = {},
+              .departures = {}};
   take(stepped, run.fine);
   if (run.prescribed.rows() == 0) {
     run.prescribed = Points::Constant(run.displacement.rows(), 3, std::nan(""));
@@ -191,8 +195,9 @@ SolveResult update(KeptRun& run, const Points& prescribed, const Progress& progr
   check_same_opening(run.prescribed, prescribed);
   SolveMeasures measures = sizes_of(run, prescribed);
   const Stopwatch stepping;
+  const Points from_origin = change_of(prescribed, run.origin.prescribed, run.origin.displacement);
   Course course;
-  course.start = start_of(prescribed, run);
+  course.start = start_of(prescribed, from_origin, run);
   course.settled = run.fine.settled;
   if (knows_responses(run)) {
     course.settled->lowest = std::max(course.settled->lowest, local_eigenvalue);
@@ -202,6 +207,8 @@ SolveResult update(KeptRun& run, const Points& prescribed, const Progress& progr
   SolveResult result = result_of(stepped, run.options, measures);
   result.measures.seconds_stepping = stepping.seconds();
   take(stepped, run.fine);
+  run.departures.learn(run.responses, from_origin, answered(run.origin.parameters, run.responses, from_origin),
+                       run.fine.parameters);
   run.prescribed = prescribed;
   run.displacement = result.solution.displacement;
   return result;

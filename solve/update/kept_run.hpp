@@ -12,6 +12,7 @@
 #include "solve/interface/model.hpp"
 #include "solve/interface/options.hpp"
 #include "solve/interface/result.hpp"
+#include "solve/update/departures.hpp"
 #include "solve/update/responses.hpp"
 
 namespace brainshift::solve {
@@ -33,6 +34,7 @@ struct KeptRun {
   KeptBody fine;                         ///< at rest
   RestState origin;                      ///< under the run's own load; responses are of it
   Responses responses;
+  Departures departures;  ///< from the first order; not kept on disk
 };
 
 /// Why a model cannot be kept, as half a sentence ("it has cuts"); empty: it can.
@@ -44,10 +46,11 @@ std::string cannot_keep(const Model& model, const SolveOptions& options);
 KeptRun keep(const Model& model, const SolveOptions& options, const Points& displacement,
              const Progress& progress = {});
 
-/// The answer to another load, from the state of the last one or of the run's own load, whichever is nearer; the kept
-/// run is at rest under it afterwards. Stops as solve() does. prescribed (n × 3) mm, NaN: free. Throws
-/// std::invalid_argument where it loads other nodes than before, by more than half; TooFewNodes where its conditions
-/// contradict each other. After a throw or a failure the kept run must be read or made again.
+/// The answer to another load, from what the responses and the answers so far tell of it; where no responses are known,
+/// from the state of the last load or of the run's own, whichever is nearer. The kept run is at rest under it
+/// afterwards. Stops as solve() does. prescribed (n × 3) mm, NaN: free. Throws std::invalid_argument where it loads
+/// other nodes than before, by more than half; TooFewNodes where its conditions contradict each other. After a throw or
+/// a failure the kept run must be read or made again.
 SolveResult update(KeptRun& kept, const Points& prescribed, const Progress& progress = {});
 
 /// Writes it whole or not at all. key: of what it was made from. Throws std::runtime_error, naming the file.

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solve/ensemble/each.hpp"
 #include "solve/ensemble/relax_together.hpp"
@@ -12,8 +13,9 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr std::size_t most_waves = 10;  // a direction; with more the step count hardly falls
-constexpr double wave_width = 2.5;      // spacings: of the bells whose principal sums the waves are
+constexpr std::size_t most_waves = 16;  // a direction
+constexpr double wave_width = 0.8;      // of the opening's radius of gyration: of bells that a change is a sum of
+constexpr double like_the_load = 10;    // variance of a change that fades as the load does, over that of any other
 constexpr double amplitude = 0.2;       // mm, at the node where a wave is largest: for the first order
 constexpr double closer = 0.02;         // stop, over the tolerance: a response is multiplied by up to 1 mm / amplitude
 constexpr std::size_t most_nodes = 1500;  // waves over n nodes take n³ operations
@@ -29,20 +31,23 @@ std::vector<std::int32_t> loaded_nodes(const Points& prescribed) {
   return nodes;
 }
 
-/// The longest first.
-Eigen::MatrixXd waves_over(const std::vector<std::int32_t>& nodes, const Body& body) {
-  const Points places = body.positions(nodes, Eigen::all);
+/// The likeliest first. A change is smooth over the opening, and more of it goes with the load than not: it is larger
+/// where the load is. The waves are its principal components.
+Eigen::MatrixXd waves_over(const std::vector<std::int32_t>& nodes, const Points& positions, const Points& prescribed) {
+  const Points places = positions(nodes, Eigen::all);
+  const Points loads = prescribed(nodes, Eigen::all);
+  const Eigen::VectorXd sizes = loads.array().isNaN().select(0, loads.array()).matrix().rowwise().norm();
+  const double largest = sizes.maxCoeff();
+  const Eigen::VectorXd share = largest > 0 ? Eigen::VectorXd(sizes / largest) : sizes;
+  const double gyration = std::sqrt((places.rowwise() - places.colwise().mean()).rowwise().squaredNorm().mean());
+  const double width = wave_width * std::max(gyration, std::numeric_limits<double>::min());
   const auto count = static_cast<Eigen::Index>(nodes.size());
-  double width = 0;
-  for (const std::int32_t node : nodes) {
-    width += wave_width * body.spacing[static_cast<std::size_t>(node)] / static_cast<double>(count);
-  }
-  Eigen::MatrixXd bells(count, count);
+  Eigen::MatrixXd covariance(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    bells.col(i) =
-        (-(places.rowwise() - places.row(i)).rowwise().squaredNorm().array() / (2 * width * width)).exp().matrix();
+    const Eigen::ArrayXd distance = (places.rowwise() - places.row(i)).rowwise().squaredNorm() / (2 * width * width);
+    covariance.col(i) = ((-distance).exp() * (1 + like_the_load * share[i] * share.array())).matrix();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(bells);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(covariance);
   return principal.eigenvectors().rowwise().reverse().leftCols(std::min(count, static_cast<Eigen::Index>(most_waves)));
 }
 
@@ -92,7 +97,7 @@ Responses responses_of(const KeptBody& kept, const Points& prescribed, const Sol
   if (responses.nodes.empty() || responses.nodes.size() > most_nodes) {
     return {};
   }
-  const Eigen::MatrixXd waves = waves_over(responses.nodes, kept.body);
+  const Eigen::MatrixXd waves = waves_over(responses.nodes, kept.body.positions, prescribed);
   responses.waves.assign(waves.data(), waves.data() + waves.size());
   responses.parameters.assign(responses.count() * 9 * kept.body.nodes(), 0.0F);
   SolveOptions options = given;

@@ -57,6 +57,19 @@ TEST(KeptRun, IsAtOnceBackAtItsOwnLoad) {
   EXPECT_LT(back.measures.steps, there);
 }
 
+TEST(KeptRun, LearnsFromItsAnswers) {
+  const Model own = uniaxial(0.9, 5);
+  KeptRun fresh = kept(own);
+  KeptRun taught = fresh;
+  for (const double stretch : {0.8, 0.95}) {
+    update(taught, uniaxial(stretch, 5).conditions.displacement);
+  }
+  const Points asked = uniaxial(0.83, 5).conditions.displacement;
+  const SolveResult first = update(fresh, asked), later = update(taught, asked);
+  EXPECT_LT(later.measures.steps, first.measures.steps);
+  EXPECT_LE(distance(later.solution.displacement, first.solution.displacement), 2 * tolerance);
+}
+
 /// Steps are then made of rounding from the first on.
 TEST(KeptRun, AnswersTheSameLoadAgainInSinglePrecision) {
   const Model own = uniaxial(0.9, 5);
