@@ -69,7 +69,7 @@ LiveRun::LiveRun(const fs::path& run, bool with_image, Interruption& interruptio
   rehearse();
 }
 
-/// Its memory is then there, so that the first answer takes no longer than others.
+/// The system then has given the program its memory, so that the first answer takes no longer than others.
 void LiveRun::rehearse() {
   if (!updated_->answer_own_load().failure.empty()) {
     updated_.reset();
@@ -88,6 +88,8 @@ LiveRun::Answer LiveRun::answer(const fs::path& file) {
   solve::SolveResult result;
   try {
     result = updated().solve(load, file, {});
+  } catch (const std::invalid_argument&) {  // refused before anything moved
+    throw;
   } catch (...) {
     updated_.reset();
     throw;

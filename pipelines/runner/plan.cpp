@@ -3,85 +3,20 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "pipelines/report/report.hpp"
-#include "pipelines/runner/external_command.hpp"
+#include "pipelines/runner/external_stage.hpp"
 #include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/sha256.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/field_load.hpp"
 #include "pipelines/scene/scene_table.hpp"
-#include "segmentation/files/surface_file.hpp"
 #include "solve/material/material.hpp"
-#include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
 namespace {
-
-/// A file that may be there.
-fs::path if_there(const fs::path& file) {
-  return fs::exists(file) ? file : fs::path();
-}
-
-/// Options that the stage's result depends on, as text; files count by their contents, not their names.
-nlohmann::ordered_json options_of(const Scene& scene, const std::vector<std::string>& elements) {
-  const nlohmann::ordered_json all = effective_options(scene);
-  nlohmann::ordered_json options = nlohmann::ordered_json::object();
-  for (const std::string& name : elements) {
-    if (!all.contains(name)) {
-      continue;
-    }
-    options[name] = all[name];
-    if (const Element* element = find_element(name)) {
-      for (const auto& option : element->options) {
-        if (names_file(option, option.get(scene))) {
-          options[name].erase(option.name);
-        }
-      }
-    }
-    if (name == "cuts") {
-      for (std::size_t i = 0; i < scene.cuts->files.size(); ++i) {
-        options[name][std::to_string(i + 1)].erase("file");
-      }
-    }
-  }
-  return options;
-}
-
-std::vector<InputFile> files_of(const Scene& scene, const std::vector<std::string>& elements) {
-  std::vector<InputFile> files;
-  for (const InputFile& file : scene_files(scene)) {
-    const std::string element = file.role.substr(0, file.role.rfind('.'));
-    const auto holds = [&](const std::string& name) { return element == name || element.starts_with(name + "."); };
-    if (std::any_of(elements.begin(), elements.end(), holds)) {
-      files.push_back(file);
-    }
-  }
-  return files;
-}
-
-/// Artefacts of earlier stages, those of them that are there.
-void add_artefacts(StagePlan& plan, const fs::path& folder, const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    if (fs::exists(folder / name)) {
-      plan.inputs.push_back({name, folder / name});
-    }
-  }
-}
-
-std::vector<std::string> load_elements(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Element& element : scene_elements()) {
-    if ((element.path == "load" || element.path.starts_with("load.")) && element.present(scene)) {
-      names.push_back(element.path);
-    }
-  }
-  return names;
-}
 
 std::vector<std::uint16_t> tissue_labels(const Scene& scene) {
   std::vector<std::uint16_t> labels;
@@ -177,18 +112,18 @@ StagePlan plan_discretise(const Scene& given, const fs::path& folder) {
                  .work = {}};
   if (job.refinement.factor < 1) {
     job.load = scene.load;
-    const auto load = load_elements(scene);
+    const auto load = elements_of_load(scene);
     plan.inputs = files_of(scene, load);
     plan.options["load"] = options_of(scene, load);
   }
   plan.options["brain_labels"] = labels;
   plan.options["alike"] = job.options.alike;
-  add_artefacts(plan, folder, {"segment/brain.vtp", "segment/labels.nii.gz"});
+  add_artefacts(plan.inputs, folder, {"segment/brain.vtp", "segment/labels.nii.gz"});
   job.wall = wall_of(scene, folder);
   if (!job.wall.empty()) {
     job.resected = scene.resection->labels;
     plan.options["resected"] = job.resected;
-    add_artefacts(plan, folder, {"segment/resection.vtp"});
+    add_artefacts(plan.inputs, folder, {"segment/resection.vtp"});
   }
   plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
   return plan;
@@ -216,7 +151,7 @@ UncertaintyJob uncertainty_job(const Scene& scene, const fs::path& folder) {
 
 StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
   const SolveJob job = solve_job(scene, folder);
-  std::vector<std::string> elements = load_elements(scene);
+  std::vector<std::string> elements = elements_of_load(scene);
   elements.insert(elements.end(), {"contact", "tissues", "gravity", "cuts", "septum", "resection", "solve"});
   if (asks_for_landmarks(scene)) {
     elements.emplace_back("landmarks");
@@ -229,19 +164,19 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
                  .options = options_of(scene, elements),
                  .artefacts = {"solution.vtu"},
                  .work = {}};
-  add_artefacts(plan, folder,
+  add_artefacts(plan.inputs, folder,
                 {"discretise/nodes.vtu", "discretise/cells.vtu", "segment/brain.vtp", "segment/labels.nii.gz"});
   if (scene.load && scene.load->field) {
     plan.options["field_moves_points"] = direction_of(*scene.load->field) == registration::Moves::points;
   }
   if (scene.contact && scene.contact->skull.empty()) {
-    add_artefacts(plan, folder, {"segment/skull.vtp"});
+    add_artefacts(plan.inputs, folder, {"segment/skull.vtp"});
   }
   if (scene.septa) {
-    add_artefacts(plan, folder, {"segment/septa.vtp"});
+    add_artefacts(plan.inputs, folder, {"segment/septa.vtp"});
   }
   if (!job.wall.empty()) {
-    add_artefacts(plan, folder, {"segment/resection.vtp"});
+    add_artefacts(plan.inputs, folder, {"segment/resection.vtp"});
   }
   if (!job.last.empty()) {
     plan.inputs.push_back({"last/solution.vtu", job.last});
@@ -273,11 +208,11 @@ StagePlan plan_register(const Scene& scene, const fs::path& folder) {
       plan.inputs.push_back(file);
     }
   }
-  add_artefacts(plan, folder,
+  add_artefacts(plan.inputs, folder,
                 {"solve/solution.vtu", "solve/uncertainty.vtu", "segment/brain.vtp", "segment/labels.nii.gz"});
   if (!wall.empty()) {
     plan.options["resected"] = job.resected;
-    add_artefacts(plan, folder, {"segment/resection.vtp"});
+    add_artefacts(plan.inputs, folder, {"segment/resection.vtp"});
   }
   plan.work = [job](const fs::path& out, const Progress& progress) { return run_job(job, out, progress); };
   return plan;
@@ -301,73 +236,6 @@ StagePlan plan_report(const Scene& scene, const fs::path& folder) {
     return StageReport{};
   };
   return plan;
-}
-
-/// What other programs write must be readable before the stage counts as done.
-void check_artefacts(StageId stage, const std::vector<std::string>& artefacts, const fs::path& out) {
-  switch (stage) {
-    case StageId::segment:
-      read_surface(out / "brain.vtp");
-      break;
-    case StageId::discretise:
-      read_node_cloud(out / "nodes.vtu");
-      read_background_cells(out / "cells.vtu");
-      break;
-    case StageId::solve:
-      read_solution(out / "solution.vtu");
-      break;
-    case StageId::registration:
-      read_image(out / artefacts.front());
-      break;
-    case StageId::report:
-      break;
-  }
-}
-
-void run_command_stage(const ExternalCommand& command, const StagePlan& plan, Interruption& interruption) {
-  run_external_command(command, interruption);
-  for (const std::string& name : plan.artefacts) {
-    if (!fs::exists(command.out / name)) {
-      throw std::invalid_argument("the command '" + command.command + "' of stage " +
-                                  std::string(stage_name(plan.stage)) + " wrote no " + name +
-                                  "; it must write it to the folder given as {out}");
-    }
-  }
-  try {
-    check_artefacts(plan.stage, plan.artefacts, command.out);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("the command '" + command.command + "' of stage " +
-                                std::string(stage_name(plan.stage)) +
-                                " wrote something else than it must: " + error.what());
-  }
-}
-
-/// An external command may read all that is there before it; a script that it names counts by its contents.
-void make_external(StagePlan& plan, const Scene& scene, const fs::path& folder, Interruption& interruption) {
-  const std::string& command = scene.commands[index_of(plan.stage)];
-  const fs::path directory = fs::absolute(scene.source.file).parent_path();
-  plan.options["command"] = command;
-  plan.inputs = scene_files(scene);
-  for (const StageId stage : all_stages) {
-    if (stage < plan.stage && fs::is_directory(folder / stage_name(stage))) {
-      for (const auto& entry : fs::directory_iterator(folder / stage_name(stage))) {
-        plan.inputs.push_back({std::string(stage_name(stage)) + "/" + entry.path().filename().string(), entry.path()});
-      }
-    }
-  }
-  std::erase_if(plan.inputs, [](const InputFile& file) { return file.path.filename() == "stage.json"; });
-  std::istringstream words(command);
-  for (std::string word; words >> word;) {
-    if (fs::is_regular_file(directory / word)) {
-      plan.inputs.push_back({"command/" + word, directory / word});
-    }
-  }
-  const fs::path in = folder;
-  StagePlan expected = plan;
-  plan.work = [command, in, directory, expected, &interruption](const fs::path& out, const Progress&) {
-    run_command_stage({.command = command, .in = in, .out = out, .directory = directory}, expected, interruption);
-    return StageReport{};
-  };
 }
 
 }  // namespace
@@ -401,23 +269,6 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
     job.uncertainty = uncertainty_job(scene, folder);
   }
   return job;
-}
-
-std::vector<InputFile> scene_files(const Scene& scene) {
-  std::vector<InputFile> files;
-  for (const Element& element : scene_elements()) {
-    for (const auto& option : element.options) {
-      if (element.present(scene) && names_file(option, option.get(scene))) {
-        files.push_back({element.path + "." + option.name, option.get(scene)});
-      }
-    }
-  }
-  if (scene.cuts) {
-    for (std::size_t i = 0; i < scene.cuts->files.size(); ++i) {
-      files.push_back({"cuts." + std::to_string(i + 1) + ".file", scene.cuts->files[i].file});
-    }
-  }
-  return files;
 }
 
 StagePlan plan_stage(StageId stage, const Scene& scene, const fs::path& folder, Interruption& interruption) {

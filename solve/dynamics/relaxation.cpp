@@ -265,9 +265,12 @@ class Relaxation {
     return work / m.inertia(mass_, m.now, m.before);
   }
 
-  /// By the last steps; once that is small enough, by the last spans, too.
+  /// By the last steps; once that is small enough, by the last spans, too, which an update may not know yet.
   void find_error_bound() {
-    error_bound_ = bound_.value() > tolerance() ? bound_.value() : std::max(bound_.value(), spans_.value());
+    const bool small = bound_.value() <= tolerance();
+    error_bound_ = !small              ? bound_.value()
+                   : spans_.is_known() ? std::max(bound_.value(), spans_.value())
+                                       : std::numeric_limits<double>::infinity();
   }
 
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }

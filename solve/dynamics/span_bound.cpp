@@ -26,7 +26,7 @@ void SpanBound::add(const NodalVectors& now) {
 }
 
 double SpanBound::value() const {
-  if (states_.size() <= 2 * windows_) {
+  if (!is_known()) {
     return 0;
   }
   const NodalVectors &first = states_.front(), &middle = states_[windows_], &last = states_.back();

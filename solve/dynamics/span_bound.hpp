@@ -30,6 +30,9 @@ class SpanBound {
   /// than their mean tells.
   double value() const;
 
+  /// Whether two spans are known.
+  bool is_known() const { return states_.size() > 2 * windows_; }
+
   /// What was seen so far says nothing any more.
   void reset() { states_.clear(); }
 

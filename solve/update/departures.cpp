@@ -9,10 +9,11 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr std::size_t most_lessons = 64;  // six ways to change a load have 21 squares
-constexpr double of_square = 0.2;         // mm: of the departure under a change of 1 mm
-constexpr double left_open = 0.002;       // mm: by relaxation
-constexpr double farthest_change = 2;     // over the largest change so far: beyond it squares say too much
+constexpr std::size_t most_lessons = 64;
+constexpr double of_square = 0.2;      // mm: of the departure under a change of 1 mm
+constexpr double of_bound = 0.2;       // over an answer's bound of the error: its error
+constexpr double farthest_change = 2;  // over the largest so far: of farther ones a small one says too much
+constexpr double same_change = 0.005;  // mm, root mean square
 
 }  // namespace
 
@@ -22,7 +23,7 @@ Departures::Lesson Departures::lesson_of(const Responses& responses, const Point
                                                 static_cast<Eigen::Index>(responses.count()));
   const Eigen::MatrixXd all = change(responses.nodes, Eigen::all) / std::sqrt(static_cast<double>(nodes));
   const Eigen::MatrixXd left = all - waves * (waves.transpose() * all);
-  return {.change = all.reshaped(), .short_waves = left.reshaped(), .departure = {}};
+  return {.change = all.reshaped(), .short_waves = left.reshaped(), .departure = {}, .left_open = 0};
 }
 
 double Departures::covariance(const Lesson& a, const Lesson& b) {
@@ -31,15 +32,16 @@ double Departures::covariance(const Lesson& a, const Lesson& b) {
 }
 
 void Departures::learn(const Responses& responses, const Points& change, const NodalVectors& first_order,
-                       const NodalVectors& answer) {
-  if (responses.count() == 0) {
+                       const NodalVectors& answer, double error_bound) {
+  Lesson lesson = lesson_of(responses, change);
+  if (lesson.change.norm() <= same_change) {
     return;
   }
-  Lesson lesson = lesson_of(responses, change);
-  const auto size = static_cast<Eigen::Index>(answer.size());
-  lesson.departure = (Eigen::Map<const Eigen::VectorXd>(answer.data(), size) -
-                      Eigen::Map<const Eigen::VectorXd>(first_order.data(), size))
-                         .cast<float>();
+  const auto nodes = static_cast<Eigen::Index>(answer.size() / 4);
+  const Eigen::Map<const Eigen::Matrix4Xd> now(answer.data(), 4, nodes), said(first_order.data(), 4, nodes);
+  lesson.departure = (now - said).topRows<3>().cast<float>();
+  lesson.left_open = of_bound * error_bound;
+  std::erase_if(lessons_, [&](const Lesson& other) { return (other.change - lesson.change).norm() <= same_change; });
   lessons_.push_back(std::move(lesson));
   if (lessons_.size() > most_lessons) {
     lessons_.pop_front();
@@ -51,13 +53,8 @@ void Departures::add_expected(const Responses& responses, const Points& change, 
     return;
   }
   Lesson asked = lesson_of(responses, change);
-  double largest = 0;
-  for (const Lesson& lesson : lessons_) {
-    largest = std::max(largest, lesson.change.norm());
-  }
-  if (asked.change.norm() > farthest_change * largest) {
-    asked.change *= farthest_change * largest / asked.change.norm();
-  }
+  shorten(asked.change, &Lesson::change);
+  shorten(asked.short_waves, &Lesson::short_waves);
   const auto count = static_cast<Eigen::Index>(lessons_.size());
   Eigen::MatrixXd known(count, count);
   Eigen::VectorXd with_asked(count);
@@ -66,15 +63,24 @@ void Departures::add_expected(const Responses& responses, const Points& change, 
     for (Eigen::Index j = 0; j <= i; ++j) {
       known(i, j) = covariance(lesson, lessons_[static_cast<std::size_t>(j)]);
     }
-    known(i, i) += left_open * left_open;
+    known(i, i) += lesson.left_open * lesson.left_open;
     with_asked[i] = covariance(lesson, asked);
   }
   const Eigen::VectorXf shares = known.llt().solve(with_asked).cast<float>();
-  Eigen::VectorXf sum = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(first_order.size()));
+  Eigen::Map<Eigen::Matrix4Xd> start(first_order.data(), 4, static_cast<Eigen::Index>(first_order.size() / 4));
   for (Eigen::Index i = 0; i < count; ++i) {
-    sum += shares[i] * lessons_[static_cast<std::size_t>(i)].departure;
+    start.topRows<3>() += (shares[i] * lessons_[static_cast<std::size_t>(i)].departure).cast<double>();
   }
-  Eigen::Map<Eigen::VectorXd>(first_order.data(), sum.size()) += sum.cast<double>();
+}
+
+void Departures::shorten(Eigen::VectorXd& asked, Eigen::VectorXd Lesson::*part) const {
+  double largest = 0;
+  for (const Lesson& lesson : lessons_) {
+    largest = std::max(largest, (lesson.*part).norm());
+  }
+  if (asked.norm() > farthest_change * largest) {
+    asked *= farthest_change * largest / asked.norm();
+  }
 }
 
 }  // namespace brainshift::solve

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view format = "brainshift kept run 6\n";
+constexpr std::string_view format = "brainshift kept run 7\n";
 constexpr std::size_t head_size = 256;
 
 /// Tells damage; eight bytes at a time, every fourth in a sum of its own, which do not wait for each other.

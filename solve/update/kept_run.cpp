@@ -26,6 +26,7 @@ constexpr double closer_at_rest = 0.1;  // of the tolerance: what is open here e
 /// A_0 of what responses leave open: it is local. Lower takes more steps; at a higher one nodes that slide along the
 /// skull end farther off.
 constexpr double local_eigenvalue = 0.0025;
+constexpr double farther_eigenvalue = 0.0015;  // where other nodes are loaded
 
 /// Surface nodes of the whole cloud that nothing prescribes.
 std::vector<std::int32_t> free_nodes(const std::vector<std::uint8_t>& on_surface, const Points& prescribed) {
@@ -88,21 +89,27 @@ Points change_of(const Points& prescribed, const Points& before, const Points& d
   return change;
 }
 
-bool knows_responses(const KeptRun& run) {
-  const std::vector<float>& parameters = run.responses.parameters;
-  return std::any_of(parameters.begin(), parameters.end(), [](float change) { return change != 0; });
+/// Whether responses tell all of a load's change to first order: they are known, and the load is at their nodes.
+bool responses_tell(const KeptRun& run, const Points& prescribed) {
+  return run.responses.count() > 0 && loaded_nodes(prescribed) == run.responses.nodes;
 }
 
-/// û to begin with: by the first order and what answers departed from it; where no responses are known, as it was under
-/// the last load or the run's own, whichever is nearer.
+/// û to begin with: by the first order and what answers departed from it; where the responses do not tell all, as it
+/// was under the last load or the run's own, whichever is nearer, and by the first order from there.
 NodalVectors start_of(const Points& prescribed, const Points& from_origin, const KeptRun& run) {
-  if (!knows_responses(run)) {
-    const Points from_last = change_of(prescribed, run.prescribed, run.displacement);
-    return from_last.norm() < from_origin.norm() ? run.fine.parameters : run.origin.parameters;
+  if (responses_tell(run, prescribed)) {
+    NodalVectors start = answered(run.origin.parameters, run.responses, from_origin);
+    run.departures.add_expected(run.responses, from_origin, start);
+    return start;
   }
-  NodalVectors start = answered(run.origin.parameters, run.responses, from_origin);
-  run.departures.add_expected(run.responses, from_origin, start);
-  return start;
+  const Points from_last = change_of(prescribed, run.prescribed, run.displacement);
+  const bool last = from_last.norm() < from_origin.norm();
+  return answered(last ? run.fine.parameters : run.origin.parameters, run.responses, last ? from_last : from_origin);
+}
+
+void learn(const Points& from_origin, double error_bound, KeptRun& run) {
+  const NodalVectors first_order = answered(run.origin.parameters, run.responses, from_origin);
+  run.departures.learn(run.responses, from_origin, first_order, run.fine.parameters, error_bound);
 }
 
 void check_same_opening(const Points& before, const Points& now) {
@@ -192,23 +199,25 @@ KeptRun keep(const Model& model, const SolveOptions& given, const Points& displa
 }
 
 SolveResult update(KeptRun& run, const Points& prescribed, const Progress& progress) {
-  check_same_opening(run.prescribed, prescribed);
+  check_same_opening(run.origin.prescribed, prescribed);
   SolveMeasures measures = sizes_of(run, prescribed);
   const Stopwatch stepping;
   const Points from_origin = change_of(prescribed, run.origin.prescribed, run.origin.displacement);
   Course course;
   course.start = start_of(prescribed, from_origin, run);
   course.settled = run.fine.settled;
-  if (knows_responses(run)) {
-    course.settled->lowest = std::max(course.settled->lowest, local_eigenvalue);
+  const bool near = responses_tell(run, prescribed);
+  if (run.responses.count() > 0) {
+    course.settled->lowest = std::max(course.settled->lowest, near ? local_eigenvalue : farther_eigenvalue);
   }
   set_fine_load(prescribed, run);
   SteppingResult stepped = relax(std::move(run.fine.body), course, run.options, progress);
   SolveResult result = result_of(stepped, run.options, measures);
   result.measures.seconds_stepping = stepping.seconds();
   take(stepped, run.fine);
-  run.departures.learn(run.responses, from_origin, answered(run.origin.parameters, run.responses, from_origin),
-                       run.fine.parameters);
+  if (near && result.failure.empty()) {
+    learn(from_origin, result.measures.error_bound, run);
+  }
   run.prescribed = prescribed;
   run.displacement = result.solution.displacement;
   return result;

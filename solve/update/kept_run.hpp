@@ -46,11 +46,11 @@ std::string cannot_keep(const Model& model, const SolveOptions& options);
 KeptRun keep(const Model& model, const SolveOptions& options, const Points& displacement,
              const Progress& progress = {});
 
-/// The answer to another load, from what the responses and the answers so far tell of it; where no responses are known,
-/// from the state of the last load or of the run's own, whichever is nearer. The kept run is at rest under it
-/// afterwards. Stops as solve() does. prescribed (n × 3) mm, NaN: free. Throws std::invalid_argument where it loads
-/// other nodes than before, by more than half; TooFewNodes where its conditions contradict each other. After a throw or
-/// a failure the kept run must be read or made again.
+/// The answer to another load, from what the responses and the answers so far tell of it; where it loads other nodes or
+/// none are known, from the state of the last load or of the run's own, whichever is nearer. The kept run is at rest
+/// under it afterwards. Stops as solve() does. prescribed (n × 3) mm, NaN: free. Throws std::invalid_argument where it
+/// loads other nodes than the run did, by more than half; TooFewNodes where its conditions contradict each other; the
+/// kept run then is as it was. After another throw or a failure it must be read or made again.
 SolveResult update(KeptRun& kept, const Points& prescribed, const Progress& progress = {});
 
 /// Writes it whole or not at all. key: of what it was made from. Throws std::runtime_error, naming the file.

@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "solve/ensemble/each.hpp"
 #include "solve/ensemble/relax_together.hpp"
@@ -21,16 +20,6 @@ constexpr double closer = 0.02;         // stop, over the tolerance: a response 
 constexpr std::size_t most_nodes = 1500;  // waves over n nodes take n³ operations
 constexpr int most_steps = 1500;          // that a response is worth
 
-std::vector<std::int32_t> loaded_nodes(const Points& prescribed) {
-  std::vector<std::int32_t> nodes;
-  for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
-    if (is_loaded(prescribed, a)) {
-      nodes.push_back(static_cast<std::int32_t>(a));
-    }
-  }
-  return nodes;
-}
-
 /// The likeliest first. A change is smooth over the opening, and more of it goes with the load than not: it is larger
 /// where the load is. The waves are its principal components.
 Eigen::MatrixXd waves_over(const std::vector<std::int32_t>& nodes, const Points& positions, const Points& prescribed) {
@@ -40,7 +29,7 @@ Eigen::MatrixXd waves_over(const std::vector<std::int32_t>& nodes, const Points&
   const double largest = sizes.maxCoeff();
   const Eigen::VectorXd share = largest > 0 ? Eigen::VectorXd(sizes / largest) : sizes;
   const double gyration = std::sqrt((places.rowwise() - places.colwise().mean()).rowwise().squaredNorm().mean());
-  const double width = wave_width * std::max(gyration, std::numeric_limits<double>::min());
+  const double width = gyration > 0 ? wave_width * gyration : 1;
   const auto count = static_cast<Eigen::Index>(nodes.size());
   Eigen::MatrixXd covariance(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -89,7 +78,32 @@ void note_response(const NodalVectors& now, const KeptBody& kept, const Column& 
   }
 }
 
+/// A wave without all of its responses counts as unknown.
+void keep_whole_waves(const std::vector<bool>& whole, Responses& responses) {
+  const std::size_t nodes = responses.nodes.size(), size = responses.parameters.size() / whole.size();
+  std::size_t kept = 0;
+  for (std::size_t w = 0; w < whole.size(); ++w) {
+    if (whole[w]) {
+      std::copy_n(responses.waves.data() + w * nodes, nodes, responses.waves.data() + kept * nodes);
+      std::copy_n(responses.parameters.data() + w * size, size, responses.parameters.data() + kept * size);
+      ++kept;
+    }
+  }
+  responses.waves.resize(kept * nodes);
+  responses.parameters.resize(kept * size);
+}
+
 }  // namespace
+
+std::vector<std::int32_t> loaded_nodes(const Points& prescribed) {
+  std::vector<std::int32_t> nodes;
+  for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
+    if (is_loaded(prescribed, a)) {
+      nodes.push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  return nodes;
+}
 
 Responses responses_of(const KeptBody& kept, const Points& prescribed, const SolveOptions& given,
                        const Progress& progress) {
@@ -105,6 +119,7 @@ Responses responses_of(const KeptBody& kept, const Points& prescribed, const Sol
   options.max_steps = std::min(options.max_steps, most_steps);
   options.snapshot_every = 0;
   const std::vector<Column> columns = columns_of(waves);
+  std::vector<bool> whole(responses.count(), true);
   for (std::size_t first = 0; first < columns.size(); first += members) {
     report(progress, static_cast<double>(first) / static_cast<double>(columns.size()), "responses to changes");
     const std::size_t last = std::min(first + members, columns.size());
@@ -113,13 +128,15 @@ Responses responses_of(const KeptBody& kept, const Points& prescribed, const Sol
       loads.push_back(loaded_by(columns[c], responses, kept, prescribed));
     }
     if (!may_go_together(kept.body, loads, options)) {
-      return responses;
+      return {};
     }
     const std::vector<MemberResult> moved = relax_together(kept.body, loads, {}, options, {}, true);
     for (std::size_t c = first; c < last; ++c) {
       note_response(moved[c - first].parameters, kept, columns[c], responses);
+      whole[columns[c].wave] = whole[columns[c].wave] && !moved[c - first].parameters.empty();
     }
   }
+  keep_whole_waves(whole, responses);
   return responses;
 }
 

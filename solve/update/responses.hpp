@@ -24,8 +24,8 @@ inline bool is_loaded(const Points& prescribed, Eigen::Index node) {
 }
 
 /// How a body at rest answers small changes of what is prescribed: to long waves over the loaded nodes. What answers to
-/// short ones lies near them and relaxes in a few steps. All zero where it is not known, and none where more than 1500
-/// nodes are loaded: a start from them is farther off.
+/// short ones lies near them and relaxes in a few steps. None of a wave under which the body did not come to rest, and
+/// none at all where more than 1500 nodes are loaded: a start from them is farther off.
 struct Responses {
   std::vector<std::int32_t> nodes;  ///< loaded, of the cloud
   std::vector<double> waves;        ///< (waves × nodes), orthonormal
@@ -33,6 +33,9 @@ struct Responses {
 
   std::size_t count() const { return nodes.empty() ? 0 : waves.size() / nodes.size(); }
 };
+
+/// Nodes that a load prescribes any component at, in order.
+std::vector<std::int32_t> loaded_nodes(const Points& prescribed);
 
 /// prescribed: (n × 3) mm, NaN: free; of the load that the body is at rest under. options: that it was solved with.
 Responses responses_of(const KeptBody& kept, const Points& prescribed, const SolveOptions& options,

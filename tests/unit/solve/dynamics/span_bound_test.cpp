@@ -74,8 +74,10 @@ TEST(SpanBound, IsZeroOfABodyAtRestAndWhileTooLittleIsKnown) {
   SpanBound bound(20);
   bound.add(places(1, 1));
   bound.add(places(0, 0));
+  EXPECT_FALSE(bound.is_known());
   EXPECT_EQ(bound.value(), 0);
   bound.add(places(0, 0));
+  EXPECT_TRUE(bound.is_known());
   EXPECT_EQ(bound.value(), 0);
   bound.add(places(1, 1));
   EXPECT_GT(bound.value(), 0);

@@ -41,7 +41,7 @@ NodalVectors expected(const Departures& departures, const Points& change) {
 }
 
 void learn(Departures& departures, const Points& change) {
-  departures.learn(one_wave(), change, nothing, answer_to(change));
+  departures.learn(one_wave(), change, nothing, answer_to(change), 0.01);
 }
 
 TEST(Departures, OfNoAnswersAreNone) {
@@ -64,6 +64,19 @@ TEST(Departures, FarFromAllAnswersAreNotMuchLarger) {
   learn(departures, change_by(0.5, 0, 0));
   const double twice = largest_component(expected(departures, change_by(1, 0, 0)));
   EXPECT_NEAR(largest_component(expected(departures, change_by(10, 0, 0))), twice, 1e-6);
+  learn(departures, change_by(0, 0, 0.01));
+  const double short_twice = largest_component(expected(departures, change_by(0, 0, 0.02)));
+  EXPECT_LT(largest_component(expected(departures, change_by(0, 0, 1))), 1.1 * short_twice);  // with its square
+}
+
+/// A file may be written anew each second.
+TEST(Departures, OfTheSameLoadTheLastCounts) {
+  Departures departures;
+  learn(departures, change_by(0, 0, 1));
+  for (int again = 0; again < 100; ++again) {
+    learn(departures, change_by(0.5, 0, 0));
+  }
+  EXPECT_GT(largest_component(expected(departures, change_by(0, 0, 1))), 0.2);
 }
 
 /// An operation may go on for hours.
@@ -72,7 +85,7 @@ TEST(Departures, OldAnswersAreForgotten) {
   learn(departures, change_by(0, 0, 1));
   EXPECT_GT(largest_component(expected(departures, change_by(0, 0, 1))), 0.2);
   for (int again = 0; again < 100; ++again) {
-    learn(departures, change_by(0.1, 0, 0));
+    learn(departures, change_by(0.1 + 0.01 * again, 0, 0));
   }
   EXPECT_LT(largest_component(expected(departures, change_by(0, 0, 1))), 1e-6);
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "solve/solve.hpp"
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/pressed_bar.hpp"
@@ -68,6 +70,31 @@ TEST(KeptRun, LearnsFromItsAnswers) {
   const SolveResult first = update(fresh, asked), later = update(taught, asked);
   EXPECT_LT(later.measures.steps, first.measures.steps);
   EXPECT_LE(distance(later.solution.displacement, first.solution.displacement), 2 * tolerance);
+}
+
+/// Nodes of the last layer that a load no longer holds, or holds anew, are nothing that responses know.
+TEST(KeptRun, AnswersALoadOfOtherNodes) {
+  const Model own = uniaxial(0.9, 5);
+  KeptRun run = kept(own);
+  Model other = uniaxial(0.85, 5);
+  const Points& places = other.cloud.positions;
+  for (Eigen::Index a = 0; a < places.rows(); ++a) {
+    if (places(a, 0) == places.col(0).maxCoeff() && places(a, 1) == places.col(1).maxCoeff()) {
+      other.conditions.displacement.row(a).setConstant(std::nan(""));
+    }
+  }
+  const Points expected = solve(other, options()).solution.displacement;
+  EXPECT_LE(distance(update(run, other.conditions.displacement).solution.displacement, expected), 2 * tolerance);
+  const SolveResult back = update(run, own.conditions.displacement);
+  EXPECT_LE(distance(back.solution.displacement, run.origin.displacement), 2 * tolerance);
+}
+
+TEST(KeptRun, IsAsItWasAfterALoadThatItRefuses) {
+  const Model own = uniaxial(0.9, 5);
+  KeptRun run = kept(own);
+  EXPECT_THROW(update(run, Points::Constant(own.cloud.positions.rows(), 3, std::nan(""))), std::invalid_argument);
+  const SolveResult back = update(run, own.conditions.displacement);
+  EXPECT_LE(distance(back.solution.displacement, run.origin.displacement), tolerance);
 }
 
 /// Steps are then made of rounding from the first on.
