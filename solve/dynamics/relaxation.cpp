@@ -267,10 +267,11 @@ class Relaxation {
 
   /// By the last steps; once that is small enough, by the last spans, too, which an update may not know yet.
   void find_error_bound() {
-    const bool small = bound_.value() <= tolerance();
-    error_bound_ = !small              ? bound_.value()
-                   : spans_.is_known() ? std::max(bound_.value(), spans_.value())
-                                       : std::numeric_limits<double>::infinity();
+    error_bound_ = bound_.value();
+    if (error_bound_ <= tolerance()) {
+      error_bound_ =
+          spans_.is_known() ? std::max(error_bound_, spans_.value()) : std::numeric_limits<double>::infinity();
+    }
   }
 
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }

@@ -94,22 +94,12 @@ bool responses_tell(const KeptRun& run, const Points& prescribed) {
   return run.responses.count() > 0 && loaded_nodes(prescribed) == run.responses.nodes;
 }
 
-/// û to begin with: by the first order and what answers departed from it; where the responses do not tell all, as it
-/// was under the last load or the run's own, whichever is nearer, and by the first order from there.
-NodalVectors start_of(const Points& prescribed, const Points& from_origin, const KeptRun& run) {
-  if (responses_tell(run, prescribed)) {
-    NodalVectors start = answered(run.origin.parameters, run.responses, from_origin);
-    run.departures.add_expected(run.responses, from_origin, start);
-    return start;
-  }
+/// û by the first order from the run's own load; where the responses do not tell all, from the last load where that is
+/// nearer.
+NodalVectors first_order(const Points& prescribed, const Points& from_origin, bool tells_all, const KeptRun& run) {
   const Points from_last = change_of(prescribed, run.prescribed, run.displacement);
-  const bool last = from_last.norm() < from_origin.norm();
+  const bool last = !tells_all && from_last.norm() < from_origin.norm();
   return answered(last ? run.fine.parameters : run.origin.parameters, run.responses, last ? from_last : from_origin);
-}
-
-void learn(const Points& from_origin, double error_bound, KeptRun& run) {
-  const NodalVectors first_order = answered(run.origin.parameters, run.responses, from_origin);
-  run.departures.learn(run.responses, from_origin, first_order, run.fine.parameters, error_bound);
 }
 
 void check_same_opening(const Points& before, const Points& now) {
@@ -134,9 +124,7 @@ SolveMeasures sizes_of(const KeptRun& run, const Points& prescribed) {
   measures.pairs = std::accumulate(points.support.begin(), points.support.end(), std::size_t{0});
   measures.mean_support = static_cast<double>(measures.pairs) / static_cast<double>(points.points());
   measures.single_precision = points.precision() == Precision::single_precision;
-  for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
-    measures.loaded_nodes += is_loaded(prescribed, a) ? 1 : 0;
-  }
+  measures.loaded_nodes = loaded_nodes(prescribed).size();
   return measures;
 }
 
@@ -203,20 +191,24 @@ SolveResult update(KeptRun& run, const Points& prescribed, const Progress& progr
   SolveMeasures measures = sizes_of(run, prescribed);
   const Stopwatch stepping;
   const Points from_origin = change_of(prescribed, run.origin.prescribed, run.origin.displacement);
+  const bool tells_all = responses_tell(run, prescribed);
+  const NodalVectors told = first_order(prescribed, from_origin, tells_all, run);
   Course course;
-  course.start = start_of(prescribed, from_origin, run);
+  course.start = told;
   course.settled = run.fine.settled;
-  const bool near = responses_tell(run, prescribed);
+  if (tells_all) {
+    run.departures.add_expected(run.responses, from_origin, course.start);
+  }
   if (run.responses.count() > 0) {
-    course.settled->lowest = std::max(course.settled->lowest, near ? local_eigenvalue : farther_eigenvalue);
+    course.settled->lowest = std::max(course.settled->lowest, tells_all ? local_eigenvalue : farther_eigenvalue);
   }
   set_fine_load(prescribed, run);
   SteppingResult stepped = relax(std::move(run.fine.body), course, run.options, progress);
   SolveResult result = result_of(stepped, run.options, measures);
   result.measures.seconds_stepping = stepping.seconds();
   take(stepped, run.fine);
-  if (near && result.failure.empty()) {
-    learn(from_origin, result.measures.error_bound, run);
+  if (tells_all && result.failure.empty()) {
+    run.departures.learn(run.responses, from_origin, told, run.fine.parameters, result.measures.error_bound);
   }
   run.prescribed = prescribed;
   run.displacement = result.solution.displacement;
