@@ -9,6 +9,7 @@
 #include "pipelines/runner/external_stage.hpp"
 #include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/sha256.hpp"
+#include "pipelines/scene/check_parts.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/field_load.hpp"
 #include "pipelines/scene/scene_table.hpp"
@@ -129,9 +130,9 @@ StagePlan plan_discretise(const Scene& given, const fs::path& folder) {
   return plan;
 }
 
-/// A load that says its noise on itself tells how well it knows the landmarks, and so do samples.
+/// A load with noise tells how well it knows the landmarks, and so do samples.
 bool asks_for_landmarks(const Scene& scene) {
-  return scene.landmarks && ((scene.load && scene.load->noise) || scene.uncertainty);
+  return scene.landmarks && ((scene.load && has_noise(*scene.load)) || scene.uncertainty);
 }
 
 std::string name_of(const Tissue& tissue) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/jobs.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <stdexcept>
 
 #include "pipelines/runner/job_files.hpp"
@@ -77,15 +78,39 @@ bool has_inner_points(const solve::Model& model) {
   return model.conditions.measured && model.conditions.measured->inner.rows() > 0;
 }
 
+/// What is taken of the load. Where that is asked for, points that contradict those with which the solve joins them
+/// hardly count; else a note names the worst, which the mean would hide.
+solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, bool robust, std::vector<std::string>& notes) {
+  solve::CraniotomyLoad taken = load;
+  if (load.sigma.rows() == 0) {
+    return taken;
+  }
+  const Warnings warnings =
+      robust ? warnings_of(solve::lessen_joined(taken)) : warnings_of(solve::worst_of_joined(taken));
+  for (const std::string& warning : warnings) {
+    notes.push_back("warning: " + warning);
+  }
+  return taken;
+}
+
+/// Whether a turn about one line would hardly move any of them.
+bool are_in_line(const Points& positions) {
+  constexpr double nearly = 0.01;  // of their extent along the line
+  const Points centred = positions.rowwise() - positions.colwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(centred.transpose() * centred);
+  return spread.eigenvalues()[1] <= nearly * nearly * spread.eigenvalues()[2];
+}
+
 void need_noise(const solve::CraniotomyLoad& load) {
   if (load.sigma.rows() == 0) {
     throw std::invalid_argument(
         "an unknown registration needs to know how well the points were measured; give <load> a noise, or the file a "
         "column sigma");
   }
-  if (load.positions.rows() < 3) {
+  if (are_in_line(load.positions)) {
     throw std::invalid_argument("an unknown registration needs three measured points that are not in line, found " +
-                                std::to_string(load.positions.rows()));
+                                std::to_string(load.positions.rows()) +
+                                (load.positions.rows() < 3 ? "" : ", all nearly in one line"));
   }
 }
 
@@ -107,7 +132,7 @@ void write_measured(const SolveInput& input, const solve::SolveResult& result, c
       said.notes.push_back(
           "no skull holds the brain: all rigid motion that was measured counts as the patient's registration");
     } else if (doubt > 1) {
-      said.notes.push_back("warning: the error of the registration is known to " + std::to_string(doubt) +
+      said.notes.push_back("warning: the error of the registration is known to " + solve::rounded(doubt) +
                            " mm only; the points do not tell it from the brain's own motion: measure some inside the "
                            "brain, or away from the opening");
     }
@@ -228,13 +253,14 @@ SolveInput read_input(const SolveJob& job) {
       load.sigma = Points::Constant(load.positions.rows(), 3, *job.load->noise);
     }
     naming(load_files(*job.load), [&] {
+      const solve::CraniotomyLoad taken = looked_through(load, job.load->robust, input.notes);
       if (!job.load->registration_unknown) {
-        impose(load, *job.load, model);
+        impose(taken, *job.load, model);
         return;
       }
-      need_noise(load);
+      need_noise(taken);
       const PatientRegistration found = patient_registration(
-          load, job.options, [&](const auto& l, solve::Model& m) { impose(l, *job.load, m); }, model);
+          taken, job.options, [&](const auto& l, solve::Model& m) { impose(l, *job.load, m); }, model);
       input.registration = found.motion;
       if (found.open > registration_at_rest) {
         input.notes.push_back("warning: the registration has not come to rest: it would still move by " +

@@ -60,10 +60,6 @@ solve::Model parts_of(const Scene& scene) {
   return model;
 }
 
-bool has_noise(const Load& load) {
-  return load.noise || (load.craniotomy && solve::read_craniotomy_csv(*load.craniotomy).sigma.rows() > 0);
-}
-
 void check_uncertainty(const Scene& scene) {
   if (scene.uncertainty->share > scene.uncertainty->shares) {
     throw std::invalid_argument("share is " + std::to_string(scene.uncertainty->share) + " of " +
@@ -79,6 +75,10 @@ void check_uncertainty(const Scene& scene) {
 }
 
 }  // namespace
+
+bool has_noise(const Load& load) {
+  return load.noise || (load.craniotomy && solve::read_craniotomy_csv(*load.craniotomy).sigma.rows() > 0);
+}
 
 void check_parts(const Scene& scene) {
   check_cuts(scene);

@@ -10,6 +10,9 @@ namespace brainshift::pipelines {
 /// and what to do.
 void check_parts(const Scene& scene);
 
+/// Whether the scene or the load's file says how well its points were measured. Throws as read_craniotomy_csv().
+bool has_noise(const Load& load);
+
 /// The part of it for a region of the body.
 void check_region(const Scene& scene);
 

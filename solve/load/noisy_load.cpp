@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <stdexcept>
 #include <string>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/load/joined_points.hpp"
 #include "solve/load/spread_out.hpp"
 
 namespace brainshift::solve {
@@ -18,34 +18,6 @@ namespace {
 
 CraniotomyLoad rows_of(const CraniotomyLoad& load, const std::vector<Eigen::Index>& rows) {
   return {load.positions(rows, Eigen::all), load.displacement(rows, Eigen::all), load.sigma(rows, Eigen::all)};
-}
-
-using Cell = std::array<double, 3>;
-
-std::map<Cell, std::vector<Eigen::Index>> cells_of(const Points& positions, double edge) {
-  std::map<Cell, std::vector<Eigen::Index>> cells;
-  for (Eigen::Index p = 0; p < positions.rows(); ++p) {
-    const Eigen::RowVector3d x = positions.row(p);
-    const Eigen::RowVector3d at = edge > 0 ? (x / edge).array().floor().matrix().eval() : x;
-    cells[{at[0], at[1], at[2]}].push_back(p);
-  }
-  return cells;
-}
-
-CraniotomyLoad means_of(const CraniotomyLoad& load, const std::map<Cell, std::vector<Eigen::Index>>& cells) {
-  CraniotomyLoad joint{Points::Zero(static_cast<Eigen::Index>(cells.size()), 3), {}, {}};
-  joint.displacement = joint.sigma = joint.positions;
-  Eigen::Index row = 0;
-  for (const auto& [cell, members] : cells) {
-    const Points weight = load.sigma(members, Eigen::all).array().square().inverse();
-    const Eigen::RowVector3d total = weight.colwise().sum();
-    const Points u = load.displacement(members, Eigen::all);
-    joint.positions.row(row) = load.positions(members, Eigen::all).colwise().mean();
-    joint.displacement.row(row) = weight.cwiseProduct(u).colwise().sum().cwiseQuotient(total);
-    joint.sigma.row(row) = total.cwiseInverse().cwiseSqrt();
-    ++row;
-  }
-  return joint;
 }
 
 /// Depth below the surface about the nearest surface nodes, along the normal of their plane; negative outside.
@@ -142,15 +114,6 @@ Eigen::SparseMatrix<double> shares_of_nearest(const Points& positions, const std
 }
 
 }  // namespace
-
-CraniotomyLoad joined(const CraniotomyLoad& load, int most) {
-  constexpr double finest = 1;  // mm
-  std::map<Cell, std::vector<Eigen::Index>> cells = cells_of(load.positions, 0);
-  for (double edge = finest; static_cast<int>(cells.size()) > most; edge *= std::cbrt(2.0)) {
-    cells = cells_of(load.positions, edge);
-  }
-  return static_cast<Eigen::Index>(cells.size()) == load.positions.rows() ? load : means_of(load, cells);
-}
 
 Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options) {
   if (load.sigma.rows() != load.positions.rows() || !(load.sigma.array() >= smallest_noise).all()) {

@@ -11,13 +11,6 @@ namespace brainshift::solve {
 /// is one of the cortex.
 inline constexpr double cortex_depth = 5.0;
 
-/// Points beyond so many, of the cortex and inside each, are joined with their neighbours.
-inline constexpr int most_measured_points = 150;
-
-/// At most so many points: those in one cell of the finest cubic grid that suffices are joined to their weighted mean,
-/// whose variance is 1/Σ(1/σ²). All as they are where they are few enough and no two lie in one place.
-CraniotomyLoad joined(const CraniotomyLoad& load, int most);
-
 /// The conditions of a load with standard deviations. Points of the cortex are extended to the surface nodes under the
 /// opening, prescribed_on_surface_nodes(), with the share of each in each node; points inside are kept apart. Throws as
 /// that does; std::invalid_argument on a point without a standard deviation.

@@ -8,6 +8,7 @@
 #include "solve/interface/model.hpp"
 #include "solve/interface/options.hpp"
 #include "solve/interface/result.hpp"
+#include "solve/load/contradictions.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::solve {
@@ -22,22 +23,10 @@ MeasuredFit fit_measured(const Model& model, const SolveOptions& options);
 /// 0 at nodes that are held. Throws as solve() does.
 Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
 
-/// Where what was measured contradicts itself.
-struct Outlier {
-  Eigen::Vector3d position;  ///< undeformed, of the measured point, mm
-  double deviations;         ///< surprise() over what is usual of this load, at least 1: from what the others say
-};
-
 /// The most surprising of the measured points, by the energy of the deformation alone as prior, where it is more than
 /// five standard deviations off, and five times farther than is usual of this load: where all are far off, σ is too
 /// small, and no point is to blame. Throws as solve() does.
 std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options);
-
-/// Measured points that contradict the others.
-struct LessenedPoints {
-  Points positions;      ///< of those that keep less than half of their weight, undeformed, mm
-  Eigen::Index all = 0;  ///< points that were looked at
-};
 
 /// Lets the measured points that contradict the others count for less: the conditions are made anew,
 /// noisy_conditions(), without those that robust_weights() leaves nothing, and with the standard deviations of the

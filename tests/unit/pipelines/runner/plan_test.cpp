@@ -68,6 +68,16 @@ TEST_F(Stamps, ChangeForTheStagesThatDependOnAnOptionAlone) {
   EXPECT_EQ(changed_by([&] { scene_.tissues.push_back({3, "", "", {}}); }), "sdv-");
 }
 
+/// A load that says how well it was measured, by itself or in its file, tells how well it knows the landmarks.
+TEST_F(Stamps, OfASolutionChangeWithTheLandmarksOfALoadWithNoise) {
+  const std::string head = "# frame: LPS\nx,y,z,ux,uy,uz", row = "\n0,0,20,0,0,-1";
+  write("load.csv", head + row + "\n");
+  scene_.landmarks = write("landmarks.fcsv", "some");
+  EXPECT_EQ(changed_by([&] { write("landmarks.fcsv", "others"); }).substr(0, 3), "---");
+  write("load.csv", head + ",sigma" + row + ",0.5\n");
+  EXPECT_EQ(changed_by([&] { write("landmarks.fcsv", "once more"); }).substr(0, 3), "--v");
+}
+
 /// Which boundaries have nodes follows from the materials.
 TEST_F(Stamps, OfNodesAtBoundariesChangeWithThoseThatCount) {
   scene_.tissues = {{1, "", "", {}}, {3, "", "", {}}};

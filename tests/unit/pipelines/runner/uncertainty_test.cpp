@@ -200,6 +200,27 @@ TEST_F(UncertaintyTest, RefusesALoadWhosePointsDoNotTellAMotionFromNoise) {
   }
 }
 
+TEST_F(UncertaintyTest, RefusesARegistrationByPointsInLine) {
+  SolveJob job = solve_job(2, 0.5);
+  job.load->registration_unknown = true;
+  write("load.csv", "# frame: LPS\nx,y,z,ux,uy,uz\n0,0,20,0,0,-1\n2,0.001,20,0,0,-1\n4,0,20,0,0,-1\n-3,0,20,0,0,-1\n");
+  expect_parts(refusal([&] { solved(job, "out"); }), {"not in line", "found 4, all nearly in one line"});
+}
+
+/// The mean of the two would hide both.
+TEST_F(UncertaintyTest, NamesThePlaceThatWasMeasuredTwiceAndDifferently) {
+  const SolveJob job = solve_job(2, 0.5);
+  std::string text = read(folder_ / "load.csv");
+  const std::size_t last = text.find_last_of('\n', text.size() - 2) + 1;
+  const std::string row = text.substr(last), place = row.substr(0, row.find(',', row.find(',', row.find(',') + 1) + 1));
+  write("load.csv", text + place + ",30,0,0\n");
+  std::string notes;
+  for (const std::string& note : solved(job, "out").notes) {
+    notes += note + "\n";
+  }
+  expect_parts(notes, {"warning: what was measured near (", "standard deviations from what the other points say"});
+}
+
 TEST_F(UncertaintyTest, NamesThePointThatContradictsTheOthers) {
   const SolveJob job = solve_job(2, 0.5);
   const solve::CraniotomyLoad dense = solve::read_craniotomy_csv(folder_ / "load.csv");

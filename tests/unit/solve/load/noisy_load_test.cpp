@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "solve/load/joined_points.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/clouds.hpp"
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "solve/load/craniotomy_load.hpp"
+
+namespace brainshift::solve {
+
+/// Where what was measured contradicts itself.
+struct Outlier {
+  Eigen::Vector3d position;  ///< undeformed, of the measured point, mm
+  double deviations;         ///< standard deviations from what the others say, over what is usual of this load
+};
+
+/// Measured points that contradict the others.
+struct LessenedPoints {
+  Points positions = Points(0, 3);  ///< of those that keep less than half of their weight, undeformed, mm
+  Eigen::Index all = 0;             ///< points that were looked at
+};
+
+/// Of the measured points that joined() would join, the one that is farthest from the mean of the others with which it
+/// is joined, where that is more than five standard deviations of their distance, and five times farther than is usual
+/// of this load. Their mean would hide it from worst_outlier(). load: with standard deviations.
+std::optional<Outlier> worst_of_joined(const CraniotomyLoad& load);
+
+/// Raises the standard deviations of such points until none is left, so that they hardly count in the mean; of two in
+/// one place that contradict each other those of both, as nothing says which is wrong.
+LessenedPoints lessen_joined(CraniotomyLoad& load);
+
+}  // namespace brainshift::solve
