@@ -25,13 +25,14 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
 /// frame.
 Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<const std::uint16_t> brain);
 
-/// Of a body that nothing but its measured load holds. displacement: what came out, (n × 3) mm.
+/// Of a body that nothing but its measured load, on less than half of its surface, holds. displacement: what came out,
+/// (n × 3) mm.
 Warnings warnings_of(const solve::Model& model, const Points& displacement);
 
 /// Of a head that is weighed as if it did not float.
 Warnings warnings_of_weight(const solve::Model& model);
 
-/// Of strong compression with few integration points, of high pressure, and of parts that few nodes hardly resolve.
+/// Of few integration points, at all or under strong compression, of high pressure, and of what few nodes resolve.
 Warnings warnings_of(const solve::SolveMeasures& measures);
 
 /// Of what was measured where it contradicts itself.

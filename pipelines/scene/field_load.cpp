@@ -22,9 +22,13 @@ Points read_opening(const std::filesystem::path& file) {
   return places;
 }
 
-/// The surface nodes under the opening, those on which measured points there would act.
+/// The surface nodes under the opening, those on which measured points there would act; all where none is named.
 std::vector<Eigen::Index> nodes_under(const std::filesystem::path& where, const solve::OpeningOptions& opening,
                                       const NodeCloud& cloud) {
+  if (where.empty()) {
+    const std::vector<std::int32_t> all = surface_nodes(cloud);
+    return {all.begin(), all.end()};
+  }
   const Points rim = read_opening(where);
   Points reached;
   try {
@@ -67,7 +71,9 @@ Moves direction_of(const FieldLoad& field) {
 void check_field_load(const FieldLoad& field) {
   direction_of(field);
   registration::read_place_map(field.file);
-  read_opening(field.where);
+  if (!field.where.empty()) {
+    read_opening(field.where);
+  }
 }
 
 FieldOnSurface field_on_surface_nodes(const FieldLoad& field, const solve::OpeningOptions& opening,
@@ -90,8 +96,8 @@ FieldOnSurface field_on_surface_nodes(const FieldLoad& field, const solve::Openi
   result.known = known.size();
   if (known.empty()) {
     refuse(field.file,
-           "it says nothing of the " + std::to_string(nodes.size()) + " places of the brain's surface" + " under " +
-               field.where.string() +
+           "it says nothing of the " + std::to_string(nodes.size()) + " places of the brain's surface" +
+               (field.where.empty() ? "" : " under " + field.where.string()) +
                ": they lie outside its grid, or it takes no place to them; is it of this patient, and in the "
                "image's frame?");
   }

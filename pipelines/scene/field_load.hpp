@@ -22,8 +22,9 @@ struct FieldOnSurface {
   std::size_t not_found = 0;  ///< nodes that the field, which resamples, takes no place to: it folds, or ends there
 };
 
-/// The displacement that a field has at the surface nodes under its opening. A field that moves points is looked up; of
-/// one that moves images the intraop place is sought that it takes to the node, registration::inverse_at(). Throws
+/// The displacement that a field has at the surface nodes under its opening, or at all of them where it names none, as
+/// far as it is known there, registration::read_place_map(). A field that moves points is looked up; of one that moves
+/// images the intraop place is sought that it takes to the node, registration::inverse_at(). Throws
 /// std::invalid_argument, naming the file, as check_field_load() and solve::prescribed_on_surface_nodes() of the
 /// opening do, and when it knows none of the nodes.
 FieldOnSurface field_on_surface_nodes(const FieldLoad& field, const solve::OpeningOptions& opening,

@@ -66,7 +66,7 @@ struct BeforeAfter {
 /// Another program's registration of the preop to the intraop brain.
 struct FieldLoad {
   std::filesystem::path file;   ///< field or transform, registration::read_place_map()
-  std::filesystem::path where;  ///< the opening: a surface over it, or markups about it
+  std::filesystem::path where;  ///< a surface over the opening, or markups about it; empty: all of the brain's surface
   enum class Moves : std::uint8_t { by_name, points, image } moves = Moves::by_name;  ///< registration::Moves
 };
 

@@ -126,10 +126,12 @@ OptionTable<Scene> load_options() {
 OptionTable<Scene> field_load_options() {
   return {required(file_option<Scene>("file", MEMBER(load->field->file),
                                       "displacements, mm, as an image of vectors (.nii, .nii.gz, .nrrd, .mha), or an "
-                                      "ITK transform (.h5, .tfm, .txt, .mat)")),
-          required(file_option<Scene>("where", MEMBER(load->field->where),
-                                      "the opening: a surface over it (.vtp, .stl, .ply, .obj), or markups about it or "
-                                      "on it (.mrk.json, .fcsv)")),
+                                      "ITK transform (.h5, .tfm, .txt, .mat), also one of several; of a pair, as ANTs "
+                                      "writes a warp and an affine, make one first")),
+          file_option<Scene>("where", MEMBER(load->field->where),
+                             "the opening: a surface over it (.vtp, .stl, .ply, .obj), or markups about it or on it "
+                             "(.mrk.json, .fcsv); absent: all of the brain's surface where the file is defined, a "
+                             "field or B-spline in its grid, an affine transform everywhere, several where all are"),
           choice_option<Scene>("moves", MEMBER(load->field->moves),
                                {{"by_name", FieldLoad::Moves::by_name},
                                 {"points", FieldLoad::Moves::points},

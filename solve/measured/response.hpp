@@ -28,8 +28,8 @@ Eigen::MatrixXd rigid_motions(const Points& places, const Points& about);
 
 /// G = Φ K⁻¹ Φᵀ with K the stiffness of the undeformed body, its patches' pressures constant, assembled and factorised
 /// whole: for clouds of some hundred nodes. at_points: shape functions at the points. touches: the surface is held
-/// along its normal where nothing is prescribed, as a skull around it would. Prescribed nodes that no point has a share
-/// in are held.
+/// along its normal where nothing is prescribed, as a skull around it would; not where more of it is prescribed than
+/// free, as the rest would hardly resist a rigid motion. Prescribed nodes that no point has a share in are held.
 Response linear_response(const BodyParts& parts, const ShapeRows& at_points, bool touches);
 
 /// How the motion of the opening is carried into the same body.

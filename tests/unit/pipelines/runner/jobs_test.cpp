@@ -53,6 +53,15 @@ class JobsTest : public BallFolder {
     }
     return t1;
   }
+  /// A field on that image that moves all alike, as a load without an opening.
+  Load field(double shift) const {
+    VectorImage alike{image(shift).geometry, {}};
+    alike.voxels.assign(alike.geometry.voxel_count(), {0.5F, 0, -1});
+    write_image(folder_ / "alike.mha", alike);
+    Load load;
+    load.field = {.file = folder_ / "alike.mha", .where = {}, .moves = FieldLoad::Moves::points};
+    return load;
+  }
 };
 
 TEST_F(JobsTest, ALoadIsReadFromWhereItIsMeasured) {
@@ -145,6 +154,47 @@ TEST_F(JobsTest, ADiscretisationIsFinerWhereTheLoadIs) {
   const auto refined = near_the_top();
   job.refinement.factor = 1;
   EXPECT_GT(refined, 1.5 * static_cast<double>(near_the_top()));
+}
+
+TEST_F(JobsTest, ADiscretisationIsNoFinerForAFieldWithoutAnOpening) {
+  DiscretiseJob job;
+  job.surface = folder_ / "ball.vtp";
+  job.options.nodes = 200;
+  job.refinement = {.centres = {}, .radius = 8, .factor = 0.4};
+  run_job(job, folder_, {});
+  const Points without = read_node_cloud(folder_ / "nodes.vtu").positions;
+  job.load = field(0);
+  run_job(job, folder_, {});
+  const Points with = read_node_cloud(folder_ / "nodes.vtu").positions;
+  ASSERT_EQ(with.rows(), without.rows());
+  EXPECT_EQ(with, without);
+}
+
+TEST_F(JobsTest, AFieldWithoutAnOpeningActsAtTheSurfaceNodesInItsGridAlone) {
+  SolveJob job = solve_job();
+  job.load = field(20);  // from -5 mm on along each axis
+  const SolveInput input = read_input(job);
+  const NodeCloud& cloud = input.model.cloud;
+  Eigen::Index in_grid = 0;
+  for (const std::int32_t node : surface_nodes(cloud)) {
+    in_grid += (cloud.positions.row(node).array() >= -5).all() ? 1 : 0;
+  }
+  ASSERT_GT(in_grid, 0);
+  ASSERT_LT(in_grid, static_cast<Eigen::Index>(surface_nodes(cloud).size()));
+  for (Eigen::Index node = 0; node < cloud.positions.rows(); ++node) {
+    const bool on_surface = cloud.on_surface[static_cast<std::size_t>(node)] != 0;
+    const bool acts = on_surface && (cloud.positions.row(node).array() >= -5).all();
+    const Eigen::RowVector3d prescribed = input.model.conditions.displacement.row(node);
+    EXPECT_TRUE(acts ? (prescribed - Eigen::RowVector3d(0.5, 0, -1)).norm() < 1e-12 : prescribed.array().isNaN().all())
+        << cloud.positions.row(node);
+  }
+  EXPECT_EQ(input.load->positions.rows(), in_grid);
+}
+
+TEST_F(JobsTest, AFieldThatIsDefinedNowhereOnTheSurfaceIsRefused) {
+  SolveJob job = solve_job();
+  job.load = field(1000);
+  expect_parts(refusal([&] { read_input(job); }), {"alike.mha: it says nothing of the", "outside its grid"});
 }
 
 TEST_F(JobsTest, WhatASolveJobNamesIsInItsModel) {

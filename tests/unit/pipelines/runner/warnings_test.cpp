@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
 #include "tests/unit/expect_parts.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
@@ -102,6 +103,10 @@ TEST(Warnings, TellOfABodyThatNothingButItsLoadHolds) {
   const Points shift = Eigen::RowVector3d(0, 3, 4).replicate(model.cloud.positions.rows(), 1);
   ASSERT_EQ(warnings_of(model, shift).size(), 1U);
   expect_parts(warnings_of(model, shift).front(), {"nothing but the load", "more than 5 mm", "<contact/>"});
+  model.conditions.displacement = shift;
+  EXPECT_TRUE(warnings_of(model, shift).empty()) << "a load all round holds it";
+  model.conditions.displacement.bottomRows(2 * shift.rows() / 3).setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(warnings_of(model, shift).size(), 1U);
   model.skull = brainshift::test::sphere({0, 0, 0}, 60, 2);
   EXPECT_TRUE(warnings_of(model, shift).empty());
 }
@@ -125,6 +130,22 @@ TEST(Warnings, TellOfFewPointsInAPressedBody) {
   EXPECT_TRUE(warnings_of(measures).empty());
   measures.fewest_points = 0.43;
   expect_parts(warnings_of(measures).front(), {"about some nodes", "only 0.43 integration points a node"});
+}
+
+TEST(Warnings, TellOfFewerPointsThanNodes) {
+  solve::SolveMeasures measures;
+  measures.nodes = 343;
+  measures.smallest_jacobian = 0.97;
+  for (const std::size_t points : {224U, 342U}) {
+    measures.integration_points = points;
+    ASSERT_EQ(warnings_of(measures).size(), 1U) << points;
+    expect_parts(warnings_of(measures).front(), {"only " + std::to_string(points) + " integration points for 343"});
+  }
+  measures.region_nodes = 100;
+  EXPECT_TRUE(warnings_of(measures).empty()) << "the points are those of the region";
+  measures.region_nodes = 0;
+  measures.integration_points = 343;
+  EXPECT_TRUE(warnings_of(measures).empty());
 }
 
 TEST(Warnings, TellOfFewSpacingsAcrossAPatch) {

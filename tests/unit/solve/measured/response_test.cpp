@@ -69,6 +69,26 @@ TEST(LinearResponse, OfAFreeBodyMovesItNotAsAWhole) {
   EXPECT_LT(response.compliance(8, 8), 2 * linear_response(held.parts, held.rows(), false).compliance(8, 8));
 }
 
+TEST(LinearResponse, InASkullIsThatOfAFreeBodyWhereMoreOfTheSurfaceIsMeasured) {
+  Parts box(false);
+  EXPECT_FALSE(linear_response(box.parts, box.rows(), true).free);
+  const Response free = linear_response(box.parts, box.rows(), false);
+  const std::vector<std::int32_t> surface = surface_nodes(box.parts.cloud);
+  Conditions& conditions = box.parts.cloud.conditions;
+  Measurement& measured = conditions.measured.emplace();
+  measured.spread.resize(static_cast<Eigen::Index>(box.parts.cloud.size()), static_cast<Eigen::Index>(surface.size()));
+  for (const std::int32_t a : surface) {
+    if (box.parts.cloud.positions(a, 2) > 1e-9) {
+      conditions.displacement.row(a).setZero();
+      measured.spread.insert(a, measured.spread.nonZeros()) = 1;
+    }
+  }
+  const Response touching = linear_response(box.parts, box.rows(), true);
+  EXPECT_TRUE(touching.free);
+  EXPECT_EQ(touching.rigid.cols(), 6);
+  EXPECT_EQ(touching.compliance, free.compliance);
+}
+
 TEST(CarriedMotion, TakesTheBodyAlongAsAWhole) {
   Parts box(false);
   Measurement& measured = box.parts.cloud.conditions.measured.emplace();
