@@ -6,7 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <utility>
+
+#include "segmentation/files/refuse.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -14,8 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds pause{5};  // between looks at the file, unless its folder tells of a change
-constexpr std::chrono::milliseconds rest{20};  // unchanged for so long, it is whole
+constexpr std::chrono::milliseconds pause{5};        // between looks at the file, unless its folder tells of a change
+constexpr std::chrono::milliseconds rest{20};        // unchanged for so long, it is whole if nothing tells of a writer
+constexpr std::chrono::milliseconds patience{2000};  // the same with a writer, and before it counts as half-written
 
 FileState state_of(const fs::path& file) {
   struct stat status {};
@@ -25,15 +29,26 @@ FileState state_of(const fs::path& file) {
   return {true, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
+/// Again and again: the folder may come later, or another in its place.
+void watch_folder(int events, const fs::path& folder) {
+  inotify_add_watch(events, folder.c_str(), IN_CREATE | IN_MODIFY | IN_CLOSE_WRITE | IN_MOVED_TO);
+}
+
+/// Or cannot be read: who reads it says why.
+bool ends_with_newline(const fs::path& file) {
+  std::ifstream text(file, std::ios::binary);
+  if (!text) {
+    return true;
+  }
+  text.seekg(-1, std::ios::end);
+  return text.get() == '\n';
+}
+
 }  // namespace
 
 FileWatch::FileWatch(fs::path file)
     : file_(fs::absolute(std::move(file))), events_(inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
-  if (events_ >= 0 && inotify_add_watch(events_, file_.parent_path().c_str(),
-                                        IN_CREATE | IN_MODIFY | IN_CLOSE_WRITE | IN_MOVED_TO) < 0) {
-    close(events_);
-    events_ = -1;
-  }
+  watch_folder(events_, file_.parent_path());
 }
 
 FileWatch::~FileWatch() {
@@ -45,19 +60,34 @@ FileWatch::~FileWatch() {
 FileState FileWatch::next() {
   for (;; wait()) {
     const FileState now = state_of(file_);
-    closed_ = closed_ && now != returned_;  // else the event tells of what is known
     if (now != seen_) {
       seen_ = now;
       since_ = Clock::now();
     }
-    if (now.there && now != returned_ && (closed_ || Clock::now() - since_ >= rest)) {
+    if (!now.there || now == returned_) {
+      told_ = Told::nothing;  // nothing new
+    } else if (is_whole()) {
+      told_ = Told::nothing;
       returned_ = now;
       return now;
+    } else if (now != refused_ && Clock::now() - since_ >= patience) {
+      refused_ = now;
+      refuse(file_, "half-written: it has no newline at its end and was not seen to be closed; end its last line");
     }
   }
 }
 
+/// What was refused becomes so when it is closed as it is.
+bool FileWatch::is_whole() const {
+  if (told_ == Told::closed) {
+    return true;
+  }
+  const Clock::duration rested = Clock::now() - since_;
+  return seen_ != refused_ && rested >= (told_ == Told::written ? patience : rest) && ends_with_newline(file_);
+}
+
 void FileWatch::wait() {
+  watch_folder(events_, file_.parent_path());
   pollfd change{events_, POLLIN, 0};  // a negative descriptor only waits
   poll(&change, 1, static_cast<int>(pause.count()));
   alignas(inotify_event) char buffer[4096];
@@ -66,7 +96,7 @@ void FileWatch::wait() {
     for (ssize_t at = 0; at < length;) {
       const auto& event = *reinterpret_cast<const inotify_event*>(buffer + at);
       if (event.len > 0 && file_.filename() == event.name) {
-        closed_ = (event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO)) != 0;
+        told_ = (event.mask & (IN_CLOSE_WRITE | IN_MOVED_TO)) != 0 ? Told::closed : Told::written;
       }
       at += static_cast<ssize_t>(sizeof event + event.len);
     }

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 
 namespace brainshift::pipelines {
@@ -29,18 +30,22 @@ class FileWatch {
   FileWatch& operator=(const FileWatch&) = delete;
 
   /// Blocks until the file is there, is not as it was when this last returned, and is whole: its writer has closed it
-  /// or moved it into place, or it has not changed for 20 ms, as where the system tells nothing about its folder (one
-  /// that another machine writes to). Returns its state.
+  /// or moved it into place, or it ends with a newline and has not changed for 2 s; for 20 ms where the system tells of
+  /// no writer, as in a folder that another machine writes to. Returns its state. Throws std::invalid_argument, naming
+  /// the file, where it has rested for 2 s without a newline at its end, and waits again when called again.
   FileState next();
 
  private:
+  enum class Told : std::uint8_t { nothing, written, closed };
+
+  bool is_whole() const;
   void wait();
 
   std::filesystem::path file_;
-  int events_;           ///< of the folder, from inotify; −1: none
-  bool closed_ = false;  ///< by the event of the file that came last
-  FileState seen_, returned_;
-  std::chrono::steady_clock::time_point since_;
+  int events_;                 ///< of the folder, from inotify; −1: none
+  Told told_ = Told::nothing;  ///< by the event of the file that came last
+  FileState seen_, returned_, refused_;
+  std::chrono::steady_clock::time_point since_;  ///< is it as it was seen last
 };
 
 }  // namespace brainshift::pipelines

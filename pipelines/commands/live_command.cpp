@@ -28,8 +28,9 @@ double age_of(const FileState& state) {
 }
 
 /// A load that cannot be answered is told and passed over: the next one may be right.
-void answer(LiveRun& run, const LiveArguments& arguments, const FileState& state, bool quiet) {
+void answer_next(LiveRun& run, FileWatch& watch, const LiveArguments& arguments, bool quiet) {
   try {
+    const FileState state = watch.next();
     const LiveRun::Answer answer = run.answer(arguments.load);
     if (!quiet) {
       std::printf("%s: %.3f s after the file's change, largest displacement %.3f mm, error bound %.4f mm\n",
@@ -65,7 +66,7 @@ LiveRun prepared(const LiveArguments& arguments, const Settings& settings) {
     std::fflush(stdout);
   }
   for (;;) {
-    answer(run, arguments, watch.next(), settings.quiet);
+    answer_next(run, watch, arguments, settings.quiet);
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <fstream>
 #include <future>
 #include <string>
 
@@ -10,6 +12,7 @@
 
 namespace brainshift::pipelines::file_watch_test {
 
+using brainshift::test::refusal;
 using brainshift::test::ScratchFolder;
 namespace fs = std::filesystem;
 
@@ -19,18 +22,18 @@ void move_into_place(const ScratchFolder& folder, const std::string& text, const
 
 TEST(FileWatch, ReturnsEachVersionOnce) {
   const ScratchFolder folder;
-  const fs::path file = folder.write("load.csv", "1");
+  const fs::path file = folder.write("load.csv", "1\n");
   FileWatch watch(file);
-  EXPECT_EQ(watch.next().size, 1);
-  move_into_place(folder, "22", file);
   EXPECT_EQ(watch.next().size, 2);
-  folder.write("load.csv", "333");
+  move_into_place(folder, "333", file);
   EXPECT_EQ(watch.next().size, 3);
+  folder.write("load.csv", "4444");
+  EXPECT_EQ(watch.next().size, 4);
   auto later = std::async(std::launch::async, [&] { return watch.next(); });
   EXPECT_EQ(later.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
-  folder.write("other.csv", "55555");
-  move_into_place(folder, "4444", file);
-  EXPECT_EQ(later.get().size, 4);
+  folder.write("other.csv", "666666");
+  move_into_place(folder, "55555", file);
+  EXPECT_EQ(later.get().size, 5);
 }
 
 TEST(FileWatch, WaitsForAFileAndAFolderThatComeLater) {
@@ -40,8 +43,52 @@ TEST(FileWatch, WaitsForAFileAndAFolderThatComeLater) {
   auto later = std::async(std::launch::async, [&] { return watch.next(); });
   EXPECT_EQ(later.wait_for(std::chrono::milliseconds(50)), std::future_status::timeout);
   fs::create_directory(file.parent_path());
-  move_into_place(folder, "1", file);
-  EXPECT_EQ(later.get().size, 1);
+  move_into_place(folder, "1\n", file);
+  EXPECT_EQ(later.get().size, 2);
+}
+
+/// With pauses at a line's end and within the last number; also one that began while the file before was answered.
+TEST(FileWatch, WaitsForASlowWriter) {
+  const ScratchFolder folder;
+  const fs::path file = folder.path() / "load.csv";
+  FileWatch watch(file);
+  for (int version = 0; version < 2; ++version) {
+    std::ofstream slow(file);
+    slow << "1,2\n" << std::flush;
+    auto later = std::async(std::launch::async, [&] { return watch.next(); });
+    EXPECT_EQ(later.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+    slow << "3,-6" << std::flush;
+    EXPECT_EQ(later.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+    slow << ".9\n" << std::flush;
+    EXPECT_EQ(later.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+    slow.close();
+    EXPECT_EQ(later.get().size, 11);
+  }
+}
+
+TEST(FileWatch, TakesWhatRestsUnclosedOnlyWithANewlineAtItsEnd) {
+  const ScratchFolder folder;
+  const fs::path file = folder.path() / "load.csv";
+  FileWatch watch(file);
+  std::ofstream slow(file);
+  slow << "1,2\n" << std::flush;
+  EXPECT_EQ(watch.next().size, 4);
+  slow << "3,-6" << std::flush;
+  EXPECT_NE(refusal([&] { watch.next(); }).find("load.csv: half-written"), std::string::npos);
+  slow.close();
+  EXPECT_EQ(watch.next().size, 8) << "closed as it was";
+}
+
+TEST(FileWatch, TakesAtOnceWhatIsMovedIntoPlace) {
+  const ScratchFolder folder;
+  const fs::path file = folder.path() / "load.csv";
+  FileWatch watch(file);
+  std::ofstream slow(file);
+  slow << "1,2" << std::flush;
+  move_into_place(folder, "1,2\n3,-6.9", file);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(watch.next().size, 10);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1)) << "no wait for its writer";
 }
 
 }  // namespace brainshift::pipelines::file_watch_test
