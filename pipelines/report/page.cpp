@@ -2,7 +2,12 @@
 #include "pipelines/report/page.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <set>
+#include <string_view>
 
 #include "pipelines/report/page_template.hpp"
 #include "pipelines/report/run_data.hpp"
@@ -12,6 +17,8 @@ namespace brainshift::pipelines {
 namespace {
 
 using nlohmann::json;
+
+constexpr std::array<const char*, 4> stages_in_order = {"segment", "discretise", "solve", "register"};
 
 std::string value_text(const json& value) {
   if (value.is_number()) {
@@ -65,6 +72,35 @@ json failures(const json& stages) {
     }
   }
   return list;
+}
+
+struct Notes {
+  json warnings = json::array();  // without their mark
+  json others = json::array();
+};
+
+// What the stages say to people, each sentence once.
+Notes notes_of(const json& stages) {
+  constexpr std::string_view mark = "warning:";
+  Notes notes;
+  std::set<std::string> told;
+  for (const char* stage : stages_in_order) {
+    const json entry = stages.value(stage, json::object());
+    for (const json& note : entry.value("notes", json::array())) {
+      std::string text = note.is_string() ? note.get<std::string>() : std::string();
+      if (text.empty() || !told.insert(text).second) {
+        continue;
+      }
+      const bool warns = text.starts_with(mark);
+      text.erase(0, warns ? std::min(text.find_first_not_of(' ', mark.size()), text.size()) : 0);
+      (warns ? notes.warnings : notes.others).push_back({{"stage", stage}, {"text", std::move(text)}});
+    }
+  }
+  return notes;
+}
+
+json list_of(json sentences) {
+  return sentences.empty() ? json(false) : json{{"sentences", std::move(sentences)}};
 }
 
 json tiles(const PageContent& content, const json& stages, const std::vector<MeasureRow>& measures) {
@@ -149,6 +185,33 @@ json smooth_motion_of(const json& measures) {
           {"across", readable(smooth.value("across_mm", 0.0))}};
 }
 
+// How far the tracker's registration was off, where it was estimated.
+json registration_of(const json& stages) {
+  const json::json_pointer place("/solve/measures");
+  const json measures = stages.contains(place) ? stages.at(place) : json::object();
+  const auto number = [&](const char* name) {
+    const auto value = measures.find(name);
+    return value != measures.end() && value->is_number() ? value->get<double>()
+                                                         : std::numeric_limits<double>::quiet_NaN();
+  };
+  const double angle = number("registration_angle_deg"), shift = number("registration_shift_mm");
+  const double deviation = number("registration_deviation_mm");
+  if (!std::isfinite(angle) || !std::isfinite(shift)) {
+    return false;
+  }
+  return {{"angle", readable(angle)},
+          {"shift", readable(shift)},
+          {"known", std::isfinite(deviation) ? json{{"deviation", readable(deviation)}} : json(false)}};
+}
+
+// What is imposed exactly, as its noise is not given: what a tracker or a camera measured, or another program.
+json exact_of(const json& options) {
+  const bool seen = std::ranges::any_of(std::array{"load.craniotomy", "load.markups", "load.surfaces"},
+                                        [&](const char* load) { return options.contains(load); });
+  const bool computed = options.contains("load.field");
+  return seen || computed ? json{{"seen", seen}, {"computed", computed}} : json(false);
+}
+
 // How a measured load was weighed: the weights that were tried, or that it has no noise to be weighed by.
 json weight_of(PageContent& content, const json& stages, const json& options) {
   const json::json_pointer place("/solve/measures");
@@ -161,8 +224,8 @@ json weight_of(PageContent& content, const json& stages, const json& options) {
               {"smooth", smooth_motion_of(measures)},
               {"figures", figures_of(content.weights)}}}};
   }
-  const bool measured = options.contains("load.craniotomy") || options.contains("load.markups");
-  return measured && !measures.contains("weight_mJ") ? json{{"exact", true}, {"chosen", false}} : json(false);
+  json exact = measures.empty() || measures.contains("weight_mJ") ? json(false) : exact_of(options);
+  return exact.is_object() ? json{{"exact", std::move(exact)}, {"chosen", false}} : json(false);
 }
 
 json labels_of(PageContent& content) {
@@ -206,7 +269,7 @@ std::string scripts(const PageContent& content) {
 
 json stages_of(const json& stages) {
   json list = json::array();
-  for (const char* name : {"segment", "discretise", "solve", "register"}) {
+  for (const char* name : stages_in_order) {
     if (stages.contains(name)) {
       const json& entry = stages.at(name);
       const auto text = [&](const char* key) { return entry.contains(key) ? value_text(entry[key]) : std::string(); };
@@ -226,6 +289,7 @@ std::string make_page(PageContent content) {
   const json& record = content.record;
   const std::vector<MeasureRow> measures = quality_measures(record);
   const json stages = record.value("stages", json::object());
+  Notes notes = notes_of(stages);
   json options = json::array(), all_measures = json::array();
   const json elements = record.value("options", json::object());
   const bool turns = !content.libraries.empty() && !content.viewer.arrays.empty();
@@ -241,6 +305,7 @@ std::string make_page(PageContent content) {
                               {"threads", readable(record.value("threads", 1))},
                               {"simulated", elements.contains("load.simulated")},
                               {"failures", failures(stages)},
+                              {"warnings", list_of(std::move(notes.warnings))},
                               {"no_image", !content.has_image},
                               {"tiles", tiles(content, stages, measures)},
                               {"viewer", turns},
@@ -250,11 +315,13 @@ std::string make_page(PageContent content) {
                               {"displacement", displacement(content)},
                               {"septum", elements.contains("septa") || elements.contains("septum")},
                               {"uncertainty", uncertainty(content, stages)},
+                              {"registration", registration_of(stages)},
                               {"weight", weight_of(content, stages, elements)},
                               {"labels", labels_of(content)},
                               {"measures", measures_of(measures)},
                               {"convergence", convergence(content)},
                               {"stages", stages_of(stages)},
+                              {"notes", list_of(std::move(notes.others))},
                               {"options", std::move(options)},
                               {"all_measures", std::move(all_measures)}});
   if (!content.libraries.empty()) {

@@ -110,6 +110,75 @@ TEST(Page, SaysThatAStageFailedAndThatALoadIsSimulated) {
   EXPECT_FALSE(has(page, "How the solver converged"));
 }
 
+std::size_t times(const std::string& page, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + text.size())) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(Page, ShowsWarningsAtTheTopAndOtherNotesBesideTheStages) {
+  PageContent content = full_content();
+  auto& stages = content.record["stages"];
+  stages["segment"]["notes"] = {"took <scan> & mask", "warning: the T1 is black"};
+  stages["solve"]["notes"] = {"warning: one point <contradicts> the others", "took <scan> & mask",
+                              "warning: the T1 is black"};
+  const std::string page = make_page(content);
+  const std::string black = "<b>Warning of the stage segment:</b> the T1 is black</li>";
+  const std::string contradicts = "<b>Warning of the stage solve:</b> one point &lt;contradicts&gt; the others</li>";
+  const std::string took = "<span class=\"name\">segment: </span>took &lt;scan&gt; &amp; mask</li>";
+  for (const std::string& text : {black, contradicts, took}) {
+    EXPECT_EQ(times(page, text), 1U) << text;
+  }
+  for (const char* once : {"the T1 is black", "took &lt;scan", "contradicts"}) {
+    EXPECT_EQ(times(page, once), 1U) << once;
+  }
+  EXPECT_LT(page.find(black), page.find(contradicts)) << "in the order in which the stages run";
+  EXPECT_LT(page.find(contradicts), page.find("class=\"tiles\""));
+  EXPECT_GT(page.find(took), page.find("<h2>Stages</h2>"));
+  EXPECT_FALSE(has(page, "warning:")) << "the mark has become words";
+}
+
+TEST(Page, SaysNothingOfNotesWhereThereAreNone) {
+  const char* const warns = "Read this before you rely";
+  const char* const notes = "What the stages noted";
+  PageContent content = full_content();
+  auto& said = content.record["stages"]["solve"]["notes"];
+  for (const json& nothing : {json(), json::array(), json{""}}) {
+    said = nothing;
+    EXPECT_FALSE(has(make_page(content), warns)) << nothing;
+    EXPECT_FALSE(has(make_page(content), notes)) << nothing;
+  }
+  content.record["stages"]["solve"].erase("notes");
+  EXPECT_FALSE(has(make_page(content), warns));
+  EXPECT_FALSE(has(make_page(content), notes));
+}
+
+TEST(Page, ShowsTheNotesOfAStateAsThoseOfARun) {
+  PageContent content = full_content();
+  content.record["state"] = "drained";
+  content.record["stages"]["solve"]["status"] = "kept";
+  content.record["stages"]["solve"]["notes"] = {"warning: the fluid is gone"};
+  EXPECT_TRUE(has(make_page(content), "<b>Warning of the stage solve:</b> the fluid is gone"));
+}
+
+TEST(Page, SaysHowFarTheTrackersRegistrationWasOffAndHowWellThatIsKnown) {
+  const char* const heading = "The tracker's registration";
+  EXPECT_FALSE(has(make_page(full_content()), heading));
+  PageContent content = full_content();
+  auto& measures = content.record["stages"]["solve"]["measures"];
+  measures["registration_angle_deg"] = 4.321;
+  measures["registration_shift_mm"] = 5.5;
+  measures["registration_deviation_mm"] = 2.25;
+  const std::string page = make_page(content);
+  EXPECT_TRUE(has(page, heading));
+  EXPECT_TRUE(has(page, "a turn of 4.32° and a shift of 5.5 mm"));
+  EXPECT_TRUE(has(page, "± 2.25 mm"));
+  measures["registration_deviation_mm"] = json();  // as run.json holds what is no number
+  EXPECT_TRUE(has(make_page(content), "a turn of 4.32° and a shift of 5.5 mm</b>; what is shown"));
+}
+
 TEST(Page, SaysHowFarTheAnswerMayBeOffInWordsBesideTheMap) {
   PageContent content = full_content();
   EXPECT_FALSE(has(make_page(content), "How far this may be off"));
@@ -128,6 +197,8 @@ TEST(Page, ExplainsTheWeightOfALoadWithNoiseAndHintsWhereThereIsNone) {
   PageContent content = full_content();
   content.record["options"]["load.craniotomy"] = {{"file", "load.csv"}};
   EXPECT_TRUE(has(make_page(content), hint));
+  content.record["stages"]["solve"].erase("measures");
+  EXPECT_FALSE(has(make_page(content), hint)) << "nothing was imposed yet";
   content = full_content();
   content.record["options"]["load.craniotomy"] = {{"file", "load.csv"}};
   auto& measures = content.record["stages"]["solve"]["measures"];
@@ -145,6 +216,26 @@ TEST(Page, ExplainsTheWeightOfALoadWithNoiseAndHintsWhereThereIsNone) {
   EXPECT_FALSE(has(page, "taken for motion"));
   measures["smooth_motion"] = {{"length_mm", 20}, {"along_mm", 4}, {"across_mm", 0.1}};
   EXPECT_TRUE(has(make_page(content), "alike over 20 mm"));
+}
+
+TEST(Page, HintsAtTheNoiseOfEveryKindOfMeasuredLoad) {
+  const char* const hint = "imposed exactly, as no noise is given";
+  const char* const camera = "a stereo camera is off by";
+  const char* const program = "registration of two images is off, too";
+  for (const char* load : {"load.craniotomy", "load.markups", "load.surfaces", "load.field"}) {
+    PageContent content = full_content();
+    content.record["options"][load] = {{"file", "load"}};
+    const std::string page = make_page(content);
+    const bool computed = load == std::string("load.field");
+    EXPECT_TRUE(has(page, hint)) << load;
+    EXPECT_EQ(has(page, camera), !computed) << load;
+    EXPECT_EQ(has(page, program), computed) << load;
+    content.record["stages"]["solve"]["measures"]["weight_mJ"] = 0.5;
+    EXPECT_FALSE(has(make_page(content), hint)) << load;
+  }
+  PageContent content = full_content();
+  content.record["options"]["load.simulated"] = {{"depth", 8}};
+  EXPECT_FALSE(has(make_page(content), hint)) << "nobody measured it";
 }
 
 }  // namespace brainshift::pipelines::page_test
