@@ -16,7 +16,7 @@ from predictors import GIVEN, gaussian_process, none, read_pairs, rigid, spread_
 from residuals import write_picture
 
 NOISE = 1.0  # mm, of a landmark along each axis: a voxel of the images is about as large
-INSIDE = 8.0  # mm: so deep in the stand-in head the landmarks lie at least
+DEPTHS = (8.0, 6.0, 4.0, 2.0, 0.0)  # mm: so deep in the stand-in head the landmarks lie, the first that fits
 LPS = np.diag([-1.0, -1.0, 1.0])
 FIELDS = ("patient", "none", "rigid", "gaussian_process", "model", "inside_95")
 BRAIN = (1, 2, 3)
@@ -34,14 +34,14 @@ def read_labels(file):
     return voxels, LPS @ affine
 
 
-def deep_inside(mask, spacing):
-    """The voxels whose ball of INSIDE mm is in the mask."""
-    reach = [int(np.ceil(INSIDE / s)) for s in spacing]
+def deep_inside(mask, spacing, depth):
+    """The voxels whose ball of this radius, mm, is in the mask."""
+    reach = [int(np.ceil(depth / s)) for s in spacing]
     result = mask.copy()
     for i in range(-reach[0], reach[0] + 1):
         for j in range(-reach[1], reach[1] + 1):
             for k in range(-reach[2], reach[2] + 1):
-                if np.linalg.norm(np.array([i, j, k]) * spacing) <= INSIDE:
+                if np.linalg.norm(np.array([i, j, k]) * spacing) <= depth:
                     result &= np.roll(mask, (i, j, k), (0, 1, 2))
     return result
 
@@ -51,25 +51,31 @@ class Head:
 
     def __init__(self, labels):
         voxels, self.affine = read_labels(labels)
-        brain = np.isin(voxels, BRAIN)
-        self.deep = deep_inside(brain, np.linalg.norm(self.affine[:, :3], axis=0))
-        middle = np.argwhere(brain).mean(axis=0)
+        self.brain = np.isin(voxels, BRAIN)
+        self.deep = {}  # by depth, mm
+        middle = np.argwhere(self.brain).mean(axis=0)
         self.middle = self.affine[:, :3] @ middle + self.affine[:, 3]
 
-    def holds(self, places):
+    def holds(self, places, depth):
+        if depth not in self.deep:
+            self.deep[depth] = deep_inside(self.brain, np.linalg.norm(self.affine[:, :3], axis=0), depth)
         index = np.rint(np.linalg.solve(self.affine[:, :3], (places - self.affine[:, 3]).T).T).astype(int)
-        within = ((index >= 0) & (index < self.deep.shape)).all(axis=1)
-        return within.all() and self.deep[tuple(index.T)].all()
+        within = ((index >= 0) & (index < self.brain.shape)).all(axis=1)
+        return within.all() and self.deep[depth][tuple(index.T)].all()
 
     def shift(self, places):
         """The origin of the landmarks' frame goes to the middle of the brain, then all go by the least way after which
         they lie deep inside."""
         steps = np.arange(-40, 41, 2.0)
         moves = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
-        for move in moves[np.argsort(np.linalg.norm(moves, axis=1), kind="stable")]:
-            if self.holds(places + self.middle + move):
-                return self.middle + move
-        raise SystemExit("the landmarks do not fit into the stand-in head")
+        moves = moves[np.argsort(np.linalg.norm(moves, axis=1), kind="stable")]
+        for depth in DEPTHS:
+            for move in moves:
+                if self.holds(places + self.middle + move, depth):
+                    if depth < DEPTHS[0]:
+                        print(f"the landmarks fit into the stand-in head {depth:g} mm deep only")
+                    return self.middle + move
+        raise ValueError("the landmarks do not fit into the stand-in head")
 
 
 def write_load(file, places, displacement):
@@ -118,15 +124,21 @@ def predict(program, work, before, after, given):
     return moved @ turn.T + move, symmetric(c), record
 
 
+def patient_of(file):
+    return re.match(r"Case\d+", file.name).group(0)
+
+
 def row_of(program, work, head, file):
     before, after = (pairs @ LPS for pairs in read_pairs(file))
+    if len(before) <= GIVEN:
+        raise ValueError(f"{len(before)} pairs: more than the {GIVEN} that are given are needed")
     given = spread_out(before, GIVEN)
     left = [i for i in range(len(before)) if i not in given]
     shift = head.shift(before)
     predicted, covariance, record = predict(program, work, before + shift, after + shift, given)
     error = predicted - shift - after
     own = NOISE * record["noise_factor"]
-    row = {"patient": re.match(r"Case\d+", file.name).group(0)}
+    row = {"patient": patient_of(file)}
     for method in (none, rigid, gaussian_process):
         guess = method(before[given], after[given])(before[left])
         row[method.__name__] = np.linalg.norm(guess - after[left], axis=1).mean()
@@ -136,6 +148,31 @@ def row_of(program, work, head, file):
     near = distances(before[left], before[given])
     places = [(near[k], error[i], whole[i]) for k, i in enumerate(left)]
     return row, {"places": places, "before": before, "after": after, "error": error, "given": given, "landmarks": len(left)}
+
+
+def rows_as_they_come(program, out, files):
+    """Rows, cases and the patients that could not be predicted. patients.csv has each row as soon as it is known."""
+    work = out / "head"
+    if not (work / "labels.nii.gz").exists():
+        subprocess.run([program, "phantom", "--out", str(work)], check=True)
+    (work / "scene.xml").write_text(scene_of((work / "scene.xml").read_text()))
+    head = Head(work / "labels.nii.gz")
+    rows, cases, lost = [], [], []
+    with (out / "patients.csv").open("w", newline="") as stream:
+        table = csv.writer(stream)
+        table.writerow(FIELDS)
+        for file in files:
+            try:
+                row, case = row_of(program, work, head, file)
+            except (ValueError, subprocess.CalledProcessError) as error:
+                lost.append(f"{patient_of(file)}: {error}")
+                continue
+            print(" ".join(f"{v:.3f}" if isinstance(v, float) else str(v) for v in row.values()), flush=True)
+            table.writerow([row[name] if name == "patient" else f"{row[name]:.4f}" for name in FIELDS])
+            stream.flush()
+            rows.append(row)
+            cases.append(case)
+    return rows, cases, lost
 
 
 def faults(rows, counts):
@@ -155,28 +192,16 @@ def main(program, out, folder):
     files = sorted(folder.glob("Case*-MRI-beforeUS.tag"))
     if not files:
         raise SystemExit(f"{folder}: no Case*-MRI-beforeUS.tag in it")
-    work = out / "head"
-    if not (work / "labels.nii.gz").exists():
-        subprocess.run([program, "phantom", "--out", str(work)], check=True)
-    (work / "scene.xml").write_text(scene_of((work / "scene.xml").read_text()))
-    head = Head(work / "labels.nii.gz")
-    rows, cases = [], []
-    for file in files:
-        row, case = row_of(program, work, head, file)
-        print(" ".join(f"{v:.3f}" if isinstance(v, float) else str(v) for v in row.values()), flush=True)
-        rows.append(row)
-        cases.append(case)
-    with (out / "patients.csv").open("w", newline="") as stream:
-        table = csv.writer(stream)
-        table.writerow(FIELDS)
-        table.writerows([row[name] if name == "patient" else f"{row[name]:.4f}" for name in FIELDS] for row in rows)
+    rows, cases, lost = rows_as_they_come(program, out, files)
+    if not rows:
+        raise SystemExit("\n".join(lost))
     write_table(out / "coverage.md", [place for case in cases for place in case["places"]])
     write_picture(out / "residuals.svg", rows, cases)
     counts = [case["landmarks"] for case in cases]
     means = {name: np.average([row[name] for row in rows], weights=counts if name == "inside_95" else None)
              for name in FIELDS[1:]}
     print("mean", " ".join(f"{name} {value:.3f}" for name, value in means.items()))
-    found = list(faults(rows, counts))
+    found = lost + list(faults(rows, counts))
     print("\n".join(found))
     return 1 if found else 0
 
