@@ -10,6 +10,7 @@
 #include "register/field/forward_field.hpp"
 #include "register/field/jacobian.hpp"
 #include "register/field/measures.hpp"
+#include "register/field/nodal_values.hpp"
 #include "register/field/resampling_field.hpp"
 #include "register/interface/option_table.hpp"
 #include "register/warp/cavity_voxels.hpp"
@@ -120,6 +121,9 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   const double seconds = stopwatch.seconds();
   result.preop_landmarks = input.landmarks;
   result.landmarks = move_points(result.forward, input.landmarks);
+  if (!input.solution.estimated_error.empty()) {
+    result.landmark_error = estimated_error_at(input.solution, false, input.landmarks);
+  }
   report(progress, 0.9, "measuring the fields");
   result.jacobian = jacobian(result.forward);
   const std::size_t not_inverted = result.measures.not_inverted;

@@ -15,16 +15,21 @@ namespace brainshift::registration {
 
 namespace {
 
-void write_landmarks(const std::filesystem::path& file, const Points& preop, const Points& intraop) {
+void write_landmarks(const std::filesystem::path& file, const Registration& registration) {
+  const Points &preop = registration.preop_landmarks, &intraop = registration.landmarks;
+  const std::vector<double>& error = registration.landmark_error;
   std::ofstream out(file);
-  out << "# frame: LPS\n# unit: mm\nlabel,x,y,z,intraop_x,intraop_y,intraop_z,ux,uy,uz\n"
-      << std::fixed << std::setprecision(6);
+  out << "# frame: LPS\n# unit: mm\nlabel,x,y,z,intraop_x,intraop_y,intraop_z,ux,uy,uz"
+      << (error.empty() ? "\n" : ",estimated_error\n") << std::fixed << std::setprecision(6);
   for (Eigen::Index p = 0; p < preop.rows(); ++p) {
     out << p + 1;
     const Eigen::RowVector3d moved = intraop.row(p) - preop.row(p);
     for (const Eigen::RowVector3d& triple :
          {Eigen::RowVector3d(preop.row(p)), Eigen::RowVector3d(intraop.row(p)), moved}) {
       out << ',' << triple.x() << ',' << triple.y() << ',' << triple.z();
+    }
+    if (!error.empty()) {
+      out << ',' << error[static_cast<std::size_t>(p)];
     }
     out << '\n';
   }
@@ -54,7 +59,7 @@ void write_registration(const std::filesystem::path& folder, const Registration&
     write_image(folder / "warped_labels.nii.gz", *registration.warped_labels);
   }
   if (registration.landmarks.rows() > 0) {
-    write_landmarks(folder / "landmarks.csv", registration.preop_landmarks, registration.landmarks);
+    write_landmarks(folder / "landmarks.csv", registration);
   }
   transforms.get();
 }

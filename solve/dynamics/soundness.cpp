@@ -26,8 +26,8 @@ void mark_unstable(const std::string& why, double time, double fraction, const F
   result.failure = text.str();
   result.unstable = true;
   result.fault = fault;
-  result.fault->fast =
-      !result.history.empty() && result.history.back().kinetic_energy > result.history.back().strain_energy;
+  result.fault->fast = result.history.empty() ||  // within the first window
+                       result.history.back().kinetic_energy > result.history.back().strain_energy;
 }
 
 std::string unbalanced(const HistoryRow& row) {

@@ -53,7 +53,7 @@ struct SolveOptions {
   Volumetric volumetric = Volumetric::mean_dilatation;
   double nodes_per_patch = 8;  ///< of mean dilatation
   Integration integration = Integration::consistent;
-  double consistency_defect = 3e-5;  ///< what may be left of the largest defect, make_derivatives_consistent()
+  double consistency_defect = 1e-5;  ///< what may be left of the largest defect, make_derivatives_consistent()
   Imposition imposition = Imposition::exact;
   double integration_tolerance = 0;                   ///< τ of adaptive_points(); 0: points_per_cell in every cell
   int integration_depth = 3;                          ///< of adaptive_points()

@@ -24,7 +24,7 @@ Row cube(double to, int n) {
   const Ending ending = run(block.model(test::irregular_box(n, side), test::box_cells(n - 1, side)), options);
   const std::string name = "cube to " + std::to_string(std::lround(100 * to)) + " % of its height, sides free";
   if (to > crease) {
-    return judge(name, Must::answer, ending, block.errors(ending.result, 25, 5), on_paper);
+    return judge(name, Must::answer, ending, block.errors(ending.result, 0.1, 0.1), on_paper);
   }
   const auto& history = ending.result.history;
   const double energy = history.empty() ? std::nan("") : history.back().strain_energy;

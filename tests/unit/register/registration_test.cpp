@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "tests/unit/register/builders.hpp"
 
@@ -83,6 +84,17 @@ TEST_F(RegisterImages, WithoutAnImageWarpsTheLabelsOnTheSameFields) {
   EXPECT_EQ(without.forward.voxels, with.forward.voxels);
   input.labels.reset();
   EXPECT_THROW(register_images(input, {}), std::invalid_argument) << "there is nothing to warp";
+}
+
+TEST_F(RegisterImages, TellsOfLandmarksHowFarOffTheSolutionIsThere) {
+  input.landmarks = Points{{0, 0, 0}, {5, 0, -10}};
+  EXPECT_TRUE(register_images(input, {}).landmark_error.empty());
+  input.solution.estimated_error.assign(static_cast<std::size_t>(input.solution.positions.rows()), 0.3);
+  const std::vector<double> error = register_images(input, {}).landmark_error;
+  ASSERT_EQ(error.size(), static_cast<std::size_t>(input.landmarks.rows()));
+  for (const double mm : error) {
+    EXPECT_NEAR(mm, 0.3, 1e-9);
+  }
 }
 
 TEST_F(RegisterImages, ReportsProgressThatGrowsToOne) {

@@ -154,6 +154,22 @@ TEST_F(RegistrationFiles, TheLandmarksNameTheirFrameAndBothPlaces) {
   }
 }
 
+TEST_F(RegistrationFiles, TheLandmarksTellTheEstimatedErrorWhereThereIsOne) {
+  Registration registration = *registration_;
+  registration.landmark_error = {0.25, 0.5};
+  const ScratchFolder folder;
+  write_registration(folder.path(), registration);
+  std::ifstream in(folder.path() / "landmarks.csv");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) {
+    lines.push_back(line);
+  }
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_TRUE(lines[2].ends_with(",uz,estimated_error"));
+  EXPECT_TRUE(lines[3].ends_with(",0.250000"));
+  EXPECT_TRUE(lines[4].ends_with(",0.500000"));
+}
+
 /// What is thrown names the file.
 void expect_fault(const std::filesystem::path& folder, const Registration& registration, const std::string& named) {
   try {

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "tests/unit/scratch_folder.hpp"
@@ -37,6 +38,13 @@ TEST(CheckDiscretisation, TakesOnePointANode) {
 TEST(CheckDiscretisation, RefusesHalfAPointANode) {
   EXPECT_THAT(refusal(pressed(2)), HasSubstr("only 64 integration points for 343 nodes"));
   EXPECT_THAT(refusal(pressed(5), 1), HasSubstr("only 125 integration points for 343 nodes"));
+  Model small = uniaxial(0.9, 5);
+  small.cells = test::box_cells(4, model_side);
+  EXPECT_THAT(refusal(small, 1), HasSubstr("only 64 integration points for 125 nodes"));
+}
+
+TEST(CheckDiscretisation, RefusesFewerThanTwoThirdsOfAPointANode) {
+  EXPECT_THAT(refusal(pressed(6), 1), HasSubstr("only 216 integration points for 343 nodes"));
 }
 
 TEST(CheckDiscretisation, RefusesTooFewPointsInOnePlaceAlone) {
@@ -92,12 +100,53 @@ TEST(CheckDiscretisation, TakesNodesHalfASpacingBelowTheSurface) {
   EXPECT_EQ(refusal(model), "");
 }
 
+std::string cloud_refusal(const NodeCloud& cloud) {
+  return test::refusal([&] { check_cloud(cloud); });
+}
+
+/// The first of the nodes with so many times their spacing.
+NodeCloud with_spacing(NodeCloud cloud, double factor, double share = 1) {
+  const auto some = static_cast<std::size_t>(share * static_cast<double>(cloud.size()));
+  for (double& s : std::span(cloud.spacing).first(some)) {
+    s *= factor;
+  }
+  return cloud;
+}
+
 TEST(CheckDiscretisation, RefusesASpacingThatIsNotTheNodes) {
   Model model = pressed(8);
-  for (double& s : model.cloud.spacing) {
-    s *= 0.1;
+  model.cloud = with_spacing(model.cloud, 0.1);
+  EXPECT_THAT(refusal(model), HasSubstr("'spacing' does not fit its nodes: the nearest node is typically"));
+  EXPECT_THAT(cloud_refusal(with_spacing(test::irregular_box(n, 60), 0.1, 0.25)), HasSubstr("of a tenth of the nodes"));
+}
+
+TEST(CheckDiscretisation, RefusesASpacingThatIsThreeTimesTooLarge) {
+  const NodeCloud irregular = test::irregular_box(n, 60), regular = test::irregular_box(n, 60, 0);
+  for (const NodeCloud& wrong : {with_spacing(irregular, 3), with_spacing(regular, 3), with_spacing(regular, 10)}) {
+    EXPECT_THAT(cloud_refusal(wrong), HasSubstr("'spacing' does not fit its nodes: the six nearest"));
   }
-  EXPECT_THAT(refusal(model), HasSubstr("'spacing' does not fit its nodes"));
+  for (const NodeCloud& sound : {with_spacing(irregular, 2), with_spacing(regular, 2)}) {
+    EXPECT_EQ(cloud_refusal(sound), "");
+  }
+}
+
+/// The nearest node of each is 0.15 spacings away.
+TEST(CheckDiscretisation, TakesLayersThatLieNearEachOther) {
+  NodeCloud layers = test::irregular_box(n, 60, 0);
+  layers.positions = layers.positions.topRows(3 * n * n).eval();
+  layers.positions.col(2) *= 0.15;
+  layers.spacing.resize(3 * n * n);
+  EXPECT_EQ(cloud_refusal(layers), "");
+}
+
+/// 1 : 2.6, with the coarsest spacing for all.
+TEST(CheckDiscretisation, TakesAGradedCloudWithOneSpacing) {
+  NodeCloud graded = test::irregular_box(9, 60);
+  for (double& x : graded.positions.reshaped()) {
+    const double s = x / 60;
+    x = 60 * s * (1 + 0.8 * s) / 1.8;
+  }
+  EXPECT_EQ(cloud_refusal(with_spacing(graded, 2.6 / 1.8)), "");
 }
 
 TEST(CheckDiscretisation, RefusesTwinsBelowATenthOfASpacing) {

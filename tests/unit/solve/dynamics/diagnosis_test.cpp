@@ -5,7 +5,9 @@
 
 #include <cstdio>
 
+#include "solve/dynamics/soundness.hpp"
 #include "solve/run/prepare.hpp"
+#include "solve/run/step.hpp"
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/specimen.hpp"
 
@@ -80,6 +82,35 @@ TEST(Diagnosis, NamesASwellingThatMayHaveNoRoom) {
   };
   EXPECT_NE(told(0.5).find("swells by more than what is around it makes room for"), std::string::npos) << told(0.5);
   EXPECT_EQ(told(0.1).find("swells"), std::string::npos) << told(0.1);
+}
+
+/// As the last sound state had more energy of motion than of strain.
+TEST(Diagnosis, TellsALoadThatComesTooFastFromOneThatIsTooLarge) {
+  const Model model = uniaxial(0.9, 4);
+  for (const double kinetic : {0.5, 2.0}) {
+    SolveMeasures measures;
+    SteppingResult result{};
+    result.body = prepare(model, {}, {}, measures, {}, false).body;
+    result.history.push_back({.strain_energy = 1, .kinetic_energy = kinetic});
+    mark_unstable("it folded", 0.5, 0.5, Fault{.node = 7}, result);
+    ASSERT_TRUE(result.unstable && result.fault);
+    const std::string told = describe(*result.fault, result.body);
+    const char* cause = kinetic > 1 ? "the load comes too fast; spread it over more steps" : "the load is too large";
+    EXPECT_NE(told.find(cause), std::string::npos) << told;
+    EXPECT_EQ(named_node(told, model.cloud), result.body.original[7]);
+  }
+}
+
+/// Over 400 steps it comes to rest. Not tried again more slowly, as solve() would.
+TEST(Diagnosis, SaysOfALoadInFiveStepsThatItComesTooFast) {
+  const Model model = uniaxial(0.5, 5);
+  SolveOptions options;
+  options.load_steps = 5;
+  SolveMeasures measures;
+  Prepared prepared = prepare(model, options, {}, measures, {});
+  const SolveResult result = step_to_end(model, options, std::move(prepared), measures, {}, {});
+  ASSERT_TRUE(result.unstable) << result.measures.steps << " steps, smallest J " << result.measures.smallest_jacobian;
+  EXPECT_NE(result.failure.find("the load comes too fast"), std::string::npos) << result.failure;
 }
 
 TEST(Diagnosis, NamesTheNodeThatIsNotYetAtRest) {

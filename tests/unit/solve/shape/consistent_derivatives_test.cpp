@@ -213,7 +213,7 @@ TEST_P(FreeSides, CarryNoForceWhereTheBoundaryIsKnown) {
   RecordProperty("error", std::to_string(fine) + ", " + std::to_string(by_default) + " by default, " +
                               std::to_string(unknown) + " without");
   EXPECT_LE(fine, 1e-5);
-  EXPECT_LE(by_default, 2e-4);
+  EXPECT_LE(by_default, 1e-4);
   EXPECT_GE(unknown, 10 * by_default);
 }
 
