@@ -191,6 +191,9 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
 /// What a body all of whose surface is prescribed keeps of its volume, by the affine motion nearest to that surface's.
 double prescribed_volume(const Model& model) {
   const std::vector<std::int32_t> surface = surface_nodes(model.cloud);
+  if (surface.empty()) {
+    return 1;
+  }
   const Points x = model.cloud.positions(surface, Eigen::all),
                given = model.conditions.displacement(surface, Eigen::all);
   const Points u = given.array().isNaN().select(0, given.array());  // across the plane
