@@ -204,7 +204,10 @@ double prescribed_volume(const Model& model) {
 
 /// Whether such a change of volume puts all tissues under a high pressure. Points do not tell once they have folded,
 /// as that takes the pressure off them.
-bool is_squeezed(const Model& model) {
+bool is_squeezed(const Model& model, const SolveOptions& options) {
+  if (model.plane != Plane::none || !ends_alike(model, options)) {
+    return false;
+  }
   const double change = std::abs(prescribed_volume(model) - 1);
   return std::ranges::all_of(model.materials, [&](const auto& row) {
     return bulk_modulus(row.second) * change > most_pressure * shear_modulus(row.second);
@@ -217,9 +220,10 @@ bool is_squeezed(const Model& model) {
 SolveResult attempt_under_pressure(const Model& model, const SolveOptions& options, const SolveMeasures& known,
                                    const Progress& progress) {
   SolveResult result = attempt(model, options, known, progress);
-  constexpr std::size_t points_that_hold = 6;  // a node: with 4.6 a graded cube folds all the same
+  constexpr std::size_t points_that_hold = 8;  // a node: with 4.6 a graded cube folds all the same
   const bool pointwise_asked = options.volumetric == Volumetric::pointwise;
-  if (pointwise_asked || !is_confined(model) || (result.measures.pressed_share < much_pressed && !is_squeezed(model))) {
+  if (pointwise_asked || !is_confined(model) ||
+      (result.measures.pressed_share < much_pressed && !is_squeezed(model, options))) {
     return result;
   }
   report(progress, 0, "under high pressure; once more with pointwise dilatation and linear shape functions");
@@ -230,7 +234,7 @@ SolveResult attempt_under_pressure(const Model& model, const SolveOptions& optio
   if (!next.failure.empty()) {
     return result;
   }
-  if (next.measures.integration_points < points_that_hold * next.measures.nodes) {
+  if (model.plane == Plane::none && next.measures.integration_points < points_that_hold * next.measures.nodes) {
     next.measures.pressed_share = 1;
   }
   put_first(
@@ -247,7 +251,7 @@ bool tells_more(const SolveResult& next, const SolveResult& result) {
 }
 
 /// The first of the further attempts that ends well, else what tells most. One that runs out of steps leaves half as
-/// many to the next: three of them take less than twice max_steps.
+/// many to the next.
 SolveResult try_again(const Model& model, const SolveOptions& options, const SolveMeasures& known, SolveResult result,
                       const Progress& progress) {
   int steps = options.max_steps;
@@ -262,7 +266,7 @@ SolveResult try_again(const Model& model, const SolveOptions& options, const Sol
     }
     tried += (tried.empty() ? "; tried in vain with " : ", with ") + what + " (" + std::to_string(next.measures.steps) +
              " steps)";
-    steps = next.measures.steps < steps ? steps : steps / 2;
+    steps = next.measures.steps < steps ? steps : std::max(1, steps / 2);
     if (tells_more(next, result)) {
       result = std::move(next);
     }

