@@ -85,11 +85,7 @@ solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, bool rob
   if (load.sigma.rows() == 0) {
     return taken;
   }
-  const Warnings warnings =
-      robust ? warnings_of(solve::lessen_joined(taken)) : warnings_of(solve::worst_of_joined(taken));
-  for (const std::string& warning : warnings) {
-    notes.push_back("warning: " + warning);
-  }
+  warn(robust ? warnings_of(solve::lessen_joined(taken)) : warnings_of(solve::worst_of_joined(taken)), notes);
   return taken;
 }
 
@@ -269,10 +265,9 @@ SolveInput read_input(const SolveJob& job) {
     });
   }
   if (job.load && job.load->robust) {
-    for (const std::string& warning : warnings_of(naming(
-             load_files(*job.load), [&] { return solve::lessen_outliers(model, job.options, job.load->opening); }))) {
-      input.notes.push_back("warning: " + warning);
-    }
+    warn(warnings_of(naming(load_files(*job.load),
+                            [&] { return solve::lessen_outliers(model, job.options, job.load->opening); })),
+         input.notes);
   }
   if (model.conditions.measured && !job.landmarks.empty()) {
     model.conditions.measured->asked = solve::read_markup_positions(job.landmarks);

@@ -48,11 +48,6 @@ double median_distance(const Points& points, const Points& surface) {
   return median(std::move(distances));
 }
 
-/// Whether more of the surface is prescribed than free: that is no opening.
-bool loaded_all_round(const solve::Model& model) {
-  return 2 * solve::free_surface_nodes(model.cloud, model.conditions).size() < surface_nodes(model.cloud).size();
-}
-
 }  // namespace
 
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed) {
@@ -103,7 +98,7 @@ Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<co
 }
 
 Warnings warnings_of(const solve::Model& model, const Points& displacement) {
-  if (model.skull || loaded_all_round(model)) {
+  if (model.skull || solve::mostly_prescribed(model.cloud, model.conditions)) {
     return {};
   }
   std::vector<double> moved;
@@ -238,10 +233,14 @@ Warnings warnings_of(const registration::RegisterMeasures& measures) {
           "), where the warped images mean nothing; look at the load, or solve with more nodes"};
 }
 
-void warn(const Warnings& warnings, StageReport& report) {
+void warn(const Warnings& warnings, std::vector<std::string>& notes) {
   for (const std::string& warning : warnings) {
-    report.notes.push_back("warning: " + warning);
+    notes.push_back("warning: " + warning);
   }
+}
+
+void warn(const Warnings& warnings, StageReport& report) {
+  warn(warnings, report.notes);
 }
 
 }  // namespace brainshift::pipelines

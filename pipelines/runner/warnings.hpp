@@ -44,7 +44,8 @@ Warnings warnings_of(const solve::LessenedPoints& lessened);
 /// Of a field that folds.
 Warnings warnings_of(const registration::RegisterMeasures& measures);
 
-/// Adds them to the stage's notes, each marked as a warning.
+/// Adds them to the notes of a stage, each marked as a warning.
+void warn(const Warnings& warnings, std::vector<std::string>& notes);
 void warn(const Warnings& warnings, StageReport& report);
 
 }  // namespace brainshift::pipelines

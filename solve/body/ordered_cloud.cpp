@@ -34,6 +34,10 @@ std::vector<std::int32_t> free_surface_nodes(const NodeCloud& cloud, const Condi
   return nodes;
 }
 
+bool mostly_prescribed(const NodeCloud& cloud, const Conditions& conditions) {
+  return 2 * free_surface_nodes(cloud, conditions).size() < surface_nodes(cloud).size();
+}
+
 Points in_original_order(const Points& values, const std::vector<std::int32_t>& original) {
   Points result(values.rows(), 3);
   for (std::size_t a = 0; a < original.size(); ++a) {

@@ -24,6 +24,9 @@ OrderedCloud order_nodes(const NodeCloud& cloud, const Conditions& conditions);
 /// Surface nodes that nothing prescribes.
 std::vector<std::int32_t> free_surface_nodes(const NodeCloud& cloud, const Conditions& conditions);
 
+/// Whether more of the surface is prescribed than free: that is no opening, and a skull about it hardly holds the body.
+bool mostly_prescribed(const NodeCloud& cloud, const Conditions& conditions);
+
 /// Rows of ordered nodes in the cloud's own order.
 Points in_original_order(const Points& values, const std::vector<std::int32_t>& original);
 std::vector<double> in_original_order(const std::vector<double>& values, const std::vector<std::int32_t>& original);

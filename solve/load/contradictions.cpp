@@ -11,8 +11,6 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double contradicts = 5;           // 60 points of a Gaussian have one in a thousand runs
-constexpr double usual_of_gaussian = 1.54;  // the median of the root of chi-squared with three degrees of freedom
 constexpr double raised = 30;  // factor of a standard deviation, after which a point counts for a thousandth
 
 using Groups = std::vector<std::vector<Eigen::Index>>;
@@ -58,7 +56,7 @@ double usual_of(const CraniotomyLoad& load, const Groups& groups) {
       all.push_back((u.row(i) - median).cwiseQuotient(sigma.row(i)).norm());
     }
   }
-  return all.empty() ? 1 : std::max(1.0, middle_of(std::move(all)) / usual_of_gaussian);
+  return all.empty() ? 1 : std::max(1.0, middle_of(std::move(all)) / usual_surprise);
 }
 
 }  // namespace
@@ -70,7 +68,7 @@ std::optional<Outlier> worst_of_joined(const CraniotomyLoad& load) {
   for (const std::vector<Eigen::Index>& group : groups) {
     Eigen::Index at = 0;
     const double off = off_from_others(load, group).maxCoeff(&at) / usual;
-    if (off > std::max(contradicts, worst ? worst->deviations : 0)) {
+    if (off > std::max(surprising, worst ? worst->deviations : 0)) {
       worst = {load.positions.row(group[static_cast<std::size_t>(at)]), off};
     }
   }
@@ -89,7 +87,7 @@ LessenedPoints lessen_joined(CraniotomyLoad& load) {
         off[static_cast<Eigen::Index>(i)] *= counts[i] ? 1 : 0;
       }
       const double farthest = off.maxCoeff();
-      if (!(farthest > contradicts * usual)) {
+      if (!(farthest > surprising * usual)) {
         break;
       }
       for (std::size_t i = 0; i < group.size(); ++i) {

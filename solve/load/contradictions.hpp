@@ -8,6 +8,13 @@
 
 namespace brainshift::solve {
 
+/// Standard deviations of a point from what others say that are surprising, over what is usual of the load: 60 points
+/// of a Gaussian have one in a thousand runs.
+inline constexpr double surprising = 5;
+
+/// The median of that distance where the noise is Gaussian: of the root of chi-squared with three degrees of freedom.
+inline constexpr double usual_surprise = 1.54;
+
 /// Where what was measured contradicts itself.
 struct Outlier {
   Eigen::Vector3d position;  ///< undeformed, of the measured point, mm

@@ -116,11 +116,6 @@ bool hold(const OrderedCloud& cloud, bool touches, Eigen::MatrixXd& k) {
   return held;
 }
 
-/// Whether the skull tells where the body lies: where it touches no less of the surface than is prescribed.
-bool skull_holds(const OrderedCloud& cloud) {
-  return 2 * free_surface_nodes(cloud, cloud.conditions).size() >= surface_nodes(cloud).size();
-}
-
 /// Φ for vectors: (3n × 3m), a column a component of a point.
 Eigen::MatrixXd loads_at(const ShapeRows& at_points, std::size_t nodes) {
   Eigen::MatrixXd loads =
@@ -150,7 +145,7 @@ Eigen::MatrixXd rigid_motions(const Points& places, const Points& about) {
 
 Response linear_response(const BodyParts& parts, const ShapeRows& at_points, bool touches) {
   Eigen::MatrixXd k = stiffness_of(parts);
-  const bool held = hold(parts.cloud, touches && skull_holds(parts.cloud), k);
+  const bool held = hold(parts.cloud, touches && !mostly_prescribed(parts.cloud, parts.cloud.conditions), k);
   k.diagonal().array() += slack * k.diagonal().mean();
   const Eigen::MatrixXd observed = loads_at(at_points, parts.cloud.size());
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(k);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "solve/load/contradictions.hpp"
 #include "solve/measured/gaussian.hpp"
 #include "solve/measured/weight.hpp"
 

@@ -25,8 +25,4 @@ Eigen::VectorXd robust_weights(const Response& response, const Points& displacem
 
 /// Stands for a weight of 0.
 inline constexpr double least_trust = 1e-3;
-
-/// The median of surprise() where the noise is Gaussian: of the root of chi-squared with three degrees of freedom.
-inline constexpr double usual_surprise = 1.54;
-
 }  // namespace brainshift::solve

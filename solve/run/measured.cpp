@@ -220,7 +220,6 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
 }
 
 std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options) {
-  constexpr double surprising = 5;  // 60 points of a Gaussian have one in a thousand runs
   const Thinned thin(model, options);
   // Without a smooth motion: one alike over short lengths takes a wrong point for one of its own.
   const Response response = response_of(thin, model, inner_rows(*thin.shape, thin.positions), thin.positions);

@@ -194,9 +194,8 @@ double prescribed_volume(const Model& model) {
   if (surface.empty()) {
     return 1;
   }
-  const Points x = model.cloud.positions(surface, Eigen::all),
-               given = model.conditions.displacement(surface, Eigen::all);
-  const Points u = given.array().isNaN().select(0, given.array());  // across the plane
+  const Points x = model.cloud.positions(surface, Eigen::all);
+  const Points u = model.conditions.displacement(surface, Eigen::all);
   const Eigen::MatrixXd about = x.rowwise() - x.colwise().mean(), moved = u.rowwise() - u.colwise().mean();
   const Eigen::Matrix3d gradient = about.completeOrthogonalDecomposition().solve(moved).transpose();
   return (Eigen::Matrix3d::Identity() + gradient).determinant();

@@ -20,6 +20,13 @@ void move_into_place(const ScratchFolder& folder, const std::string& text, const
   fs::rename(folder.write("load.part", text), file);
 }
 
+/// A writer that has yet to close the file.
+std::ofstream begun(const fs::path& file, const std::string& text) {
+  std::ofstream slow(file);
+  slow << text << std::flush;
+  return slow;
+}
+
 TEST(FileWatch, ReturnsEachVersionOnce) {
   const ScratchFolder folder;
   const fs::path file = folder.write("load.csv", "1\n");
@@ -53,14 +60,12 @@ TEST(FileWatch, WaitsForASlowWriter) {
   const fs::path file = folder.path() / "load.csv";
   FileWatch watch(file);
   for (int version = 0; version < 2; ++version) {
-    std::ofstream slow(file);
-    slow << "1,2\n" << std::flush;
+    std::ofstream slow = begun(file, "1,2\n");
     auto later = std::async(std::launch::async, [&] { return watch.next(); });
-    EXPECT_EQ(later.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
-    slow << "3,-6" << std::flush;
-    EXPECT_EQ(later.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
-    slow << ".9\n" << std::flush;
-    EXPECT_EQ(later.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+    for (const char* more : {"3,-6", ".9\n", ""}) {
+      EXPECT_EQ(later.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout) << "before " << more;
+      slow << more << std::flush;
+    }
     slow.close();
     EXPECT_EQ(later.get().size, 11);
   }
@@ -70,8 +75,7 @@ TEST(FileWatch, TakesWhatRestsUnclosedOnlyWithANewlineAtItsEnd) {
   const ScratchFolder folder;
   const fs::path file = folder.path() / "load.csv";
   FileWatch watch(file);
-  std::ofstream slow(file);
-  slow << "1,2\n" << std::flush;
+  std::ofstream slow = begun(file, "1,2\n");
   EXPECT_EQ(watch.next().size, 4);
   slow << "3,-6" << std::flush;
   EXPECT_NE(refusal([&] { watch.next(); }).find("load.csv: half-written"), std::string::npos);
@@ -83,8 +87,7 @@ TEST(FileWatch, TakesAtOnceWhatIsMovedIntoPlace) {
   const ScratchFolder folder;
   const fs::path file = folder.path() / "load.csv";
   FileWatch watch(file);
-  std::ofstream slow(file);
-  slow << "1,2" << std::flush;
+  const std::ofstream slow = begun(file, "1,2");
   move_into_place(folder, "1,2\n3,-6.9", file);
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(watch.next().size, 10);
