@@ -15,14 +15,34 @@ void add_up(std::vector<std::int64_t>& begin) {
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
 }
 
-/// The cluster of each patch, by how many points are before it.
-std::vector<std::int32_t> divide(const PointBlocks& points, std::int32_t count) {
+/// Patches one after the other, with so many pairs at most: the cluster of each.
+std::vector<std::int32_t> cut_at(const std::vector<std::int64_t>& pairs, std::int64_t most) {
   std::vector<std::int32_t> cluster;
-  const auto all = static_cast<std::int64_t>(points.points());
-  for (const Patch& patch : points.patches) {
-    cluster.push_back(static_cast<std::int32_t>(patch.first_point * std::int64_t{count} / all));
+  std::int64_t in_cluster = 0;
+  for (const std::int64_t of_patch : pairs) {
+    const bool full = !cluster.empty() && in_cluster + of_patch > most;
+    in_cluster = full ? of_patch : in_cluster + of_patch;
+    cluster.push_back(cluster.empty() ? 0 : cluster.back() + (full ? 1 : 0));
   }
   return cluster;
+}
+
+/// The cluster of each patch, so that the one with the most pairs has as few as can be: it takes the longest.
+std::vector<std::int32_t> divide(const PointBlocks& points, std::int32_t count) {
+  std::vector<std::int64_t> pairs;
+  for (const Patch& patch : points.patches) {
+    std::int64_t of_patch = 0;
+    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+      of_patch += points.support[static_cast<std::size_t>(p)];
+    }
+    pairs.push_back(of_patch);
+  }
+  std::int64_t too_few = 0, enough = std::accumulate(pairs.begin(), pairs.end(), std::int64_t{0});
+  while (enough - too_few > 1) {
+    const std::int64_t middle = (too_few + enough) / 2;
+    (cut_at(pairs, middle).back() < count ? enough : too_few) = middle;
+  }
+  return cut_at(pairs, enough);
 }
 
 /// The block of each patch.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cooperative_groups.h>
 
+#include <algorithm>
+
 #include "solve/device/backend.hpp"
 #include "solve/device/device_fault.hpp"
 
@@ -18,7 +20,9 @@ __device__ double (*sums_of_warps())[most_sums] {
 
 /// All threads of the device.
 struct AllThreads {
-  static constexpr int lanes = 4, wide = 32, at_once = 4;
+  static constexpr int lanes = 4, half = 16, wide = 32;
+  template <class Scalar>
+  static constexpr int at_once = sizeof(Scalar) == sizeof(float) ? 12 : 4;
 
   __device__ int thread() const { return static_cast<int>(threadIdx.x); }
   __device__ int threads() const { return static_cast<int>(blockDim.x); }
@@ -49,6 +53,13 @@ struct AllThreads {
       x = larger(x, __shfl_xor_sync(mask<width>(), x, i, width));
     }
     return x;
+  }
+  __device__ void add(std::int32_t* to, std::int32_t more) const { atomicAdd(to, more); }
+  __device__ void add(std::int64_t* to, std::int64_t more) const {
+    atomicAdd(reinterpret_cast<unsigned long long*>(to), static_cast<unsigned long long>(more));
+  }
+  __device__ void raise(std::uint64_t* to, std::uint64_t key) const {
+    atomicMax(reinterpret_cast<unsigned long long*>(to), static_cast<unsigned long long>(key));
   }
   template <int sums, int count>
   __device__ void combine(const double (&of_thread)[count], double* of_block) const {
@@ -91,7 +102,7 @@ void check(cudaError_t error, const char* what) {
 
 template <Task task, class Scalar>
 void launch(const View<Scalar>& view, const Order& order) {
-  const std::size_t room = Room<Scalar>::size(view.most_slots, view.most_points);
+  const std::size_t room = std::max(Room<Scalar>::size(view), room_to_sweep);
   const auto function = reinterpret_cast<const void*>(kernel<task, Scalar>);
   check(cudaFuncSetAttribute(function, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(room)),
         "set its memory apart");

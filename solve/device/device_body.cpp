@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "solve/device/device_fault.hpp"
+#include "solve/device/slices.hpp"
 #include "solve/force/firmness.hpp"
 
 namespace brainshift::solve::device {
@@ -49,6 +50,53 @@ CompressedRows rows_of(const PushedNodes& nodes) {
     rows.begin.push_back(static_cast<std::int64_t>(rows.node.size()));
   }
   return rows;
+}
+
+template <class Scalar>
+std::int32_t most_patches(const Clusters<Scalar>& clusters) {
+  std::int32_t most = 0;
+  for (const Cluster& c : clusters.clusters) {
+    most = std::max(most, c.patches);
+  }
+  return most;
+}
+
+/// Of a block, bytes, without pairs that stay there.
+template <class Scalar>
+std::size_t room_of(const Clusters<Scalar>& clusters) {
+  return Room<Scalar>::size(clusters.most_slots, clusters.most_points, most_patches(clusters), 0);
+}
+
+/// As many clusters as there are blocks, or a multiple, so that they fit.
+template <class Scalar>
+Clusters<Scalar> make_fitting_clusters(const PointBlocks& points, const Backend& backend) {
+  const auto all = static_cast<std::int32_t>(points.points());
+  const std::size_t room_of_points = Room<Scalar>::size(0, all, 0, 0) / static_cast<std::size_t>(backend.blocks);
+  for (auto rounds = static_cast<std::int32_t>(room_of_points / backend.room) + 1;; ++rounds) {
+    const std::int32_t wanted = std::clamp(all / fewest_points, 1, rounds * backend.blocks);
+    Clusters<Scalar> made = make_clusters<Scalar>(points, wanted);
+    if (room_of(made) <= backend.room) {
+      return made;
+    }
+    if (wanted < rounds * backend.blocks) {
+      throw DeviceFault(
+          "a patch of this body is larger than what a multiprocessor of the GPU holds; take device "
+          "cpu");
+    }
+  }
+}
+
+template <class Scalar>
+std::int32_t turns_that_fit(const Slices<Scalar>& slices, std::size_t bytes) {
+  std::int64_t most = 0;
+  for (std::size_t c = 1; c < slices.cluster_begin.size(); ++c) {
+    const auto turn = [&](std::size_t of) {
+      return slices.turn_begin[static_cast<std::size_t>(slices.cluster_begin[of])];
+    };
+    most = std::max(most, turn(c) - turn(c - 1));
+  }
+  return static_cast<std::int32_t>(
+      std::min<std::int64_t>(most, static_cast<std::int64_t>(bytes / Room<Scalar>::turn_size(1))));
 }
 
 std::vector<double> dense(const Eigen::SparseMatrix<double>& matrix) {
@@ -96,30 +144,20 @@ DeviceBody<Scalar>::DeviceBody(const Backend& backend, const Body& body) : backe
     put_contact(*body.contact);
   }
   put_conditions(body.essential);
+  perform(Task::share_bounds, {});
 }
 
 template <class Scalar>
 void DeviceBody<Scalar>::put_points(const PointBlocks& points) {
-  const auto all = static_cast<std::int32_t>(points.points());
-  Clusters<Scalar> made;
-  const std::size_t room_of_points = Room<Scalar>::size(0, all) / static_cast<std::size_t>(backend_.blocks);
-  for (auto rounds = static_cast<std::int32_t>(room_of_points / backend_.room) + 1;; ++rounds) {
-    const std::int32_t wanted = std::clamp(all / fewest_points, 1, rounds * backend_.blocks);
-    made = make_clusters<Scalar>(points, wanted);
-    if (Room<Scalar>::size(made.most_slots, made.most_points) <= backend_.room) {
-      break;
-    }
-    if (wanted < rounds * backend_.blocks) {
-      throw DeviceFault(
-          "a patch of this body is larger than what a multiprocessor of the GPU holds; take device "
-          "cpu");
-    }
-  }
+  const Clusters<Scalar> made = make_fitting_clusters<Scalar>(points, backend_);
+  const Slices<Scalar> slices = make_slices(made);
   View<Scalar>& v = view_;
   v.clusters = static_cast<std::int32_t>(made.clusters.size());
   v.nodes = static_cast<std::int32_t>(points.nodes());
   v.most_slots = made.most_slots;
   v.most_points = made.most_points;
+  v.most_patches = most_patches(made);
+  v.resident = turns_that_fit(slices, backend_.room - room_of(made));
   v.cluster = memory_.put(made.clusters);
   v.patch = memory_.put(made.patches);
   v.patch_of = memory_.put(made.patch_of);
@@ -130,8 +168,11 @@ void DeviceBody<Scalar>::put_points(const PointBlocks& points) {
   v.material = memory_.put(material);
   v.volume = memory_.put(points.volume);
   v.mode = points.mode.empty() ? nullptr : memory_.put(points.mode);
-  v.pair_begin = memory_.put(made.pair_begin);
-  v.pair = memory_.put(made.pairs);
+  v.slice_begin = memory_.put(slices.cluster_begin);
+  v.turn_begin = memory_.put(slices.turn_begin);
+  v.slice_point = memory_.put(slices.point);
+  v.slice_pair = memory_.put(slices.pairs);
+  v.reach = memory_.put(slices.reach);
   v.slot_node = memory_.put(made.slot_node);
   v.slot_begin = memory_.put(made.slot_begin);
   v.slot_pair = memory_.put(made.slot_pairs);
@@ -145,6 +186,7 @@ void DeviceBody<Scalar>::put_points(const PointBlocks& points) {
   v.touch_norm = memory_.template room<SlotVector<double>>(made.touches.size());
   v.touch_reach = memory_.template room<double>(made.touches.size());
   v.point_bound = memory_.template room<SharedBound>(points.points());
+  v.point_tangent = memory_.template room<double>(points.points());
   v.patch_bound = memory_.template room<SharedBound>(made.patches.size());
   v.patch_total = memory_.template room<SlotVector<double>>(made.patches.size());
   v.slot_force = memory_.template room<SlotVector<Scalar>>(made.slot_node.size());
@@ -214,6 +256,7 @@ void DeviceBody<Scalar>::put_contact(const Contact& contact) {
   c.column_sum = memory_.put(column_sum);
   c.inverse_row_sum = memory_.template room<double>(count);
   c.push = memory_.template room<double>(3 * count);
+  c.pushed = memory_.template room<double>(4 * nodes());
   c.skull = contact.skull()->grid();
   c.skull.sample = memory_.put(contact.skull()->samples().value);
 }
@@ -244,7 +287,8 @@ void DeviceBody<Scalar>::put_conditions(const EssentialConditions& essential) {
     c.multiplier[1] = multipliers[1] + before;
     c.own = !rows_before || !(rows == *rows_before) || compliance != compliance_before;
     c.inverse = c.own ? memory_.template room<double>(count * count) : view_.condition[axis - 1].inverse;
-    c.column = memory_.template room<double>(3 * count);
+    c.panel = memory_.template room<double>(2 * pivots_at_once * count);
+    c.diagonal = memory_.template room<double>(count);
     before += count;
     rows_before = rows;
     compliance_before = compliance;

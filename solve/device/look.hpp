@@ -72,10 +72,10 @@ template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void look_at_points(const Team& team, const View<Scalar>& v, const Motion& m,
                                          double (&of)[LookSums::count]) {
   using Sums = LookSums;
-  const Room<Scalar> room(team.room(), v.most_slots, v.most_points);
+  const Room<Scalar> room(team.room(), v);
   for (int i = team.block(); i < v.clusters; i += team.blocks()) {
     const Cluster& c = v.cluster[i];
-    find_gradients(team, v, c, m.before, room);
+    find_gradients(team, v, i, m.before, 1, room);
     const double minus_smallest = find_dilatations(team, v, c, room);
     of[Sums::minus_jacobian] = larger(of[Sums::minus_jacobian], minus_smallest);
     for (std::int32_t p = team.thread(); p < c.points; p += team.threads()) {

@@ -44,55 +44,89 @@ BRAINSHIFT_ON_DEVICE double external_force(const View<Scalar>& v, double fractio
   return share * of_upper[i] + (1 - share) * lower;
 }
 
-/// û⁺ = û + β(û − û⁻) + α M⁻¹ (f_ext − f_int), each component of a node by itself.
+/// What a thread has of the sums of the steps taken.
+struct ThreadSums {
+  double of[StepSums::count] = {};
+
+  /// Of the first step, or of another.
+  BRAINSHIFT_ON_DEVICE void add(bool first, double step_before, double two_steps, double push_work, double force_work) {
+    of[StepSums::first_before] += first ? step_before : 0;
+    of[StepSums::two_steps] += two_steps;
+    of[StepSums::two_steps_last] = two_steps;
+    of[StepSums::push_work] += push_work;
+    of[StepSums::push_work_last] = push_work;
+    of[StepSums::force_work] += force_work;
+    of[StepSums::force_work_last] = force_work;
+  }
+  /// rate: of the reactions' work by the load's fraction, which moved on by so much before the step.
+  BRAINSHIFT_ON_DEVICE void add_reactions(bool first, double moved_on, double rate) {
+    of[StepSums::rate_first] += first ? rate : 0;
+    of[StepSums::reaction_work] += first ? 0 : moved_on * (rate + of[StepSums::rate_last]) / 2;
+    of[StepSums::rate_last] = rate;
+  }
+};
+
+/// The sums of the step of an order, the first is 1, that has led to `m`.now, as threads go through the nodes.
+template <class Scalar>
+class StepTaken {
+ public:
+  BRAINSHIFT_ON_DEVICE StepTaken(const View<Scalar>& v, const Order& order, const Motion& m, int step)
+      : v_(v), m_(m), step_(step), from_(order.fraction[step > 0 ? step - 1 : 0]), to_(order.fraction[step]) {}
+
+  /// Of a component of a node.
+  BRAINSHIFT_ON_DEVICE void add(std::int64_t i, double now, double before) {
+    if (step_ > 0) {
+      const double mass = v_.mass[i / 4], earlier = m_.next[i];
+      two_steps_ += mass * (now - earlier) * (now - earlier);
+      step_before_ += mass * (before - earlier) * (before - earlier);
+      push_work_ += v_.contact.count > 0 ? v_.contact.pushed[i] * (now - earlier) / 2 : 0;
+      if (v_.external_count > 0) {
+        force_work_ += (external_force(v_, from_, i) + external_force(v_, to_, i)) / 2 * (now - before);
+      }
+    }
+  }
+  BRAINSHIFT_ON_DEVICE void end(ThreadSums& sums) const {
+    if (step_ > 0) {
+      sums.add(step_ == 1, step_before_, two_steps_, push_work_, force_work_);
+    }
+  }
+
+ private:
+  const View<Scalar>& v_;
+  const Motion& m_;
+  int step_;
+  double from_, to_;
+  double step_before_ = 0, two_steps_ = 0, push_work_ = 0, force_work_ = 0;
+};
+
+/// û⁺ = û + β(û − û⁻) + α M⁻¹ (f_ext − f_int), each component of a node by itself, after so many steps of the order.
 template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void move_nodes(const Team& team, const View<Scalar>& v, const Order& order, const Motion& m,
-                                     double fraction) {
+                                     int done, ThreadSums& sums) {
+  StepTaken<Scalar> taken(v, order, m, done);
   for (std::int64_t i = first_of_all(team); i < 4 * static_cast<std::int64_t>(v.nodes); i += all_threads(team)) {
     const auto node = static_cast<std::int32_t>(i / 4);
     const int axis = static_cast<int>(i % 4);
     if (axis < 3) {
-      const double force = force_at_node(v, node, axis) - external_force(v, fraction, i);
+      const double now = m.now[i], before = m.before[i];
+      taken.add(i, now, before);
+      const double force = force_at_node(v, node, axis) - external_force(v, order.fraction[done], i);
       m.force[i] = force;
-      m.next[i] = m.now[i] + order.beta * (m.now[i] - m.before[i]) - order.alpha * v.inverse_mass[node] * force;
+      m.next[i] = now + order.beta * (now - before) - order.alpha * v.inverse_mass[node] * force;
     }
   }
+  taken.end(sums);
 }
 
-/// The sums of the step that has led to `m`.now, on which the load went from one fraction to another. minus_jacobian:
-/// of the force after it.
+/// The sums of the last step.
 template <class Team, class Scalar>
-BRAINSHIFT_ON_DEVICE void leave_step_sums(const Team& team, const View<Scalar>& v, const Motion& m, double from,
-                                          double to, double minus_jacobian) {
-  double of[StepSums::count] = {};
+BRAINSHIFT_ON_DEVICE void add_last_step(const Team& team, const View<Scalar>& v, const Order& order, const Motion& m,
+                                        int done, ThreadSums& sums) {
+  StepTaken<Scalar> taken(v, order, m, done);
   for (std::int64_t i = first_of_all(team); i < 4 * static_cast<std::int64_t>(v.nodes); i += all_threads(team)) {
-    const double mass = v.mass[i / 4];
-    const double both = m.now[i] - m.next[i], before = m.before[i] - m.next[i];
-    of[StepSums::two_steps] += mass * both * both;
-    of[StepSums::step_before] += mass * before * before;
-    of[StepSums::force_work] += (external_force(v, from, i) + external_force(v, to, i)) / 2 * (m.now[i] - m.before[i]);
+    taken.add(i, m.now[i], m.before[i]);
   }
-  for (std::int32_t i = first_group(team); i < v.contact.count; i += all_groups(team)) {
-    const double* push = v.contact.push + 3 * i;
-    if (push[0] == 0 && push[1] == 0 && push[2] == 0) {
-      continue;
-    }
-    for (std::int64_t k = v.contact.begin[i] + team.thread() % Team::wide; k < v.contact.begin[i + 1];
-         k += Team::wide) {
-      const std::int64_t node = 4 * static_cast<std::int64_t>(v.contact.node[k]);
-      for (int axis = 0; axis < 3; ++axis) {
-        of[StepSums::push_work] += push[axis] * v.contact.shape[k] * (m.now[node + axis] - m.next[node + axis]) / 2;
-      }
-    }
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    const Conditions& c = v.condition[axis];
-    for (std::int32_t i = first_of_all(team); i < c.count; i += all_threads(team)) {
-      of[StepSums::multiplier_work] += m.multiplier_before[axis][i] * c.prescribed[i];
-    }
-  }
-  of[StepSums::minus_jacobian] = minus_jacobian;
-  leave<StepSums::sums>(team, of, v.partial);
+  taken.end(sums);
 }
 
 }  // namespace brainshift::solve::device

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstring>
 #include <new>
 
@@ -15,7 +16,7 @@ struct alignas(64) Line {
 
 template <class Scalar>
 void perform_alone(Task task, const View<Scalar>& view, const Order& order) {
-  std::vector<Line> memory(Room<Scalar>::size(view.most_slots, view.most_points) / sizeof(Line) + 1);
+  std::vector<Line> memory(std::max(Room<Scalar>::size(view), room_to_sweep) / sizeof(Line) + 1);
   const OneThread alone{memory.front().bytes};
   with_task(task, [&]<Task which>() { perform<which>(alone, view, order); });
 }

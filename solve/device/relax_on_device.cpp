@@ -145,11 +145,9 @@ class Relaxation {
       on_.perform(Task::step, order_);
       on_.perform(Task::look, after(order_.steps));
       record_ = on_.record();
-      for (int s = 1; s <= record_.steps; ++s) {
-        keep_books(record_.step[s], done == 0 && s == 1 ? beta_before : order_.beta);
-        fraction_before_ = fraction_;
-        fraction_ = order_.fraction[s];
-      }
+      keep_books(done == 0 ? beta_before : order_.beta);
+      fraction_before_ = order_.fraction[record_.steps - 1];
+      fraction_ = order_.fraction[record_.steps];
       time_ = time[record_.steps - 1];
       const bool rewind = record_.steps < order_.steps;
       order_ = after(record_.steps);
@@ -161,7 +159,7 @@ class Relaxation {
         }
       }
       if (record_.halted != 0) {
-        squeezed_to_ = -record_.step[record_.steps - 1].of[StepSums::minus_jacobian];
+        squeezed_to_ = record_.jacobian[record_.steps - 1];
         follow_stiffness();
         if (done + record_.steps == steps) {
           on_.perform(Task::look, order_);
@@ -172,12 +170,22 @@ class Relaxation {
     ++order_.states;
   }
 
-  /// As Motion::add_energies().
-  void keep_books(const StepSums& sums, double beta_before) {
+  /// As Motion::add_energies() after each of the steps taken; beta_before: of the step before them.
+  void keep_books(double beta_before) {
+    const auto& of = record_.steps_taken.of;
     const double alpha = order_.alpha, beta = order_.beta;
-    books_.add(fraction_ - fraction_before_, sums.of[StepSums::multiplier_work] / alpha, sums.of[StepSums::force_work],
-               (1 - beta) / (4 * alpha) * sums.of[StepSums::two_steps] - sums.of[StepSums::push_work] / alpha);
-    books_.dissipated += (beta_before - beta) / (4 * alpha) * sums.of[StepSums::step_before];
+    const auto lost = [&](double two_steps, double push_work) {
+      return (1 - beta) / (4 * alpha) * two_steps - push_work / alpha;
+    };
+    books_.add(Books::StepsTaken{.moved_on = fraction_ - fraction_before_,
+                                 .rate_first = of[StepSums::rate_first] / alpha,
+                                 .rate_last = of[StepSums::rate_last] / alpha,
+                                 .reaction_work = of[StepSums::reaction_work] / alpha,
+                                 .force_work = of[StepSums::force_work],
+                                 .force_work_last = of[StepSums::force_work_last],
+                                 .lost = lost(of[StepSums::two_steps], of[StepSums::push_work]),
+                                 .lost_last = lost(of[StepSums::two_steps_last], of[StepSums::push_work_last])});
+    books_.dissipated += (beta_before - beta) / (4 * alpha) * of[StepSums::first_before];
   }
 
   Order after(int steps) const {

@@ -9,36 +9,44 @@
 namespace brainshift::solve::device {
 
 /// What a team does in one go.
-enum class Task : int { step, look, follow, weigh, hold, measure_tightness };
+enum class Task : int { share_bounds, step, look, follow, weigh, hold, measure_tightness };
 
 /// Motion::step() as often as the order says, or until a point is squeezed so much that the masses must be looked at.
 template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void step(const Team& team, const View<Scalar>& v, const Order& order) {
   Record& record = *v.record;
+  Room<Scalar> room(team.room(), v);
+  keep_pairs(team, v, room);
+  ThreadSums sums;
   int done = 0;
   bool halted = false;
   while (done < order.steps && !halted) {
     const Motion m = motion_at(v, order.first + done, order.parity + done);
-    const double minus_jacobian = slot_forces(team, v, m.now);
-    leave_step_sums(team, v, m, order.fraction[std::max(done - 1, 0)], order.fraction[done], minus_jacobian);
+    std::uint64_t* squeezed = record.squeezed + (order.parity + done) % 2;
+    slot_forces(team, v, m.now, 1, room, squeezed);
     team.sync_all();
-    move_nodes(team, v, order, m, order.fraction[done]);
-    if (team.block() == team.blocks() - 1) {
-      collect<StepSums::sums, StepSums::count>(team, v.partial, record.step[done].of);
+    move_nodes(team, v, order, m, done, sums);
+    if (first_of_all(team) == 0) {
+      record.squeezed[(order.parity + done + 1) % 2] = 0;
     }
     team.sync_all();
-    halted = !(-record.step[done].of[StepSums::minus_jacobian] >= order.halt_below);
     if (v.contact.count > 0) {
       touch(team, v, m.next);
     }
-    hold(team, v, m, order.fraction[done + 1]);
+    const double rate = hold(team, v, m, order.fraction[done + 1]);
+    sums.add_reactions(done == 0, done > 0 ? order.fraction[done] - order.fraction[done - 1] : 0, rate);
+    const double minus_jacobian = of_rising_key(*squeezed);
+    halted = !(-minus_jacobian >= order.halt_below);
+    if (first_of_all(team) == 0) {
+      record.jacobian[done] = -minus_jacobian;
+    }
     ++done;
   }
-  const Motion m = motion_at(v, order.first + done, order.parity + done);
-  leave_step_sums(team, v, m, order.fraction[done - 1], order.fraction[done], -1);
+  add_last_step(team, v, order, motion_at(v, order.first + done, order.parity + done), done, sums);
+  leave<StepSums::sums>(team, sums.of, v.partial);
   team.sync_all();
   if (team.block() == team.blocks() - 1) {
-    collect<StepSums::sums, StepSums::count>(team, v.partial, record.step[done].of);
+    collect<StepSums::sums, StepSums::count>(team, v.partial, record.steps_taken.of);
   }
   if (first_of_all(team) == 0) {
     record.steps = done;
@@ -54,7 +62,7 @@ BRAINSHIFT_ON_DEVICE void look_if_due(const Team& team, const View<Scalar>& v, c
   }
 }
 
-/// Sums over the nodes that every thread gets.
+/// Sums over the nodes that every thread gets. partial: another one than the last time.
 template <int count, class Team>
 BRAINSHIFT_ON_DEVICE void sum_for_all(const Team& team, double (&of)[count], double* partial) {
   leave<count>(team, of, partial);
@@ -62,12 +70,13 @@ BRAINSHIFT_ON_DEVICE void sum_for_all(const Team& team, double (&of)[count], dou
   for (int k = 0; k < count; ++k) {
     of[k] = of_all_blocks<count, count>(team, partial, k);
   }
-  team.sync_all();
 }
 
 /// largest_eigenvalue() for the masses in `stiffer_mass`, from the mode in `mode_of_body`, 4 a node.
 template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void measure_tightness(const Team& team, const View<Scalar>& v, const Order& order) {
+  Room<Scalar> room(team.room(), v);
+  keep_pairs(team, v, room);
   const std::int64_t values = 4 * static_cast<std::int64_t>(v.nodes);
   double squares[1] = {};
   for (std::int64_t i = first_of_all(team); i < values; i += all_threads(team)) {
@@ -77,22 +86,18 @@ BRAINSHIFT_ON_DEVICE void measure_tightness(const Team& team, const View<Scalar>
   double eigenvalue = 0;
   for (int iteration = 0; iteration < order.iterations; ++iteration) {
     const double scale = order.mode_size * std::sqrt(static_cast<double>(v.nodes)) / std::sqrt(squares[0]);
-    for (std::int64_t i = first_of_all(team); i < values; i += all_threads(team)) {
-      v.mode_of_body[i] *= scale;
-    }
-    team.sync_all();
-    slot_forces(team, v, v.mode_of_body);
+    slot_forces(team, v, v.mode_of_body, scale, room, nullptr);
     team.sync_all();
     double of[3] = {};
     for (std::int64_t i = first_of_all(team); i < values; i += all_threads(team)) {
-      const double mass = v.stiffer_mass[i / 4], mode = v.mode_of_body[i];
+      const double mass = v.stiffer_mass[i / 4], mode = scale * v.mode_of_body[i];
       const double force = i % 4 < 3 ? force_at_node(v, static_cast<std::int32_t>(i / 4), static_cast<int>(i % 4)) : 0;
       of[0] += mode * force;
       of[1] += mass * mode * mode;
       v.mode_of_body[i] = force / mass;
       of[2] += square(v.mode_of_body[i]);
     }
-    sum_for_all(team, of, v.partial);
+    sum_for_all(team, of, v.partial + (iteration + 1) % 2 * 3 * team.blocks());
     eigenvalue = of[0] / of[1];
     squares[0] = of[2];
   }
@@ -103,7 +108,9 @@ BRAINSHIFT_ON_DEVICE void measure_tightness(const Team& team, const View<Scalar>
 
 template <Task task, class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void perform(const Team& team, const View<Scalar>& v, const Order& order) {
-  if constexpr (task == Task::step) {
+  if constexpr (task == Task::share_bounds) {
+    share_bounds(team, v);
+  } else if constexpr (task == Task::step) {
     step(team, v, order);
   } else if constexpr (task == Task::look) {
     look_if_due(team, v, order);
@@ -122,6 +129,8 @@ BRAINSHIFT_ON_DEVICE void perform(const Team& team, const View<Scalar>& v, const
 template <class Use>
 void with_task(Task task, const Use& use) {
   switch (task) {
+    case Task::share_bounds:
+      return use.template operator()<Task::share_bounds>();
     case Task::step:
       return use.template operator()<Task::step>();
     case Task::look:

@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "segmentation/geometry/on_device.hpp"
 
 namespace brainshift::solve::device {
 
 // The threads that do an order together. They fall into blocks, one a multiprocessor, and each block into groups of
-// `lanes`, which share a point or a slot, and of `wide`, which share a row of a dense matrix. What is written here for
-// any team, one thread does on the host, in the tests, too. A lane waits for `at_once` loads together.
+// `lanes`, which share a point or a slot, of `half` and of `wide`, which share a row of a matrix. What is written here
+// for any team, one thread does on the host, in the tests, too. A lane waits for `at_once` loads together.
 
 /// The team of one.
 struct OneThread {
-  static constexpr int lanes = 1, wide = 1, at_once = 1;
+  static constexpr int lanes = 1, half = 1, wide = 1;
+  template <class Scalar>
+  static constexpr int at_once = 1;
   std::byte* memory;  ///< of the block
 
   int thread() const { return 0; }  ///< in the block
@@ -38,6 +43,13 @@ struct OneThread {
   double largest(double x) const {
     return x;
   }
+  /// Adds to what threads of the block have in common: whole numbers, so that their order does not matter.
+  template <class Whole>
+  void add(Whole* to, Whole more) const {
+    using Bits = std::make_unsigned_t<Whole>;  // which may run over
+    *to = static_cast<Whole>(static_cast<Bits>(*to) + static_cast<Bits>(more));
+  }
+  void raise(std::uint64_t* to, std::uint64_t key) const { *to = std::max(*to, key); }
   /// Of the whole block: sums, and the largest of those behind.
   template <int sums, int count>
   void combine(const double (&of_thread)[count], double* of_block) const {
@@ -57,14 +69,14 @@ BRAINSHIFT_ON_DEVICE int all_threads(const Team& team) {
   return team.blocks() * team.threads();
 }
 
-/// The same of the groups of `wide`.
-template <class Team>
+/// The same of the groups of `wide`, or of another width.
+template <class Team, int width = Team::wide>
 BRAINSHIFT_ON_DEVICE int first_group(const Team& team) {
-  return first_of_all(team) / Team::wide;
+  return first_of_all(team) / width;
 }
-template <class Team>
+template <class Team, int width = Team::wide>
 BRAINSHIFT_ON_DEVICE int all_groups(const Team& team) {
-  return all_threads(team) / Team::wide;
+  return all_threads(team) / width;
 }
 
 /// The larger; NaN where one is.
@@ -72,22 +84,22 @@ BRAINSHIFT_ON_DEVICE inline double larger(double a, double b) {
   return a != a || b <= a ? a : b;
 }
 
-/// Gives the entries [first, end) of a list to the lanes in turn. What is beyond the end is empty.
-template <class Team, class Entry, class Use>
-BRAINSHIFT_ON_DEVICE void for_entries(const Team& team, const Entry* list, std::int64_t first, std::int64_t end,
-                                      const Use& use) {
-  constexpr int lanes = Team::lanes, at_once = Team::at_once;
-  for (std::int64_t k = first + team.thread() % lanes; k < end; k += lanes * at_once) {
-    Entry batch[at_once];
-    BRAINSHIFT_UNROLLED
-    for (int i = 0; i < at_once; ++i) {
-      batch[i] = k + i * lanes < end ? list[k + i * lanes] : Entry{};
-    }
-    BRAINSHIFT_UNROLLED
-    for (int i = 0; i < at_once; ++i) {
-      use(batch[i]);
-    }
+/// A whole number that rises with x, above 0, and is largest where x is NaN.
+BRAINSHIFT_ON_DEVICE inline std::uint64_t rising_key(double x) {
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+  if (x != x) {
+    return ~std::uint64_t{0};
   }
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof x);
+  return (bits & sign) != 0 ? ~bits : bits | sign;
+}
+BRAINSHIFT_ON_DEVICE inline double of_rising_key(std::uint64_t key) {
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+  const std::uint64_t bits = (key & sign) != 0 ? key & ~sign : ~key;
+  double x = 0;
+  std::memcpy(&x, &bits, sizeof x);
+  return x;
 }
 
 /// Leaves a block's numbers where collect() finds them.

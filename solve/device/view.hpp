@@ -18,6 +18,8 @@ struct alignas(4 * sizeof(Scalar)) Pair {
   std::int32_t other;  ///< slot, or point, of the cluster: the one that the list is not of
 };
 
+constexpr std::int32_t slice_points = 8, slice_lanes = 4;  // of the Slices
+
 /// A vector at a slot.
 template <class Scalar>
 struct alignas(4 * sizeof(Scalar)) SlotVector {
@@ -42,7 +44,9 @@ struct Touch {
 
 /// A bound, and how the nodes share it: NodeShares.
 struct SharedBound {
-  double scale, firmest, least;
+  double scale;
+  double per_firmness;  ///< 1 over that of the firmest node
+  double least;
 };
 
 /// Shape functions V at some places, compressed rows, and Vᵀ of the nodes that are in any.
@@ -65,6 +69,7 @@ struct TouchingNodes : SparseRows {
   const double* column_sum;  ///< Σ |V|, one a node of the body
   double* inverse_row_sum;   ///< D⁻¹
   double* push;              ///< D⁻¹ δ, 3 a row
+  double* pushed;            ///< Vᵀ push of the last step, 4 a node of the body
   DistanceGrid skull;
 };
 
@@ -75,18 +80,31 @@ struct Conditions : SparseRows {
   const double* compliance;  ///< C/s, dense; nullptr: held exactly
   double* residual;
   double* multiplier[2];
-  double* inverse;  ///< −(V M⁻¹ Vᵀ + C/(sα))⁻¹, dense
-  double* column;   ///< of the elimination, two and the diagonal
-  bool own;         ///< false: the inverse is that of the component before
+  double* inverse;   ///< −(V M⁻¹ Vᵀ + C/(sα))⁻¹, dense
+  double* panel;     ///< of the sweeps: columns, twice as many as are swept at once
+  double* diagonal;  ///< before them
+  bool own;          ///< false: the inverse is that of the component before
 };
 
 constexpr int most_steps = 20;  // of an order
 constexpr int most_materials = 32;
 
-/// Sums of one step, which the balance of energies wants; then the largest of something.
+/// Sums of some steps, one after the other, which the balance of energies wants: Books::StepsTaken.
 struct StepSums {
-  enum : int { two_steps, step_before, force_work, push_work, multiplier_work, minus_jacobian, count };
-  static constexpr int sums = minus_jacobian;
+  enum : int {
+    first_before,  ///< of the first step: dᵀMd of the step before it
+    two_steps,     ///< dᵀMd of each step and the one before together
+    two_steps_last,
+    push_work,
+    push_work_last,
+    force_work,
+    force_work_last,
+    rate_first,
+    rate_last,
+    reaction_work,  ///< from the second step on
+    count
+  };
+  static constexpr int sums = count;
   double of[count];
 };
 
@@ -133,10 +151,12 @@ struct FollowSums {
 /// What an order leaves to be read by the host.
 struct Record {
   int steps = 0;
-  int halted = 0;                 ///< J fell to the order's `halt_below`: the masses must be looked at
-  int singular = 0;               ///< of weigh: conditions repeat each other
-  double eigenvalue = 0;          ///< the largest, of measure_tightness
-  StepSums step[most_steps + 1];  ///< of the steps one after the other from [1] on; J of a step's force is one before
+  int halted = 0;                    ///< J fell to the order's `halt_below`: the masses must be looked at
+  int singular = 0;                  ///< of weigh: conditions repeat each other
+  double eigenvalue = 0;             ///< the largest, of measure_tightness
+  double jacobian[most_steps] = {};  ///< the smallest of the force of each step
+  std::uint64_t squeezed[2] = {};    ///< rising_key() of −J, of steps in turn
+  StepSums steps_taken;
   LookSums look;
   FollowSums follow;
 };
@@ -158,15 +178,19 @@ struct Order {
 template <class Scalar>
 struct View {
   std::int32_t clusters, nodes;
-  std::int32_t most_slots, most_points;  ///< of a cluster
+  std::int32_t most_slots, most_points, most_patches;  ///< of a cluster
+  std::int32_t resident;  ///< turns that a block keeps from step to step; 0 where it has several clusters
   const Cluster* cluster;
   const PatchPoints* patch;
   const std::int32_t* patch_of;  ///< one a point
   const std::int32_t* material;  ///< one a point
   const double* volume;
-  const double* mode;  ///< pressure modes, 4 a point; nullptr: each point is a patch
-  const std::int64_t* pair_begin;
-  const Pair<Scalar>* pair;  ///< by point
+  const double* mode;               ///< pressure modes, 4 a point; nullptr: each point is a patch
+  const std::int32_t* slice_begin;  ///< of the clusters
+  const std::int64_t* turn_begin;   ///< of the slices
+  const std::int32_t* slice_point;
+  const Pair<Scalar>* slice_pair;
+  const double* reach;  ///< one a cluster
   const std::int32_t* slot_node;
   const std::int64_t* slot_begin;
   const Pair<Scalar>* slot_pair;  ///< by slot
@@ -182,7 +206,8 @@ struct View {
   const std::int32_t* patch_touch_node;
   SlotVector<double>* touch_norm;  ///< |b| of each pressure mode
   double* touch_reach;
-  SharedBound* point_bound;
+  SharedBound* point_bound;  ///< scale: without the tangent
+  double* point_tangent;     ///< w C
   SharedBound* patch_bound;
   SlotVector<double>* patch_total;  ///< Σ |b|/h of each mode
 

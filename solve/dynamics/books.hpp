@@ -23,6 +23,23 @@ struct Books {
     dissipated += lost_ / 2;
   }
 
+  /// Steps one after the other, as add() would count them: their sums, and those of the first or the last alone.
+  struct StepsTaken {
+    double moved_on;               ///< before the first
+    double rate_first, rate_last;  ///< as `rate`
+    double reaction_work;          ///< from the second on
+    double force_work, force_work_last;
+    double lost, lost_last;
+  };
+  void add(const StepsTaken& steps) {
+    external_work += steps.moved_on * (steps.rate_first + rate_) / 2 + force_work_ + steps.reaction_work +
+                     steps.force_work - steps.force_work_last;
+    rate_ = steps.rate_last;
+    force_work_ = steps.force_work_last;
+    dissipated += lost_ / 2 + steps.lost - steps.lost_last / 2;
+    lost_ = steps.lost_last;
+  }
+
   /// At a look. What the first steps of a start take is no linear body's, off by a twentieth: until energies count as
   /// much work was done as the body holds.
   void look(double energy_held) {

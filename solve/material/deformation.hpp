@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "segmentation/geometry/on_device.hpp"
 
@@ -21,6 +22,16 @@ struct Deformation {
     jacobian = f.col(0).dot(cofactor.col(0));
   }
 };
+
+/// J^(−2/3).
+BRAINSHIFT_ON_DEVICE inline double to_minus_two_thirds(double jacobian) {
+#ifdef __CUDA_ARCH__
+  const double root = rcbrt(jacobian);  // a fraction of what a power takes there
+  return root * root;
+#else
+  return std::pow(jacobian, -2.0 / 3.0);
+#endif
+}
 
 /// Green-Lagrange strain E = (FᵀF − 1)/2, from the displacement gradient so that small strains keep their digits.
 BRAINSHIFT_ON_DEVICE inline Eigen::Matrix3d green_lagrange(const Eigen::Matrix3d& gradient) {

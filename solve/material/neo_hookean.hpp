@@ -23,12 +23,12 @@ struct NeoHookean {
 
   /// ∂W/∂F without the volumetric part, Pa.
   BRAINSHIFT_ON_DEVICE Eigen::Matrix3d isochoric_stress(const Deformation& d) const {
-    const double scale = shear_modulus * std::pow(d.jacobian, -2.0 / 3.0);
+    const double scale = shear_modulus * to_minus_two_thirds(d.jacobian);
     return scale * (d.gradient - d.gradient.squaredNorm() / (3 * d.jacobian) * d.cofactor);
   }
   /// µ/2 (Ī1 − 3), Pa.
   BRAINSHIFT_ON_DEVICE double isochoric_energy(const Deformation& d) const {
-    return shear_modulus / 2 * (std::pow(d.jacobian, -2.0 / 3.0) * d.gradient.squaredNorm() - 3);
+    return shear_modulus / 2 * (to_minus_two_thirds(d.jacobian) * d.gradient.squaredNorm() - 3);
   }
   /// θ = J − 1 and ∂θ/∂F.
   BRAINSHIFT_ON_DEVICE double dilatation(const Deformation& d) const { return d.jacobian - 1; }
