@@ -3,6 +3,7 @@
 #include <new>
 
 #include "solve/device/backend.hpp"
+#include "solve/device/each/tasks.hpp"
 
 namespace brainshift::solve::device {
 
@@ -18,6 +19,11 @@ void perform_alone(Task task, const View<Scalar>& view, const Order& order) {
   std::vector<Line> memory(Room<Scalar>::size(view.most_slots, view.most_points) / sizeof(Line) + 1);
   const OneThread alone{memory.front().bytes};
   with_task(task, [&]<Task which>() { perform<which>(alone, view, order); });
+}
+
+template <class Scalar>
+void perform_each_alone(TaskOfEach task, const ViewOfEach<Scalar>& view, const OrderOfEach& order) {
+  with_task(task, [&]<TaskOfEach which>() { perform<which>(OneForEach{}, view, order); });
 }
 
 void copy(void* to, const void* from, std::size_t bytes) {
@@ -39,7 +45,9 @@ const Backend& one_thread() {
       .from_device = copy,
       .copy = copy,
       .single = perform_alone<float>,
-      .twofold = perform_alone<double>};
+      .twofold = perform_alone<double>,
+      .each_single = perform_each_alone<float>,
+      .each_twofold = perform_each_alone<double>};
   return backend;
 }
 

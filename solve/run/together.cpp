@@ -8,6 +8,8 @@
 
 #include "solve/body/lay_out.hpp"
 #include "solve/body/nodal_order.hpp"
+#include "solve/device/device_fault.hpp"
+#include "solve/device/each/relax_together_if_asked.hpp"
 #include "solve/ensemble/each.hpp"
 #include "solve/ensemble/relax_together.hpp"
 #include "solve/run/coarse.hpp"
@@ -44,6 +46,9 @@ std::vector<Member> members_of(Model& model, const Prepared& prepared, std::span
 /// relax_together() of any number of members.
 std::vector<MemberResult> relax_all(const Body& body, std::span<const Member> loads, const LoadCurve& curve,
                                     const SolveOptions& options, const Progress& progress) {
+  if (auto on_device = device::relax_together_if_asked(body, loads, curve, options, progress)) {
+    return *std::move(on_device);
+  }
   std::vector<MemberResult> results;
   for (std::size_t first = 0; first < loads.size(); first += members) {
     const std::span<const Member> some = loads.subspan(first, std::min(members, loads.size() - first));
@@ -111,6 +116,10 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
       }
     }
     return displacements;
+  } catch (const device::DeviceFault&) {
+    throw;  // nothing of the coarse cloud, nor is the following
+  } catch (const device::NotOnDevice&) {
+    throw;
   } catch (const std::logic_error&) {
     return alone(model, constants, one);  // which says of each that it cannot be solved
   } catch (const std::runtime_error&) {
