@@ -147,7 +147,7 @@ void time_parts(const device::Backend& backend, const Loaded& of) {
   std::fill_n(order.mass_scale, device::most_members, 1.0);
   std::fill_n(order.halt_below, device::most_members, -1e9);
   std::fill_n(order.beta, device::most_members, critical_beta(1e-3));
-  std::fill_n(order.fraction, device::most_steps + 1, 0.01);
+  on.set_fractions(std::vector((device::most_steps + 1) * device::most_members, 0.01));
   const auto time = [&](const char* what, int each, const auto& call) {
     call();
     on.read(record);

@@ -116,7 +116,7 @@ BRAINSHIFT_ON_DEVICE void find_multipliers(const Team& team, const ViewOfEach<Sc
 /// As EssentialConditions::apply(), to `next`. Ends with all threads together.
 template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void hold(const Team& team, const ViewOfEach<Scalar>& v, Members who, const MotionOfEach& motion,
-                               double fraction) {
+                               const double* fraction) {
   const AllComponents rows(v, &SparseRows::count), moved(v, &SparseRows::moved);
   for (std::int32_t i = first_of_each(team); i < rows.begin[3]; i += all_of_each(team)) {
     const int axis = rows.axis_of(i);
@@ -124,7 +124,7 @@ BRAINSHIFT_ON_DEVICE void hold(const Team& team, const ViewOfEach<Scalar>& v, Me
     const std::int32_t row = i - rows.begin[axis];
     team.for_each(who, [&](int m) {
       const std::int64_t at = at_member(row, m);
-      c.residual[at] = fraction * c.prescribed[at] - along_row(c, row, motion.next, axis, m);
+      c.residual[at] = fraction[m] * c.prescribed[at] - along_row(c, row, motion.next, axis, m);
     });
   }
   team.sync_all();

@@ -140,6 +140,7 @@ void DeviceEnsemble<Scalar>::put_motion(bool with_forces) {
         &v.place_at_look, &v.force_at_look, &v.span_state[0], &v.span_state[1], &v.span_state[2]}) {
     *vectors = memory_.template room<double>(values());
   }
+  v.fraction = memory_.template room<double>((most_steps + 1) * most_members);
   v.external = with_forces ? memory_.template room<double>(values()) : nullptr;
   v.partial =
       memory_.template room<double>(static_cast<std::size_t>(backend_.blocks) * LookOfEach::count * most_members);

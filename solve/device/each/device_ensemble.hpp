@@ -34,6 +34,8 @@ class DeviceEnsemble {
   /// Of the device's memory that it takes.
   std::size_t bytes() const { return memory_.bytes(); }
 
+  /// Of each member's load, [most_steps + 1][member], for what is performed next.
+  void set_fractions(const std::vector<double>& fractions) const { put(fractions, view_.fraction); }
   void perform(TaskOfEach task, const OrderOfEach& order) const { backend_.perform(task, view_, order); }
   void read(RecordOfEach& record) const { backend_.from_device(&record, view_.record, sizeof record); }
   std::vector<double> read(const double* from, std::size_t count) const;

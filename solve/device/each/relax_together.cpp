@@ -60,6 +60,16 @@ struct WorkOnMember {
   }
 };
 
+/// How the load of a member comes.
+struct LoadOnMember {
+  LoadPace pace;
+  double time = 0, fraction = 0, fraction_before = 0;
+  bool looked_at = false;  // under the whole load
+
+  explicit LoadOnMember(int load_steps) : pace(load_steps, false) {}
+  bool whole() const { return time >= 1; }
+};
+
 /// Volume of each material, mm³.
 std::vector<double> volumes(const Body& body) {
   std::vector<double> volume(body.laws.elastic.size(), 0.0);
@@ -84,7 +94,6 @@ class Ensemble {
         ways_(loads.size()),
         work_(loads.size()),
         ended_at_(loads.size()),
-        pace_(steps_of_load(options.load_steps, loads.front().laws), false),
         results_(loads.size()) {
     constexpr double tiny_strain = 1e-6;
     const std::vector<double> volume = volumes(body);
@@ -93,6 +102,7 @@ class Ensemble {
       for (std::size_t row = 0; row < modulus.size(); ++row) {
         work_[m].rounding_energy += tiny_strain * tiny_strain * modulus[row] * volume[row];
       }
+      load_.emplace_back(steps_of_load(options.load_steps, loads[m].laws));
       active_ |= bit_of(m);
     }
     on_.load(loads);
@@ -100,13 +110,6 @@ class Ensemble {
     find_first_masses();
     if (!loads.front().start.empty()) {
       start(loads);
-      return;
-    }
-    const int steps = steps_of_load(options.load_steps, loads.front().laws);  // one pace is for all
-    for (std::size_t m = 0; m < loads.size(); ++m) {
-      if (steps_of_load(options.load_steps, loads[m].laws) != steps) {
-        end(m, MemberResult::End::left);
-      }
     }
   }
 
@@ -116,7 +119,7 @@ class Ensemble {
       advance(steps);
       if (steps == usual_window) {
         look();
-        report(progress, 0.5 * time_, "step " + std::to_string(steps_) + " of an ensemble");
+        report(progress, 0.5 * load_.front().time, "step " + std::to_string(steps_) + " of an ensemble");
       }
     }
     for_each(active_, [&](std::size_t m) { end(m, MemberResult::End::not_converged); });
@@ -126,7 +129,6 @@ class Ensemble {
 
  private:
   Precision precision() const { return body_.points.precision(); }
-  bool loaded() const { return time_ >= 1; }
 
   template <class Use>
   static void for_each(Members who, const Use& use) {
@@ -167,16 +169,18 @@ class Ensemble {
   /// As EachMotion::start_from().
   void start(std::span<const Member> loads) {
     on_.write(on_.starts(loads), displacement(1));
-    order_.fraction[0] = 1;
+    on_.set_fractions(std::vector((most_steps + 1) * most_members, 1.0));
     perform(TaskOfEach::hold, active_, order_);
     for (double* to : {displacement(0), displacement(2)}) {
       on_.backend().copy(to, displacement(1), on_.values() * sizeof(double));
     }
     perform(TaskOfEach::measure_energy, active_, order_);
     on_.read(record_);
-    for_each(active_, [&](std::size_t m) { work_[m].external = record_.energy[m]; });
-    fraction_ = fraction_before_ = time_ = 1;
-    pace_.skip();
+    for_each(active_, [&](std::size_t m) {
+      work_[m].external = record_.energy[m];
+      load_[m].time = load_[m].fraction = load_[m].fraction_before = 1;
+      load_[m].pace.skip();
+    });
     follow_stiffness(active_);
   }
 
@@ -242,53 +246,58 @@ class Ensemble {
 
   /// Returns the steps.
   int advance_until_halt(int steps) {
-    const LoadPace pace_before = pace_;
-    double time[most_steps];
+    set_fractions(steps);
     order_.steps = steps;
-    order_.fraction[0] = fraction_;
-    for (int s = 0; s < steps; ++s) {
-      time[s] = pace_.go_on(false);
-      order_.fraction[s + 1] = curve_.at(time[s] * curve_.duration());
-    }
     for_each(active_, [&](std::size_t m) { order_.halt_below[m] = squeezed_share * ways_[m].squeezed_to; });
     perform(TaskOfEach::step, active_, order_);
     perform(TaskOfEach::look, active_, after(steps));
     on_.read(record_);
     const int done = record_.steps;
-    for (int s = 1; s <= done; ++s) {
-      keep_books(record_.step[s], order_.fraction[s]);
-    }
-    time_ = time[done - 1];
+    for_each(active_, [&](std::size_t m) {
+      for (int s = 1; s <= done; ++s) {
+        load_[m].time = load_[m].pace.go_on(false);
+        keep_books(m, record_.step[s]);
+      }
+      smallest_jacobian_[m] = last_jacobian(m);
+    });
+    for_each(record_.halted, [&](std::size_t m) { ways_[m].squeezed_to = last_jacobian(m); });
     steps_ += done;
     order_ = after(done);
-    if (done < steps) {
-      pace_ = pace_before;
-      for (int s = 0; s < done; ++s) {
-        pace_.go_on(false);
-      }
-    }
-    for_each(active_, [&](std::size_t m) { smallest_jacobian_[m] = last_jacobian(m); });
-    for_each(record_.halted, [&](std::size_t m) { ways_[m].squeezed_to = last_jacobian(m); });
     return done;
   }
+
+  void set_fractions(int steps) {
+    std::vector<double> fractions((most_steps + 1) * most_members, 0.0);
+    for_each(active_, [&](std::size_t m) {
+      LoadPace pace = load_[m].pace;
+      fractions[m] = load_[m].fraction;
+      for (int s = 1; s <= steps; ++s) {
+        fractions[static_cast<std::size_t>(s) * most_members + m] = fraction_at(pace.go_on(false));
+      }
+    });
+    on_.set_fractions(fractions);
+  }
+  double fraction_at(double time) const { return curve_.at(time * curve_.duration()); }
 
   /// Of the last step's force.
   double last_jacobian(std::size_t m) const {
     return -record_.step[record_.steps - 1].of[StepOfEach::minus_jacobian][m];
   }
 
-  void keep_books(const StepOfEach& sums, double fraction) {
-    for_each(active_, [&](std::size_t m) {
-      work_[m].add(fraction_ - fraction_before_, sums.of[StepOfEach::multiplier_work][m] / relaxation_alpha,
-                   (fraction_ + fraction) / 2 * sums.of[StepOfEach::force_work][m]);
-    });
-    fraction_before_ = fraction_;
-    fraction_ = fraction;
+  /// Of a step to the member's time.
+  void keep_books(std::size_t m, const StepOfEach& sums) {
+    LoadOnMember& load = load_[m];
+    const double fraction = fraction_at(load.time);
+    work_[m].add(load.fraction - load.fraction_before, sums.of[StepOfEach::multiplier_work][m] / relaxation_alpha,
+                 (load.fraction + fraction) / 2 * sums.of[StepOfEach::force_work][m]);
+    load.fraction_before = load.fraction;
+    load.fraction = fraction;
   }
 
   /// Once a window: as solve::relax_together() does it.
   void look() {
     const LookOfEach of = record_.look;
+    Members asked = 0;
     for_each(active_, [&](std::size_t m) {
       const double moved = std::sqrt(of.of[LookOfEach::longest_step][m]);
       const double kinetic = of.of[LookOfEach::inertia_two][m] * (1 + order_.beta[m]) / (16 * relaxation_alpha);
@@ -297,17 +306,18 @@ class Ensemble {
                               .smallest_jacobian = smallest_jacobian_[m],
                               .lowest = lowest_eigenvalue(of, m, moved),
                               .motion_over_work = work_[m].over(kinetic)};
-      if (!ways_[m].look(seen, loaded())) {
+      const bool loaded = load_[m].whole();
+      load_[m].looked_at = loaded;
+      if (!ways_[m].look(seen, loaded)) {
         end(m, MemberResult::End::left);
+      } else if (steps_ / usual_window % windows_to_stiffness(loaded) == 0) {
+        asked |= bit_of(m);
       }
     });
-    looked_under_load_ = loaded();
-    if (steps_ / usual_window % windows_to_stiffness(loaded()) == 0) {
-      follow_stiffness(active_);
-    }
+    follow_stiffness(asked);
     for_each(active_, [&](std::size_t m) {
       SpansSeen spans(of, m, order_.states > 2);
-      const auto how = ways_[m].end(options_.tolerance, loaded(), false, precision(), spans);
+      const auto how = ways_[m].end(options_.tolerance, load_[m].whole(), false, precision(), spans);
       spans_[m] = spans.value();
       if (how) {
         end(m, *how);
@@ -321,10 +331,11 @@ class Ensemble {
     const auto of = [&](int k) { return look.of[k][m]; };
     const auto quotient = [](double stiffness, double inertia) { return inertia > 0 ? stiffness / inertia : 0; };
     double lowest = quotient(of(LookOfEach::stiffness), of(LookOfEach::inertia_before));
-    if (looked_under_load_ && feels_rounding(moved, ways_[m].farthest_with(of(LookOfEach::farthest)), precision())) {
+    if (load_[m].looked_at && feels_rounding(moved, ways_[m].farthest_with(of(LookOfEach::farthest)), precision())) {
       lowest = std::min(lowest, quotient(of(LookOfEach::window_stiffness), of(LookOfEach::window_inertia)));
     }
-    const double springs = fraction_ == fraction_before_ ? of(LookOfEach::spring_work) / relaxation_alpha : 0;
+    const bool is_steady = load_[m].fraction == load_[m].fraction_before;
+    const double springs = is_steady ? of(LookOfEach::spring_work) / relaxation_alpha : 0;
     return lowest > 0 ? lowest + (springs > 0 ? quotient(springs, of(LookOfEach::inertia_now)) : 0) : 0;
   }
 
@@ -359,15 +370,13 @@ class Ensemble {
   RecordOfEach record_{};
   std::vector<Way> ways_;
   std::vector<WorkOnMember> work_;
+  std::vector<LoadOnMember> load_;
   std::vector<int> ended_at_;  // order_.first then
-  LoadPace pace_;
   Members active_ = 0;
   std::vector<MemberResult> results_;
   std::array<double, most_members> smallest_jacobian_{};  // of the last step's force
   std::array<double, most_members> spans_{};              // SpansSeen of the last look, mm
   int steps_ = 0;
-  double time_ = 0, fraction_ = 0, fraction_before_ = 0;
-  bool looked_under_load_ = false;
 };
 
 template <class Scalar>

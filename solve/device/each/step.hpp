@@ -45,7 +45,7 @@ struct AllComponents {
 /// û⁺ = û + β(û − û⁻) − α M⁻¹ (f_int − fraction f_ext).
 template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void move_nodes(const Team& team, const ViewOfEach<Scalar>& v, const OrderOfEach& order,
-                                     const MotionOfEach& motion, double fraction) {
+                                     const MotionOfEach& motion, const double* fraction) {
   for (std::int32_t a = first_of_each(team); a < v.nodes; a += all_of_each(team)) {
     team.for_each(order.who, [&](int m) {
       double force[3];
@@ -54,7 +54,7 @@ BRAINSHIFT_ON_DEVICE void move_nodes(const Team& team, const ViewOfEach<Scalar>&
       BRAINSHIFT_UNROLLED
       for (int axis = 0; axis < 3; ++axis) {
         const std::int64_t i = at_member(3 * static_cast<std::int64_t>(a) + axis, m);
-        const double net = v.external == nullptr ? force[axis] : force[axis] - fraction * v.external[i];
+        const double net = v.external == nullptr ? force[axis] : force[axis] - fraction[m] * v.external[i];
         const double now = motion.now[i];
         motion.force[i] = net;
         motion.next[i] = now + order.beta[m] * (now - motion.before[i]) - push * net;

@@ -29,14 +29,14 @@ BRAINSHIFT_ON_DEVICE void step(const Team& team, const ViewOfEach<Scalar>& v, co
     team.sync_all();
     find_slot_forces(team, v, order.who);
     team.sync_all();
-    move_nodes(team, v, order, motion, order.fraction[done]);
+    move_nodes(team, v, order, motion, v.fraction + at_member(done, 0));
     team.sync_all();
     const auto& minus_jacobian = v.record->step[done].of[StepOfEach::minus_jacobian];
     halted = team.which(order.who, [&](int m) { return !(-minus_jacobian[m] >= order.halt_below[m]); });
     if (v.contact.count > 0) {
       touch(team, v, order.who, motion.next);
     }
-    hold(team, v, order.who, motion, order.fraction[done + 1]);
+    hold(team, v, order.who, motion, v.fraction + at_member(done + 1, 0));
     ++done;
   }
   Gathered<Team, StepOfEach::count> sums;
@@ -142,7 +142,7 @@ BRAINSHIFT_ON_DEVICE void perform(const Team& team, const ViewOfEach<Scalar>& v,
   } else if constexpr (task == TaskOfEach::weigh) {
     weigh(team, v, order);
   } else if constexpr (task == TaskOfEach::hold) {
-    hold(team, v, order.who, motion, order.fraction[0]);
+    hold(team, v, order.who, motion, v.fraction);
   } else if constexpr (task == TaskOfEach::measure_tightness) {
     measure_tightness(team, v, order);
   } else {

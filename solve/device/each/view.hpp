@@ -109,7 +109,6 @@ struct OrderOfEach {
   int iterations = 0;         ///< of the power iteration
   double mode_size = 0;       ///< root mean square of its modes, mm
   double alpha = 0, mass_margin = 1;
-  double fraction[most_steps + 1] = {};  ///< of the load: now, and after each step
   double beta[most_members] = {}, halt_below[most_members] = {}, mass_scale[most_members] = {};
 };
 
@@ -162,6 +161,8 @@ struct ViewOfEach {
   double* patch_bound;
   double* patch_total;  ///< [patch][mode][member]: Σ |b|/h
   double* slot_bound;   ///< [slot][member]
+
+  double* fraction;  ///< of each member's load: now, and after each step of an order; [most_steps + 1][member]
 
   ContactOfEach contact;
   ConditionsOfEach condition[3];
