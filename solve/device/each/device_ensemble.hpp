@@ -20,10 +20,10 @@ class DeviceEnsemble {
   /// DeviceFault.
   DeviceEnsemble(const Backend& backend, const Body& body, bool with_forces);
 
-  /// Puts other loads in the place of those before, all undeformed and at rest. Their starts are left to start_from().
+  /// Puts other loads in the place of those before, all undeformed and at rest, whatever their starts.
   void load(std::span<const Member> loads);
 
-  /// What is to be written to vectors at the nodes: of each load its start.
+  /// These, as vectors at the nodes.
   std::vector<double> starts(std::span<const Member> loads) const;
 
   const Backend& backend() const { return backend_; }
