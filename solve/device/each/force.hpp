@@ -8,17 +8,20 @@ namespace brainshift::solve::device {
 
 // Internal forces in four passes with all threads together between them: points, points again, slots, nodes.
 
-/// What `asked` returns of a member's law, by its kind or, where all have it, by a table that a warp reads at once.
+/// Of a member where all are neo-Hookean: from a table of which a warp reads whole lines.
+template <class Scalar>
+BRAINSHIFT_ON_DEVICE NeoHookean plain_law(const ViewOfEach<Scalar>& v, std::int32_t material, int member) {
+  NeoHookean law = v.law[at_member(material, 0)].neo_hookean;
+  law.shear_modulus = v.shear_modulus[at_member(material, member)];
+  law.bulk_modulus = v.bulk_modulus[at_member(material, member)];
+  return law;
+}
+
+/// What `asked` returns of a member's law.
 template <class Scalar, class Asked>
 BRAINSHIFT_ON_DEVICE auto ask_law(const ViewOfEach<Scalar>& v, std::int32_t material, int member, const Asked& asked) {
-  const std::int64_t row = at_member(material, member);
-  if (v.is_plain[material] != 0) {
-    NeoHookean law = v.law[at_member(material, 0)].neo_hookean;
-    law.shear_modulus = v.shear_modulus[row];
-    law.bulk_modulus = v.bulk_modulus[row];
-    return asked(law);
-  }
-  return visit(v.law[row], asked);
+  return v.is_plain[material] != 0 ? asked(plain_law(v, material, member))
+                                   : visit(v.law[at_member(material, member)], asked);
 }
 
 /// ψ of a point.
@@ -140,16 +143,8 @@ template <class Scalar>
 BRAINSHIFT_ON_DEVICE void find_stress(const ViewOfEach<Scalar>& v, std::int32_t material, std::int32_t point,
                                       int member, double seen) {
   const Deformation d = deformation_at(v, point, member);
-  const std::int64_t row = at_member(material, member);
-  Eigen::Matrix3d stress;
-  if (v.is_plain[material] != 0) {
-    NeoHookean law = v.law[at_member(material, 0)].neo_hookean;
-    law.shear_modulus = v.shear_modulus[row];
-    law.bulk_modulus = v.bulk_modulus[row];
-    stress = stress_of(law, d, seen);
-  } else {
-    stress = stress_of_any(v.law[row], d, seen);
-  }
+  const Eigen::Matrix3d stress = v.is_plain[material] != 0 ? stress_of(plain_law(v, material, member), d, seen)
+                                                           : stress_of_any(v.law[at_member(material, member)], d, seen);
   Scalar* tensor = v.tensor + at_member(9 * static_cast<std::int64_t>(point), member);
   BRAINSHIFT_UNROLLED
   for (int k = 0; k < 9; ++k) {
