@@ -186,10 +186,6 @@ class Sampler {
   SampleFolder folder_;
 };
 
-/// Samples that are asked for at once, and kept when all of them are there: as many as are stepped together, beside
-/// the model's own constants.
-constexpr std::size_t together = 17;
-
 /// 0: the model's own constants; then the draws of this share.
 std::vector<int> sample_numbers(const solve::UncertaintyOptions& options) {
   std::vector<int> numbers = {0};
@@ -208,6 +204,8 @@ Eigen::MatrixXd spread_of_constants(const UncertaintyJob& job, const Solved& sol
   std::optional<Points> answer;
   std::vector<Points> samples;
   const std::vector<int> numbers = sample_numbers(options);
+  // They are kept when all that are asked for at once are there.
+  const std::size_t together = solve::samples_at_once(solved.options) + 1;  // beside the model's own constants
   for (std::size_t begin = 0; begin < numbers.size(); begin += together) {
     const auto group = std::span(numbers).subspan(begin, std::min(together, numbers.size() - begin));
     std::vector<solve::Constants> constants;

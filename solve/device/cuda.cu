@@ -4,7 +4,8 @@
 #include <algorithm>
 
 #include "solve/device/backend.hpp"
-#include "solve/device/device_fault.hpp"
+#include "solve/device/cuda_check.hpp"
+#include "solve/device/each/cuda_each.hpp"
 
 namespace brainshift::solve::device {
 
@@ -89,17 +90,6 @@ __global__ void __launch_bounds__(threads, 1)
   perform<task>(AllThreads{}, view, order);
 }
 
-void check(cudaError_t error, const char* what) {
-  cudaGetLastError();  // whoever comes next is not to blame
-  if (error == cudaErrorMemoryAllocation) {
-    throw DeviceFault("the GPU has not enough free memory; free some, or take device cpu");
-  }
-  if (error != cudaSuccess) {
-    throw DeviceFault(std::string("the GPU failed while it was to ") + what + ": " + cudaGetErrorString(error) +
-                      "; take device cpu");
-  }
-}
-
 template <Task task, class Scalar>
 void launch(const View<Scalar>& view, const Order& order) {
   const std::size_t room = std::max(Room<Scalar>::size(view), room_to_sweep);
@@ -159,7 +149,9 @@ struct Found {
         .copy = [](void* to, const void* from,
                    std::size_t bytes) { check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice), "copy"); },
         .single = perform_on_gpu<float>,
-        .twofold = perform_on_gpu<double>};
+        .twofold = perform_on_gpu<double>,
+        .each_single = perform_each_on_gpu,
+        .each_twofold = perform_each_on_gpu};
   }
 };
 

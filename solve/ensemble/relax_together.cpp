@@ -6,9 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
-#include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/dynamics/soundness.hpp"
@@ -18,20 +16,11 @@
 #include "solve/ensemble/each_eigenvalue.hpp"
 #include "solve/ensemble/each_force.hpp"
 #include "solve/ensemble/each_motion.hpp"
+#include "solve/ensemble/way.hpp"
 
 namespace brainshift::solve {
 
 namespace {
-
-/// What is known of one member on its way.
-struct Way {
-  double mass_scale = 1;
-  double lowest = 1e-4;  // A_0: a guess until there are increments
-  ErrorBound bound{usual_window};
-  SpanBound spans{usual_window};
-  double farthest = 0;     // largest |û| on the way, mm
-  double squeezed_to = 1;  // J
-};
 
 class Ensemble {
  public:
@@ -102,7 +91,7 @@ class Ensemble {
     const double time = pace_.go_on(false);
     NumberOfEach<double> beta;
     for (std::size_t m = 0; m < members; ++m) {
-      beta.of[m] = critical_beta(way_[m].lowest);
+      beta.of[m] = way_[m].beta();
     }
     motion_.step(mass_, beta, time, curve_.at(time * curve_.duration()), active_);
     Chosen squeezed = {};
@@ -128,26 +117,27 @@ class Ensemble {
       if (!active_[m]) {
         continue;
       }
-      Way& way = way_[m];
-      if (!std::isfinite(moved[i]) || !(smallest[i] > 0) || too_lively[i] > 1) {
+      const SeenOfMember seen{.moved = moved[i],
+                              .farthest = farthest[i],
+                              .smallest_jacobian = smallest[i],
+                              .lowest = lowest[i],
+                              .motion_over_work = too_lively[i]};
+      if (way_[m].look(seen, motion_.time >= 1)) {
+        spans_[m].add(member_of(motion_.now, m));
+      } else {
         end(m, MemberResult::End::left);
-        continue;
       }
-      way.squeezed_to = smallest[i];
-      if (lowest[i] > 0) {
-        way.lowest = bounded_eigenvalue(lowest[i]);
-      }
-      way.farthest = std::max(way.farthest, farthest[i]);
-      way.bound.add(moved[i], std::sqrt(critical_beta(way.lowest)), motion_.time >= 1,
-                    rounding_of_step(way.farthest, Precision::double_precision));
-      way.spans.add(member_of(motion_.now, m));
     }
     if (windows % windows_to_stiffness(motion_.time >= 1) == 0) {
       follow_stiffness(active_);
     }
     for (std::size_t m = 0; m < members; ++m) {
-      if (active_[m]) {
-        end_if_due(m);
+      if (!active_[m]) {
+        continue;
+      }
+      const bool loaded = motion_.time >= 1;
+      if (const auto how = way_[m].end(options_.tolerance, loaded, patient_, body_.points.precision(), spans_[m])) {
+        end(m, *how);
       }
     }
   }
@@ -158,7 +148,7 @@ class Ensemble {
     Chosen rounded = {};
     for (std::size_t m = 0; m < members && !place_at_look_.empty(); ++m) {
       const auto i = static_cast<Eigen::Index>(m);
-      const double most = std::max(way_[m].farthest, farthest[i]);
+      const double most = way_[m].farthest_with(farthest[i]);
       rounded[m] = active_[m] && feels_rounding(moved[i], most, body_.points.precision());
     }
     if (std::find(rounded.begin(), rounded.end(), true) != rounded.end()) {
@@ -175,28 +165,10 @@ class Ensemble {
     return (lowest > 0).select(lowest + motion_.spring_stiffness(mass_), 0.0);
   }
 
-  void end_if_due(std::size_t m) {
-    Way& way = way_[m];
-    const double wanted = wanted_bound(options_.tolerance, way.farthest);
-    if (!patient_ && motion_.time >= 1 && way.bound.value() > far_from_rest * wanted &&
-        Quickening::wanted(way.lowest)) {
-      end(m, MemberResult::End::left);
-    } else if (motion_.time >= 1 && way.bound.value() <= wanted && way.spans.value() <= wanted) {
-      end(m, MemberResult::End::rest);
-    } else if (way.bound.stands_still(rounding_of_step(way.farthest, body_.points.precision()))) {
-      const double left = way.bound.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue)));
-      way.spans.reset();
-      const bool single = body_.points.precision() == Precision::single_precision;  // double precision may get further
-      end(m, left <= wanted ? MemberResult::End::rest
-             : single       ? MemberResult::End::left
-                            : MemberResult::End::not_converged);
-    }
-  }
-
   void end(std::size_t m, MemberResult::End how) {
     results_[m] = {.end = how,
                    .parameters = how == MemberResult::End::rest ? member_of(motion_.now, m) : NodalVectors(),
-                   .error_bound = std::max(way_[m].bound.value(), way_[m].spans.value()),
+                   .error_bound = std::max(way_[m].bound.value(), spans_[m].value()),
                    .steps = motion_.steps};
     active_[m] = false;
     motion_.let_go(m);
@@ -235,6 +207,7 @@ class Ensemble {
   EachNumbers mass_;
   EachVectors place_at_look_, force_at_look_;  // `before` and its force of the last look under the whole load
   std::array<Way, members> way_;
+  std::vector<SpanBound> spans_ = std::vector(members, SpanBound(usual_window));
   LoadPace pace_;
   Chosen active_ = {};
   std::vector<MemberResult> results_;

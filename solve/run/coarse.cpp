@@ -13,6 +13,7 @@
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "solve/shape/shape_functions.hpp"
+#include "solve/shape/shape_matrix.hpp"
 #include "solve/shape/support_search.hpp"
 
 namespace brainshift::solve {
@@ -113,10 +114,24 @@ Points as_prescribed(Points displacement, const Conditions& conditions) {
   return displacement;
 }
 
-Points from_coarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Points& displacement,
-                   const Model& model) {
-  const Points parameters = parameters_from_displacement(shape, coarse.positions, displacement);
-  return as_prescribed(shape.interpolate(model.cloud.positions, parameters), model.conditions);
+namespace {
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> shape_at(const ShapeFunctions& shape, const Points& positions,
+                                                      Eigen::Index nodes) {
+  std::vector<std::int32_t> all(static_cast<std::size_t>(positions.rows()));
+  std::iota(all.begin(), all.end(), 0);
+  return shape_matrix(shape.evaluate(positions, false), all, nodes);
+}
+
+}  // namespace
+
+FromCoarse::FromCoarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Model& model)
+    : model_(model),
+      at_coarse_(shape_at(shape, coarse.positions, coarse.positions.rows())),
+      at_all_(shape_at(shape, model.cloud.positions, coarse.positions.rows())) {}
+
+Points FromCoarse::operator()(const Points& displacement) const {
+  return as_prescribed(at_all_ * parameters_from_displacement(at_coarse_, displacement), model_.conditions);
 }
 
 namespace {
@@ -129,7 +144,7 @@ std::optional<Points> solved_on(const std::vector<std::int32_t>& nodes, const Mo
     return std::nullopt;
   }
   const ShapeFunctions shape(coarse.cloud.positions, coarse.cloud.spacing, result.solution.shape);
-  return from_coarse(shape, coarse.cloud, result.solution.displacement, model);
+  return FromCoarse(shape, coarse.cloud, model)(result.solution.displacement);
 }
 
 }  // namespace

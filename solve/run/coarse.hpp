@@ -35,9 +35,20 @@ inline constexpr std::size_t fewest_coarse_nodes = 24;
 /// A displacement of the coarse solution at all nodes, with what is prescribed exactly as it is prescribed.
 Points as_prescribed(Points displacement, const Conditions& conditions);
 
-/// A displacement of the coarse nodes, mm, at all nodes, as as_prescribed() has it. shape: of the coarse cloud.
-Points from_coarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Points& displacement,
-                   const Model& model);
+/// Displacements of the coarse nodes, mm, at all nodes, as as_prescribed() has them: what the two clouds have to do
+/// with each other is found once.
+class FromCoarse {
+ public:
+  /// shape: of the coarse cloud. The model must outlive this.
+  FromCoarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Model& model);
+
+  /// Throws as parameters_from_displacement() does. Many threads may ask.
+  Points operator()(const Points& displacement) const;
+
+ private:
+  const Model& model_;
+  Eigen::SparseMatrix<double, Eigen::RowMajor> at_coarse_, at_all_;  // shape functions at the nodes
+};
 
 /// The displacement at all nodes (n × 3) mm of the solution on the coarse nodes, their spacing doubled, with linear
 /// shape functions and one point a cell; prescribed components as prescribed. Empty when that cannot be solved: too few

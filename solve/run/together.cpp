@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/run/together.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
 #include <utility>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/body/lay_out.hpp"
 #include "solve/body/nodal_order.hpp"
+#include "solve/device/device_fault.hpp"
+#include "solve/device/each/relax_together_if_asked.hpp"
 #include "solve/ensemble/each.hpp"
 #include "solve/ensemble/relax_together.hpp"
 #include "solve/run/coarse.hpp"
@@ -44,6 +49,9 @@ std::vector<Member> members_of(Model& model, const Prepared& prepared, std::span
 /// relax_together() of any number of members.
 std::vector<MemberResult> relax_all(const Body& body, std::span<const Member> loads, const LoadCurve& curve,
                                     const SolveOptions& options, const Progress& progress) {
+  if (auto on_device = device::relax_together_if_asked(body, loads, curve, options, progress)) {
+    return *std::move(on_device);
+  }
   std::vector<MemberResult> results;
   for (std::size_t first = 0; first < loads.size(); first += members) {
     const std::span<const Member> some = loads.subspan(first, std::min(members, loads.size() - first));
@@ -68,6 +76,18 @@ bool same_precision(const Model& model, const SolveOptions& options, std::span<c
     return completed(options, with).precision == own;
   });
 }
+
+/// While it lives, OpenMP's loops of the thread, as Eigen's are, are the thread's own: others do other members.
+class OnThisThread {
+ public:
+  OnThisThread() { omp_set_num_threads(1); }
+  OnThisThread(const OnThisThread&) = delete;
+  OnThisThread& operator=(const OnThisThread&) = delete;
+  ~OnThisThread() { omp_set_num_threads(before_); }
+
+ private:
+  int before_ = omp_get_max_threads();
+};
 
 Displacements alone(const Model& model, std::span<const Constants> constants,
                     const std::function<std::optional<Points>(const Model&)>& solve) {
@@ -101,16 +121,25 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
     }
     const std::vector<MemberResult> results = relax_all(body, loads, model.curve, coarse.options, progress);
     const ShapeFunctions shape(coarse.model.cloud.positions, coarse.model.cloud.spacing, coarse.options.shape);
+    const FromCoarse from_coarse(shape, coarse.model.cloud, model);
     Displacements displacements(constants.size());
-    for (std::size_t m = 0; m < results.size(); ++m) {
+    share_work(std::ssize(results), 1, [&](std::int64_t i) {
+      const OnThisThread own;
+      const auto m = static_cast<std::size_t>(i);
       if (holds(results[m], body)) {
-        const Points displacement = nodal_displacement(body.nodal_rows, results[m].parameters, body.original);
-        displacements[m] = from_coarse(shape, coarse.model.cloud, displacement, model);
-      } else if (results[m].end == MemberResult::End::left) {
+        displacements[m] = from_coarse(nodal_displacement(body.nodal_rows, results[m].parameters, body.original));
+      }
+    });
+    for (std::size_t m = 0; m < results.size(); ++m) {
+      if (results[m].end == MemberResult::End::left) {
         displacements[m] = one(with_constants(model, constants[m]));
       }
     }
     return displacements;
+  } catch (const device::DeviceFault&) {
+    throw;  // nothing of the coarse cloud, nor is the following
+  } catch (const device::NotOnDevice&) {
+    throw;
   } catch (const std::logic_error&) {
     return alone(model, constants, one);  // which says of each that it cannot be solved
   } catch (const std::runtime_error&) {

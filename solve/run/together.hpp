@@ -12,7 +12,8 @@
 namespace brainshift::solve {
 
 /// coarse_displacement() of a model with each of these constants, to rounding. They are prepared once and stepped
-/// together, relax_together(), sixteen at a time; those that cannot be are solved alone.
+/// together, relax_together(), sixteen at a time, or 32 on the GPU where the options ask for it; those that cannot be
+/// are solved alone. Throws DeviceFault and NotOnDevice as relax_together_if_asked() does.
 std::vector<std::optional<Points>> coarse_displacements(const Model& model, const SolveOptions& options,
                                                         std::span<const Constants> constants, const Progress& progress);
 

@@ -16,12 +16,16 @@ using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 Points parameters_from_displacement(const ShapeFunctions& shape, const Points& positions, const Points& displacement) {
   std::vector<std::int32_t> nodes(static_cast<std::size_t>(positions.rows()));
   std::iota(nodes.begin(), nodes.end(), 0);
-  const RowMatrix v = shape_matrix(shape.evaluate(positions, false), nodes, positions.rows());
+  return parameters_from_displacement(shape_matrix(shape.evaluate(positions, false), nodes, positions.rows()),
+                                      displacement);
+}
+
+Points parameters_from_displacement(const RowMatrix& v, const Points& displacement) {
   Eigen::BiCGSTAB<RowMatrix> solver;  // the diagonal is preconditioner enough: twenty iterations
   solver.setTolerance(1e-12);
   solver.setMaxIterations(1000);
   solver.compute(v);
-  Points parameters(positions.rows(), 3);
+  Points parameters(displacement.rows(), 3);
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::VectorXd u = displacement.col(axis);
     parameters.col(axis) = solver.solveWithGuess(u, u);

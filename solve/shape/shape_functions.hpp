@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -45,5 +46,8 @@ class ShapeFunctions {
 /// shape.interpolate(x, û) is the displacement field that the solver had.
 /// Throws std::runtime_error when the iteration does not reach 1e-9 of the largest displacement.
 Points parameters_from_displacement(const ShapeFunctions& shape, const Points& positions, const Points& displacement);
+/// The same with φ_b(X_a) as a matrix, for many displacements.
+Points parameters_from_displacement(const Eigen::SparseMatrix<double, Eigen::RowMajor>& shape,
+                                    const Points& displacement);
 
 }  // namespace brainshift::solve

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/uncertainty/sample.hpp"
 
+#include "solve/device/backend.hpp"
+#include "solve/ensemble/each.hpp"
 #include "solve/interface/unfit_parts.hpp"
 #include "solve/measured/weight.hpp"
 #include "solve/run/coarse.hpp"
@@ -40,6 +42,11 @@ std::vector<std::optional<Points>> sampled_displacements(const Model& model, con
   const SolveOptions options = options_of_sample(model, given);
   return model.cloud.size() > most_sampled_nodes ? coarse_displacements(model, options, constants, progress)
                                                  : whole_displacements(model, options, constants, progress);
+}
+
+std::size_t samples_at_once(const SolveOptions& options) {
+  constexpr std::size_t on_gpu = 256;
+  return options.device != Device::cpu && device::gpu() != nullptr ? on_gpu : members;
 }
 
 Eigen::MatrixXd spread_about(const Points& answer, const std::vector<Points>& samples) {

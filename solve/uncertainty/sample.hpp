@@ -27,6 +27,10 @@ std::vector<std::optional<Points>> sampled_displacements(const Model& model, con
                                                          std::span<const Constants> constants,
                                                          const Progress& progress = {});
 
+/// So many are best asked for at once: the processor steps no more together, and a GPU solves these in about the time
+/// that it takes to prepare the body for them.
+std::size_t samples_at_once(const SolveOptions& options);
+
 /// Throws as sampled_displacement() does.
 void check_sampled(const Model& model, const SolveOptions& options);
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "solve/device/backend.hpp"
+#include "solve/device/device_fault.hpp"
 #include "solve/run/coarse.hpp"
 #include "solve/run/whole_body.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
@@ -66,6 +68,26 @@ TEST(Together, WholeDisplacementsAreThoseOfEachAlone) {
     const SolveResult alone = solve_whole_body(with_constants(model, constants[m]), options, {});
     ASSERT_TRUE(alone.failure.empty() && together[m]) << alone.failure;
     EXPECT_LT((*together[m] - alone.solution.displacement).cwiseAbs().maxCoeff(), 1e-7);
+  }
+}
+
+TEST(Together, GoesToTheDeviceThatIsAskedForOrSaysWhyNot) {
+  const Model model = drained_block();
+  const std::vector<Constants> constants = some_constants(model, 2);
+  const auto expected = coarse_displacements(model, quick(), constants, {});
+  SolveOptions options = quick();
+  for (const Device device : {Device::automatic, Device::cuda}) {
+    options.device = device;
+    if (device == Device::cuda && device::gpu() == nullptr) {
+      EXPECT_THROW(coarse_displacements(model, options, constants, {}), device::NotOnDevice);
+      EXPECT_THROW(whole_displacements(model, options, constants, {}), device::NotOnDevice);
+      continue;
+    }
+    const auto together = coarse_displacements(model, options, constants, {});
+    for (std::size_t m = 0; m < constants.size(); ++m) {
+      ASSERT_TRUE(together[m]);
+      EXPECT_LT((*together[m] - *expected[m]).cwiseAbs().maxCoeff(), 1e-4);
+    }
   }
 }
 
