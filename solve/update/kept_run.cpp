@@ -15,6 +15,7 @@
 #include "solve/device/backend.hpp"
 #include "solve/device/kept_on_device.hpp"
 #include "solve/dynamics/relaxation.hpp"
+#include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "solve/shape/nodal_displacement.hpp"
@@ -76,6 +77,7 @@ void set_fine_load(const Points& prescribed, KeptRun& run) {
   }
   run.ready = false;
   hold(ordered, run);
+  body.essential.factorise(run.fine.settled.mass, relaxation_alpha);  // throws while the body is still here
   if (body.contact) {
     free_to_touch(prescribed, run);
   }
