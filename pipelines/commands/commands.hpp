@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 
 #include "pipelines/runner/interruption.hpp"
@@ -48,5 +49,8 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
 /// not allowed is an error of the command line.
 CLI::Option* add_scene_option(CLI::App& command, Scene& scene, const std::string& element, const std::string& name,
                               const std::string& other_flag = {});
+
+/// "--device": what answers another load of a run, as the solve stage's option; absent: the run's own.
+CLI::Option* add_device_option(CLI::App& command, std::optional<solve::Device>& device);
 
 }  // namespace brainshift::pipelines

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <ctime>
 #include <memory>
+#include <optional>
 
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/console.hpp"
@@ -18,6 +19,7 @@ struct LiveArguments {
   fs::path run;
   fs::path load;
   bool image = false;
+  std::optional<solve::Device> device;
 };
 
 /// Seconds from a file's last change until now.
@@ -38,6 +40,10 @@ void answer_next(LiveRun& run, FileWatch& watch, const LiveArguments& arguments,
                   answer.error_bound);
       std::fflush(stdout);
     }
+    if (!answer.device_fault.empty()) {
+      std::fprintf(stderr, "brainshift: from now on the processor answers: %s\n",
+                   printable(answer.device_fault).c_str());
+    }
     if (arguments.image) {
       run.warp_image();
     }
@@ -50,7 +56,7 @@ void answer_next(LiveRun& run, FileWatch& watch, const LiveArguments& arguments,
 
 LiveRun prepared(const LiveArguments& arguments, const Settings& settings) {
   Console console(settings.quiet, settings.verbose);
-  return {arguments.run, arguments.image, *settings.interruption,
+  return {arguments.run, arguments.image, arguments.device, *settings.interruption,
           [&](double fraction, std::string_view what) { console.progress(StageId::solve, fraction, what); }};
 }
 
@@ -82,6 +88,7 @@ void add_live_command(CLI::App& program, const Settings& settings) {
                    "new displacements in the same opening, as craniotomy.csv; may come later")
       ->required()
       ->type_name("FILE");
+  add_device_option(*command, arguments->device);
   command->add_flag("--image", arguments->image, "warp the T1, too, after the transforms");
   command->callback([arguments, &settings] { answer_all(*arguments, settings); });
 }

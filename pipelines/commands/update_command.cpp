@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/console.hpp"
@@ -20,6 +21,7 @@ struct UpdateArguments {
   fs::path run;
   fs::path load;
   fs::path out;
+  std::optional<solve::Device> device;
 };
 
 /// RUN/update/NAME of the load's file NAME.csv, where no other folder is named.
@@ -73,7 +75,7 @@ void update(const UpdateArguments& arguments, const Settings& settings) {
   }
   const fs::path out = out_of(arguments) / stage_name(StageId::solve);
   console.started(StageId::solve);
-  UpdatedRun run(arguments.run, *settings.interruption, progress);
+  UpdatedRun run(arguments.run, *settings.interruption, progress, arguments.device);
   refuse_foreign_folder(out);
   refuse_foreign_folder(old_of(out));
   const StageReport report = answer_or_nothing(run, arguments.load, out, begin, *settings.interruption, progress);
@@ -98,6 +100,7 @@ void add_update_command(CLI::App& program, const Settings& settings) {
       ->add_option("--load", arguments->load,
                    "new displacements in the same opening, as craniotomy.csv; absent: only prepare the run for them")
       ->type_name("FILE");
+  add_device_option(*command, arguments->device);
   command->add_option("--out", arguments->out, "folder for solve/; RUN/update/NAME of NAME.csv if absent")
       ->type_name("DIR");
   command->callback([arguments, &settings] { update(*arguments, settings); });

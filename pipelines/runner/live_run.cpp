@@ -45,9 +45,10 @@ std::string name_of(int number) {
 
 }  // namespace
 
-LiveRun::LiveRun(const fs::path& run, bool with_image, Interruption& interruption, const Progress& progress)
-    : run_(fs::absolute(run).lexically_normal()), live_(run_ / "live"), interruption_(interruption) {
-  updated_.emplace(run_, interruption_, progress);
+LiveRun::LiveRun(const fs::path& run, bool with_image, std::optional<solve::Device> device, Interruption& interruption,
+                 const Progress& progress)
+    : run_(fs::absolute(run).lexically_normal()), live_(run_ / "live"), device_(device), interruption_(interruption) {
+  updated_.emplace(run_, interruption_, progress, device_);
   not_kept_ = updated_->not_kept();
   const Scene& scene = updated_->scene();
   options_ = scene.registration;
@@ -66,12 +67,12 @@ LiveRun::LiveRun(const fs::path& run, bool with_image, Interruption& interruptio
   }
   lock_.emplace(live_, "end it first");
   number_ = last_number(live_);
-  rehearse();
+  rehearse(progress);
 }
 
 /// The first answer then waits less for memory that the system has yet to give: 0.44 s on the demo in place of 0.56.
-void LiveRun::rehearse() {
-  if (!updated_->answer_own_load().failure.empty()) {
+void LiveRun::rehearse(const Progress& progress) {
+  if (!updated_->answer_own_load(progress).failure.empty()) {
     updated_.reset();
     return;
   }
@@ -80,11 +81,12 @@ void LiveRun::rehearse() {
 }
 
 UpdatedRun& LiveRun::updated() {
-  return updated_ ? *updated_ : updated_.emplace(run_, interruption_);
+  return updated_ ? *updated_ : updated_.emplace(run_, interruption_, Progress(), device_);
 }
 
 LiveRun::Answer LiveRun::answer(const fs::path& file) {
   const solve::CraniotomyLoad load = UpdatedRun::read(file);
+  const std::string fault_before = updated().device_fault();
   solve::SolveResult result;
   try {
     result = updated().solve(load, file, {});
@@ -112,7 +114,8 @@ LiveRun::Answer LiveRun::answer(const fs::path& file) {
   solve::write_craniotomy_csv(folder.path() / "load.csv", load);
   folder.replace();
   ++number_;
-  return {place, result.measures.largest_displacement, result.measures.error_bound};
+  return {place, result.measures.largest_displacement, result.measures.error_bound,
+          fault_before.empty() ? updated().device_fault() : std::string()};
 }
 
 void LiveRun::warp_image() {

@@ -18,13 +18,16 @@ namespace brainshift::pipelines {
 /// other processes, whose numbers would be the same.
 class LiveRun {
  public:
-  /// with_image: the T1 is warped, too. Throws as UpdatedRun does, and where there is no T1 to warp.
-  LiveRun(const std::filesystem::path& run, bool with_image, Interruption& interruption, const Progress& progress);
+  /// with_image: the T1 is warped, too. device: as of UpdatedRun. Throws as UpdatedRun does, and where there is no T1
+  /// to warp.
+  LiveRun(const std::filesystem::path& run, bool with_image, std::optional<solve::Device> device,
+          Interruption& interruption, const Progress& progress);
 
   struct Answer {
     std::filesystem::path folder;
     double largest_displacement = 0;  ///< mm
     double error_bound = 0;           ///< mm
+    std::string device_fault;         ///< UpdatedRun::device_fault() where it is new
   };
 
   /// Throws std::invalid_argument, naming the file, where it is at fault, and std::runtime_error where the load could
@@ -39,9 +42,10 @@ class LiveRun {
 
  private:
   UpdatedRun& updated();
-  void rehearse();
+  void rehearse(const Progress& progress);
 
   std::filesystem::path run_, live_;
+  std::optional<solve::Device> device_;
   Interruption& interruption_;
   std::optional<FolderLock> lock_;
   std::optional<UpdatedRun> updated_;

@@ -14,6 +14,7 @@
 #include "segmentation/files/make_folder.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "solve/body/nodal_order.hpp"
+#include "solve/device/kept_on_device.hpp"
 #include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
@@ -94,7 +95,8 @@ void refuse_what_cannot(const fs::path& run, const Scene& scene, const StageReco
 
 }  // namespace
 
-UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Progress& progress)
+UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Progress& progress,
+                       std::optional<solve::Device> device)
     : run_(fs::absolute(run).lexically_normal()), file_(run_ / "update" / "kept.bin") {
   const nlohmann::ordered_json record = record_of(run_);
   const StageRecord solved = finished_solve(run_);
@@ -113,6 +115,7 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
   } else {
     make_kept(job, progress);
   }
+  kept_.options.device = device.value_or(kept_.options.device);
 }
 
 void UpdatedRun::make_kept(const SolveJob& job, const Progress& progress) {
@@ -147,6 +150,10 @@ NodeCloud UpdatedRun::cloud() const {
 
 Points UpdatedRun::parameters() const {
   return solve::in_cloud_order(kept_.fine.parameters, kept_.fine.body.original);
+}
+
+std::string UpdatedRun::device_fault() const {
+  return kept_.on_device ? kept_.on_device->fault() : std::string();
 }
 
 solve::SolveResult UpdatedRun::solve(const solve::CraniotomyLoad& load, const fs::path& file,

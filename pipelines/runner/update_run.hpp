@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "pipelines/runner/interruption.hpp"
@@ -18,8 +19,9 @@ namespace brainshift::pipelines {
 class UpdatedRun {
  public:
   /// Throws std::invalid_argument, naming the folder, where it holds no finished run, one of another version, one whose
-  /// scene or files have changed since, or one that cannot be updated.
-  UpdatedRun(const std::filesystem::path& run, Interruption& interruption, const Progress& progress = {});
+  /// scene or files have changed since, or one that cannot be updated. device: that answers; the run's own if absent.
+  UpdatedRun(const std::filesystem::path& run, Interruption& interruption, const Progress& progress = {},
+             std::optional<solve::Device> device = {});
 
   /// Displacements of a CSV. Throws std::invalid_argument, naming the file, where they cannot be a run's new ones.
   static solve::CraniotomyLoad read(const std::filesystem::path& file);
@@ -30,7 +32,9 @@ class UpdatedRun {
                            const Progress& progress);
 
   /// Once more the load that the run was solved with. After a failure the run must be made anew.
-  solve::SolveResult answer_own_load() { return solve::update(kept_, kept_.origin.prescribed); }
+  solve::SolveResult answer_own_load(const Progress& progress) {
+    return solve::update(kept_, kept_.origin.prescribed, progress);
+  }
 
   /// û of the last answer, in the order of the cloud, (n × 3) mm.
   Points parameters() const;
@@ -39,6 +43,9 @@ class UpdatedRun {
 
   /// Why what was prepared could not be kept on disk, so that the next update prepares it again; empty: it is kept.
   const std::string& not_kept() const { return not_kept_; }
+
+  /// How a GPU has failed, so that the processor answers from then on; empty: it has not.
+  std::string device_fault() const;
 
   /// Answers the displacements of a CSV and writes solution.vtu, history.csv and load.csv into an existing folder.
   /// Throws std::invalid_argument, naming the file, where it is at fault.

@@ -21,11 +21,8 @@ constexpr std::size_t chunk = 1 << 19;  // voxels evaluated between two reports 
 
 using Displacement = std::array<float, 3>;
 
-struct Voxel {
-  int i, j, k;
-  std::size_t offset;
-  Eigen::Vector3d index() const { return {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}; }
-};
+using Voxel = FieldVoxel;
+using Run = FieldRun;
 
 /// In the order of their offsets.
 template <class Wanted>
@@ -59,17 +56,19 @@ Eigen::Vector3d place_of(const BrainZones& zones, const ImageGeometry& geometry,
   return zones.zone[voxel.offset] == Zone::shell ? place_in_shell(zones.outside.grid(), place, reach) : place;
 }
 
-/// The solver's field at the voxels of brain and shell.
+/// The solver's field at the voxels of brain and shell. told: the places are known where it is asked.
 void evaluate(const DisplacementAt& displacement_at, const BrainZones& zones, const std::vector<Voxel>& voxels,
-              double reach, VectorImage& field, const Progress& progress) {
+              double reach, bool told, VectorImage& field, const Progress& progress) {
   for (std::size_t begin = 0; begin < voxels.size(); begin += chunk) {
     report(progress, 0.8 * static_cast<double>(begin) / static_cast<double>(voxels.size()),
            "displacement at the voxels");
     const std::size_t end = std::min(begin + chunk, voxels.size());
     Points places(static_cast<Eigen::Index>(end - begin), 3);
+    if (!told) {
 #pragma omp parallel for schedule(static)
-    for (std::size_t v = begin; v < end; ++v) {
-      places.row(static_cast<Eigen::Index>(v - begin)) = place_of(zones, field.geometry, voxels[v], reach);
+      for (std::size_t v = begin; v < end; ++v) {
+        places.row(static_cast<Eigen::Index>(v - begin)) = place_of(zones, field.geometry, voxels[v], reach);
+      }
     }
     const Points displacement = displacement_at(places);
 #pragma omp parallel for schedule(static)
@@ -79,37 +78,52 @@ void evaluate(const DisplacementAt& displacement_at, const BrainZones& zones, co
   }
 }
 
-/// Gives the fading voxels the displacement of the brain near by.
-void extend(const BrainZones& zones, const std::vector<Voxel>& fading, double reach, WayOut* way, VectorImage& field) {
-  const FieldSampler sampler(field);
-  std::vector<Displacement> extended(fading.size());
-  const bool known = way != nullptr && way->places.size() == fading.size();
-  if (way != nullptr) {
-    way->places.resize(fading.size());
-  }
-#pragma omp parallel for schedule(dynamic, 1024)
-  for (std::size_t v = 0; v < fading.size(); ++v) {
-    const auto found = [&] {
-      const Eigen::Vector3d x = field.geometry.to_world(fading[v].index());
-      return sampler.to_index(place_at_reach(zones.outside.grid(), x, reach));
-    };
-    const Eigen::Vector3d place = known ? way->places[v] : found();
-    const Eigen::Vector3f u = sampler.value(place).cast<float>();
-    extended[v] = {u.x(), u.y(), u.z()};
-    if (way != nullptr) {
-      way->places[v] = place;
+/// Numbers of voxels that are kept from field to field, or found each time.
+template <class Value>
+class Kept {
+ public:
+  /// values: as many as voxels where they are known; null: they are not kept.
+  Kept(std::vector<Value>* values, std::size_t voxels)
+      : values_(values), known_(values != nullptr && values->size() == voxels) {
+    if (values_ != nullptr) {
+      values_->resize(voxels);
     }
   }
+  /// Of different voxels on many threads.
+  template <class Find>
+  Value of(std::size_t voxel, const Find& find) const {
+    if (values_ == nullptr) {
+      return find();
+    }
+    Value& value = (*values_)[voxel];
+    return known_ ? value : value = find();
+  }
+
+ private:
+  std::vector<Value>* values_;
+  bool known_;
+};
+
+/// Gives the fading voxels the displacement of the brain near by.
+void extend(const BrainZones& zones, const std::vector<Voxel>& fading, double reach,
+            std::vector<Eigen::Vector3d>* taken_from, VectorImage& field) {
+  const FieldSampler sampler(field);
+  std::vector<Displacement> extended(fading.size());
+  const Kept kept(taken_from, fading.size());
+#pragma omp parallel for schedule(dynamic, 1024)
+  for (std::size_t v = 0; v < fading.size(); ++v) {
+    const Eigen::Vector3d place = kept.of(v, [&] {
+      const Eigen::Vector3d x = field.geometry.to_world(fading[v].index());
+      return sampler.to_index(place_at_reach(zones.outside.grid(), x, reach));
+    });
+    const Eigen::Vector3f u = sampler.value(place).cast<float>();
+    extended[v] = {u.x(), u.y(), u.z()};
+  }
+#pragma omp parallel for schedule(static)
   for (std::size_t v = 0; v < fading.size(); ++v) {
     field.voxels[fading[v].offset] = extended[v];
   }
 }
-
-/// Voxels that follow each other along x.
-struct Run {
-  std::size_t first, count;  ///< in the list of voxels
-  bool inner;                ///< all their neighbours count
-};
 
 std::vector<Run> runs_of(const std::vector<Voxel>& voxels, const BrainZones& zones, const ImageGeometry& g) {
   const std::size_t stride[3] = {1, g.offset(0, 1, 0), g.offset(0, 0, 1)};
@@ -150,9 +164,9 @@ void mean_along_run(const VectorImage& field, std::size_t first, std::size_t cou
 
 /// Smooths the displacement outside where two parts of the surface are equally near and it would jump; all other voxels
 /// are held.
-void smooth(const BrainZones& zones, const std::vector<Voxel>& outside, VectorImage& field) {
+void smooth(const BrainZones& zones, const std::vector<Voxel>& outside, const std::vector<Run>& runs,
+            VectorImage& field) {
   const double sweeps = smoothing_sweeps(field.geometry.spacing);
-  const std::vector<Run> runs = runs_of(outside, zones, field.geometry);
   const Neighbourhood around{field.geometry.size, field.geometry.spacing, zones.zone.data(), field.voxels.data()};
   std::vector<Displacement> next(outside.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -176,11 +190,12 @@ void smooth(const BrainZones& zones, const std::vector<Voxel>& outside, VectorIm
   }
 }
 
-void fade_out(const BrainZones& zones, const std::vector<Voxel>& outside, double reach, double fade,
-              VectorImage& field) {
+void fade_out(const BrainZones& zones, const std::vector<Voxel>& outside, std::vector<double>* distances, double reach,
+              double fade, VectorImage& field) {
+  const Kept kept(distances, outside.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t v = 0; v < outside.size(); ++v) {
-    const double distance = distance_at(zones, field.geometry, outside[v]);
+    const double distance = kept.of(v, [&] { return distance_at(zones, field.geometry, outside[v]); });
     Displacement& u = field.voxels[outside[v].offset];
     u = faded(u, distance, reach, fade);
   }
@@ -205,7 +220,7 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
 }
 
 VectorImage forward_field(const DisplacementAt& displacement_at, double spacing, const BrainZones& zones,
-                          const ImageGeometry& geometry, double fade, const Progress& progress, WayOut* way) {
+                          const ImageGeometry& geometry, double fade, const Progress& progress, FieldPlan* plan) {
   VectorImage field{geometry, std::vector<Displacement>(geometry.voxel_count(), Displacement{0, 0, 0})};
   const double reach = reach_of(zones.shell, spacing);
   const auto in = [&](Zone wanted) { return [&, wanted](const Voxel& v) { return zones.zone[v.offset] == wanted; }; };
@@ -216,19 +231,32 @@ VectorImage forward_field(const DisplacementAt& displacement_at, double spacing,
   const auto near = [&](const Voxel& v) {
     return (in(Zone::brain)(v) || in(Zone::shell)(v) || in(Zone::cavity)(v)) && !hollow(v);
   };
-  evaluate(displacement_at, zones, voxels_where(geometry, near), reach, field, progress);
+  FieldPlan own;
+  FieldPlan& p = plan != nullptr ? *plan : own;
+  const bool known = !p.inside.empty();
+  if (!known) {
+    p.inside = voxels_where(geometry, near);
+  }
+  evaluate(displacement_at, zones, p.inside, reach, known, field, progress);
+  own = {};  // and its memory
   if (zones.wall) {
     span_cavity(
         offsets_of(voxels_where(geometry, hollow)), [&](std::size_t voxel) { return zones.zone[voxel] >= Zone::shell; },
         field);
   }
   report(progress, 0.8, "fading outside the brain");
-  extend(zones, voxels_where(geometry, in(Zone::fading)), reach, way, field);
-  const std::vector<Voxel> outside = voxels_where(geometry, [&](const Voxel& v) {
-    return in(Zone::fading)(v) || (in(Zone::shell)(v) && distance_at(zones, geometry, v) > reach);
-  });
-  smooth(zones, outside, field);
-  fade_out(zones, outside, reach, fade, field);
+  if (!known) {
+    p.fading = voxels_where(geometry, in(Zone::fading));
+  }
+  extend(zones, p.fading, reach, plan != nullptr ? &p.taken_from : nullptr, field);
+  if (!known) {
+    p.outside = voxels_where(geometry, [&](const Voxel& v) {
+      return in(Zone::fading)(v) || (in(Zone::shell)(v) && distance_at(zones, geometry, v) > reach);
+    });
+    p.runs = runs_of(p.outside, zones, geometry);
+  }
+  smooth(zones, p.outside, p.runs, field);
+  fade_out(zones, p.outside, plan != nullptr ? &p.distance : nullptr, reach, fade, field);
   return field;
 }
 

@@ -24,15 +24,34 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
 /// The solver's displacement at places, (m × 3) mm.
 using DisplacementAt = std::function<Points(const Points& places)>;
 
-/// Where the fading voxels of one grid take their displacement from.
-struct WayOut {
-  std::vector<Eigen::Vector3d> places;  ///< indices of the grid
+struct FieldVoxel {
+  int i, j, k;
+  std::size_t offset;
+  Eigen::Vector3d index() const { return {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}; }
+};
+
+/// Voxels that follow each other along x.
+struct FieldRun {
+  std::size_t first, count;  ///< in the list of voxels
+  bool inner;                ///< all their neighbours count
+};
+
+/// What of a field on one grid does not depend on the displacement. Voxels are in the order of their offsets.
+struct FieldPlan {
+  std::vector<FieldVoxel> inside;           ///< in the brain and near it: the displacement is the solver's
+  std::vector<FieldVoxel> fading;           ///< take the displacement of the brain near by
+  std::vector<Eigen::Vector3d> taken_from;  ///< where each of those does, index of the grid
+  std::vector<FieldVoxel> outside;          ///< are smoothed and fade
+  std::vector<FieldRun> runs;               ///< of those
+  std::vector<double> distance;             ///< of each of those from the brain, mm
 };
 
 /// The same of a displacement that is asked for at all places in the brain and near it, part by part: for the same
-/// zones and grid at the same places in the same order. spacing: mean of the nodes', mm. way: of an earlier field of
-/// the same zones and grid, or empty, then it is noted; null: not kept.
+/// zones and grid at the same places in the same order. spacing: mean of the nodes', mm. plan: of an earlier field of
+/// the same zones, grid and spacing, for which the places are not told again, but a row each; or empty, then it is
+/// noted; null: not kept.
 VectorImage forward_field(const DisplacementAt& displacement_at, double spacing, const BrainZones& zones,
-                          const ImageGeometry& geometry, double fade, const Progress& progress, WayOut* way = nullptr);
+                          const ImageGeometry& geometry, double fade, const Progress& progress,
+                          FieldPlan* plan = nullptr);
 
 }  // namespace brainshift::registration

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/field/moving_part.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 
 namespace brainshift::registration {
 
@@ -18,11 +20,13 @@ IndexBox box_of_moving(const VectorImage& field) {
   IndexBox box{g.size - 1, Eigen::Array3i::Zero()};
   for (int k = 0; k < g.size.z(); ++k) {
     for (int j = 0; j < g.size.y(); ++j) {
-      for (int i = 0; i < g.size.x(); ++i) {
-        if (field.at(i, j, k) != std::array<float, 3>{0, 0, 0}) {
-          box.low = box.low.min(Eigen::Array3i(i, j, k));
-          box.high = box.high.max(Eigen::Array3i(i, j, k));
-        }
+      const std::span row(&field.at(0, j, k), static_cast<std::size_t>(g.size.x()));
+      const auto moves = [](const std::array<float, 3>& u) { return u != std::array<float, 3>{0, 0, 0}; };
+      const auto first = std::find_if(row.begin(), row.end(), moves);
+      if (first != row.end()) {
+        const auto past = std::find_if(row.rbegin(), row.rend(), moves).base();
+        box.low = box.low.min(Eigen::Array3i(static_cast<int>(first - row.begin()), j, k));
+        box.high = box.high.max(Eigen::Array3i(static_cast<int>(past - row.begin()) - 1, j, k));
       }
     }
   }

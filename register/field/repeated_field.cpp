@@ -39,13 +39,13 @@ RepeatedField::RepeatedField(const Solution& solution, const Surface& brain, con
     rows_.push_back(shape.evaluate(places, false));
     return Points::Zero(places.rows(), 3);
   };
-  forward_field(keep_rows, spacing_, zones_, grid_, fade_, {}, &way_);
+  forward_field(keep_rows, spacing_, zones_, grid_, fade_, {}, &plan_);
 }
 
 VectorImage RepeatedField::forward(const Points& parameters) {
   std::size_t part = 0;
   return forward_field([&](const Points&) { return product(rows_[part++], parameters); }, spacing_, zones_, grid_,
-                       fade_, {}, &way_);
+                       fade_, {}, &plan_);
 }
 
 ImageGeometry covering_grid(const ImageGeometry& image, double spacing) {

@@ -26,7 +26,7 @@ class RepeatedField {
   double fade_, spacing_;
   BrainZones zones_;
   std::vector<solve::ShapeRows> rows_;  ///< part by part as forward_field() asks
-  WayOut way_;
+  FieldPlan plan_;
 };
 
 /// A grid of voxels of one size that covers an image.

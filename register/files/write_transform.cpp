@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <span>
 #include <string>
@@ -113,11 +114,17 @@ void write_plain(hid_t parent, std::span<const float> numbers) {
   Handle::check(H5Dwrite(set, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()));
 }
 
+struct Bytes {
+  std::unique_ptr<char[]> first;
+  std::size_t size;
+};
+
 /// The bytes of the file that ITK's reader of HDF5 transforms expects. It is made in memory: where HDF5 itself meets a
 /// full disk, it keeps the file open, and crashes when the program ends.
-std::vector<char> hdf5_file(const VectorImage& field, Packing packing) {
+Bytes hdf5_file(const VectorImage& field, Packing packing) {
   const std::span numbers(field.voxels.front().data(), 3 * field.voxels.size());
-  const std::size_t growth = std::max(numbers.size_bytes(), std::size_t{1} << 20);  // each time it grows it is copied
+  constexpr std::size_t rest = std::size_t{1} << 20;  // of the file; each time it grows it is copied
+  const std::size_t growth = numbers.size_bytes() + rest;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   Handle::check(H5Pset_fapl_core(access, growth, false));
   const Handle out(H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
@@ -130,8 +137,9 @@ std::vector<char> hdf5_file(const VectorImage& field, Packing packing) {
   Handle::check(H5Fflush(out, H5F_SCOPE_LOCAL));
   const ssize_t size = H5Fget_file_image(out, nullptr, 0);
   Handle::check(size < 0 ? -1 : 0);
-  std::vector<char> bytes(static_cast<std::size_t>(size));
-  Handle::check(H5Fget_file_image(out, bytes.data(), bytes.size()) < 0 ? -1 : 0);
+  Bytes bytes{.first = std::make_unique_for_overwrite<char[]>(static_cast<std::size_t>(size)),
+              .size = static_cast<std::size_t>(size)};
+  Handle::check(H5Fget_file_image(out, bytes.first.get(), bytes.size) < 0 ? -1 : 0);
   return bytes;
 }
 
@@ -139,9 +147,9 @@ std::vector<char> hdf5_file(const VectorImage& field, Packing packing) {
 
 void write_transform(const std::filesystem::path& file, const VectorImage& field, Packing packing) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is thrown, not printed
-  const std::vector<char> bytes = hdf5_file(field, packing);
+  const Bytes bytes = hdf5_file(field, packing);
   OutStream out(file);
-  out.write(bytes.data(), bytes.size());
+  out.write(bytes.first.get(), bytes.size);
   out.finish();
 }
 

@@ -49,10 +49,15 @@ void Contact::apply(NodalVectors& parameters) {
 
 Contact::Measures Contact::measure(const NodalVectors& parameters) const {
   constexpr double rounding = 1e-4;  // mm, of samples in single precision
+  std::vector<double> distance(allowed_.size());
+  share_work(static_cast<std::int64_t>(distance.size()), places_a_part, [&](std::int64_t i) {
+    const auto node = static_cast<std::size_t>(i);
+    distance[node] = skull_->value(nodes_.place(node, parameters));
+  });
   Measures measures;
   for (std::size_t i = 0; i < allowed_.size(); ++i) {
-    const double distance = skull_->value(nodes_.place(i, parameters)), outside = distance - allowed_[i];
-    measures.lost = measures.lost || distance > skull_->horizon() - rounding;
+    const double outside = distance[i] - allowed_[i];
+    measures.lost = measures.lost || distance[i] > skull_->horizon() - rounding;
     measures.touching += outside > -0.01 ? 1 : 0;
     measures.largest_penetration = std::max(measures.largest_penetration, outside);
   }

@@ -57,6 +57,32 @@ Eigen::SparseMatrix<double> compliance(const Measurement& measured, const Essent
   return root * root.transpose();
 }
 
+/// The nodes at which a component is prescribed. Throws std::invalid_argument where it is infinite.
+std::vector<std::int32_t> nodes_of_component(const Points& prescribed, int axis,
+                                             const std::vector<std::int32_t>& names) {
+  std::vector<std::int32_t> nodes;
+  for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
+    const double value = prescribed(a, axis);
+    if (std::isinf(value)) {
+      throw std::invalid_argument("the prescribed displacement of node " +
+                                  std::to_string(names[static_cast<std::size_t>(a)]) +
+                                  " is infinite; give millimetres, or NaN where it is free");
+    }
+    if (!std::isnan(value)) {
+      nodes.push_back(static_cast<std::int32_t>(a));
+    }
+  }
+  return nodes;
+}
+
+/// 1 where any component is not 0.
+Eigen::VectorXd loaded_at(std::span<const std::int32_t> nodes, const Points& prescribed) {
+  Eigen::VectorXd loaded(static_cast<Eigen::Index>(nodes.size()));
+  std::transform(nodes.begin(), nodes.end(), loaded.begin(),
+                 [&](std::int32_t a) { return (prescribed.row(a).array().abs() > 0).any() ? 1.0 : 0.0; });
+  return loaded;
+}
+
 /// Rows of the conditions of these nodes: those at the nodes, or, of nodes on a rim, others.
 ShapeRows rows_of_conditions(std::span<const std::int32_t> nodes, const PatchRim& rim, const ShapeRows& at_rim,
                              const std::function<void(std::int32_t, ShapeRows&)>& append_at_node) {
@@ -98,23 +124,11 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
   };
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
-    std::vector<double> loaded;
-    for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
-      const double value = prescribed(a, axis);
-      if (std::isinf(value)) {
-        throw std::invalid_argument("the prescribed displacement of node " +
-                                    std::to_string(names_[static_cast<std::size_t>(a)]) +
-                                    " is infinite; give millimetres, or NaN where it is free");
-      }
-      if (!std::isnan(value)) {
-        c.node.push_back(static_cast<std::int32_t>(a));
-        loaded.push_back((prescribed.row(a).array().abs() > 0).any() ? 1.0 : 0.0);
-      }
-    }
+    c.node = nodes_of_component(prescribed, axis, names_);
     c.shape = all_of(rows_of_conditions(c.node, rim, rim.rows, shape_at), prescribed.rows());
     c.extension = all_of(rows_of_conditions(c.node, rim, rim.extension, own_value), prescribed.rows());
     c.prescribed = c.extension * prescribed.col(axis);  // of free nodes no value is in it
-    c.loaded = Eigen::Map<const Eigen::VectorXd>(loaded.data(), static_cast<Eigen::Index>(loaded.size()));
+    c.loaded = loaded_at(c.node, prescribed);
     c.multiplier = c.scratch = Eigen::VectorXd::Zero(c.prescribed.size());
   }
   if (nothing_prescribed()) {
@@ -143,6 +157,22 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
   }
 }
 
+bool EssentialConditions::prescribe(const Points& prescribed) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (nodes_of_component(prescribed, static_cast<int>(axis), names_) != component_[axis].node) {
+      return false;
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Component& c = component_[axis];
+    c.prescribed = c.extension * prescribed.col(static_cast<Eigen::Index>(axis));
+    c.loaded = loaded_at(c.node, prescribed);
+    c.multiplier.setZero();
+  }
+  fraction_ = {0, 0};
+  return true;
+}
+
 bool EssentialConditions::nothing_prescribed() const {
   return std::all_of(component_.begin(), component_.end(), [](const Component& c) { return c.prescribed.size() == 0; });
 }
@@ -159,13 +189,24 @@ std::vector<std::int32_t> EssentialConditions::nodes() const {
   return {nodes.begin(), nodes.end()};
 }
 
+bool EssentialConditions::is_factorised() const {
+  return std::all_of(component_.begin(), component_.end(), [](const Component& c) {
+    return c.prescribed.size() == 0 || (c.factor && c.compliance.rows() == 0);
+  });
+}
+
 void EssentialConditions::factorise(std::span<const double> mass, double alpha) {
   if (nothing_prescribed()) {
     return;
   }
-  inverse_mass_.resize(mass.size());
-  for (std::size_t a = 0; a < mass.size(); ++a) {
-    inverse_mass_[a] = 1 / mass[a];
+  std::vector<double> inverse_mass(mass.size());
+  std::transform(mass.begin(), mass.end(), inverse_mass.begin(), [](double m) { return 1 / m; });
+  if (inverse_mass == inverse_mass_ && is_factorised()) {
+    return;
+  }
+  inverse_mass_ = std::move(inverse_mass);
+  for (Component& c : component_) {
+    c.factor.reset();
   }
   const Eigen::Map<const Eigen::VectorXd> inverse(inverse_mass_.data(), static_cast<Eigen::Index>(mass.size()));
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -187,9 +228,9 @@ void EssentialConditions::factorise(std::span<const double> mass, double alpha) 
     if (c.compliance.rows() > 0) {
       system += c.compliance / alpha;
     }
-    c.factor = std::make_shared<Factor>(system);
+    auto factor = std::make_shared<Factor>(system);
     Eigen::Index worst = 0;
-    const auto& [ldlt, pivot] = *c.factor;
+    const auto& [ldlt, pivot] = *factor;
     const Eigen::VectorXd diagonal = ldlt.permutationP() * system.diagonal();
     const Eigen::VectorXd pivots = pivot.cwiseQuotient(diagonal);
     if (!(ldlt.info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot)) {
@@ -199,6 +240,7 @@ void EssentialConditions::factorise(std::span<const double> mass, double alpha) 
                                             : "inner measured point " + std::to_string(at - c.node.size() + 1)) +
                         ": too many constrained nodes lie too near it; constrain fewer or add free nodes");
     }
+    c.factor = std::move(factor);
   }
 }
 

@@ -66,6 +66,10 @@ class EssentialConditions {
   EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names,
                       const Measurement& measured, const ShapeRows& inner_rows, const PatchRim& rim = {});
 
+  /// Prescribes other values where nothing gives way, (n × 3) mm, and forgets all multipliers. Returns false, and does
+  /// nothing, where they are prescribed at other nodes. Throws as the constructor does.
+  bool prescribe(const Points& prescribed);
+
   /// Nodes whose parameters are in any of the conditions, ascending.
   std::vector<std::int32_t> nodes() const;
 
@@ -102,6 +106,8 @@ class EssentialConditions {
 
  private:
   bool nothing_prescribed() const;
+  /// For `inverse_mass_`, and for any α.
+  bool is_factorised() const;
 
   std::array<Component, 3> component_;
   std::vector<double> inverse_mass_;

@@ -6,6 +6,7 @@
 
 #include "solve/device/device_fault.hpp"
 #include "solve/device/slices.hpp"
+#include "solve/dynamics/span_bound.hpp"
 #include "solve/force/firmness.hpp"
 
 namespace brainshift::solve::device {
@@ -136,15 +137,41 @@ std::string why_not(const Body& body) {
 }
 
 template <class Scalar>
-DeviceBody<Scalar>::DeviceBody(const Backend& backend, const Body& body) : backend_(backend), memory_(backend) {
+DeviceBody<Scalar>::DeviceBody(const Backend& backend, const Body& body, int window)
+    : backend_(backend), memory_(backend) {
   put_points(body.points);
   put_laws(body);
-  put_motion(body);
+  put_motion(body, window);
+  if (body.contact) {
+    put_skull(*body.contact->skull());
+  }
+  perform(Task::share_bounds, {});
+  of_body_ = memory_.pieces();
+  load(body);
+}
+
+template <class Scalar>
+void DeviceBody<Scalar>::load(const Body& body) {
+  std::array<std::vector<std::int32_t>, 3> nodes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    nodes[axis] = body.essential.components()[axis].node;
+  }
+  if (held_ == nodes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const EssentialConditions::Component& from = body.essential.components()[axis];
+      memory_.replace(view_.condition[axis].prescribed, values_of(from.prescribed));
+      memory_.replace(view_.condition[axis].loaded, values_of(from.loaded));
+    }
+    return;
+  }
+  held_.reset();
+  weighed_.clear();
+  memory_.go_back(of_body_);
   if (body.contact) {
     put_contact(*body.contact);
   }
   put_conditions(body.essential);
-  perform(Task::share_bounds, {});
+  held_ = std::move(nodes);
 }
 
 template <class Scalar>
@@ -202,14 +229,15 @@ void DeviceBody<Scalar>::put_laws(const Body& body) {
 }
 
 template <class Scalar>
-void DeviceBody<Scalar>::put_motion(const Body& body) {
+void DeviceBody<Scalar>::put_motion(const Body& body, int window) {
   View<Scalar>& v = view_;
   const std::size_t values = 4 * body.nodes();
-  for (double** vectors :
-       {&v.displacement[0], &v.displacement[1], &v.displacement[2], &v.force_at[0], &v.force_at[1], &v.span_state[0],
-        &v.span_state[1], &v.span_state[2], &v.mode_of_body, &v.place_at_look, &v.force_at_look, &kept_displacement}) {
+  for (double** vectors : {&v.displacement[0], &v.displacement[1], &v.displacement[2], &v.force_at[0], &v.force_at[1],
+                           &v.mode_of_body, &v.place_at_look, &v.force_at_look, &kept_displacement}) {
     *vectors = memory_.template room<double>(values);
   }
+  v.span_state =
+      memory_.template room<double>(values * (2 * static_cast<std::size_t>(SpanBound::windows_of(window)) + 1));
   for (double** numbers : {&v.mass, &v.inverse_mass, &v.stiffer_mass}) {
     *numbers = memory_.template room<double>(body.nodes());
   }
@@ -238,6 +266,12 @@ void DeviceBody<Scalar>::put_rows(const CompressedRows& rows, SparseRows& to) {
 }
 
 template <class Scalar>
+void DeviceBody<Scalar>::put_skull(const SignedDistance& skull) {
+  view_.contact.skull = skull.grid();
+  view_.contact.skull.sample = memory_.put(skull.samples().value);
+}
+
+template <class Scalar>
 void DeviceBody<Scalar>::put_contact(const Contact& contact) {
   TouchingNodes& c = view_.contact;
   const CompressedRows rows = rows_of(contact.nodes());
@@ -257,12 +291,11 @@ void DeviceBody<Scalar>::put_contact(const Contact& contact) {
   c.inverse_row_sum = memory_.template room<double>(count);
   c.push = memory_.template room<double>(3 * count);
   c.pushed = memory_.template room<double>(4 * nodes());
-  c.skull = contact.skull()->grid();
-  c.skull.sample = memory_.put(contact.skull()->samples().value);
 }
 
 template <class Scalar>
 void DeviceBody<Scalar>::put_conditions(const EssentialConditions& essential) {
+  conditions_ = 0;
   for (const EssentialConditions::Component& c : essential.components()) {
     conditions_ += static_cast<std::size_t>(c.prescribed.size());
   }

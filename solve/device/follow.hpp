@@ -237,15 +237,16 @@ BRAINSHIFT_ON_DEVICE double bound_of_slot(const Team& team, const View<Scalar>& 
   return team.template sum<lanes>(sum);
 }
 
-/// `slot_bound` at the state u.
+/// `slot_bound` at the state u. Returns as find_dilatations().
 template <class Team, class Scalar>
-BRAINSHIFT_ON_DEVICE void find_slot_bounds(const Team& team, const View<Scalar>& v, const double* u) {
+BRAINSHIFT_ON_DEVICE double find_slot_bounds(const Team& team, const View<Scalar>& v, const double* u) {
   constexpr int lanes = Team::lanes, wide = Team::wide;
   const Room<Scalar> room(team.room(), v);
+  double minus_smallest = -std::numeric_limits<double>::infinity();
   for (int i = team.block(); i < v.clusters; i += team.blocks()) {
     const Cluster& c = v.cluster[i];
     find_gradients(team, v, i, u, 1, room);
-    find_dilatations(team, v, c, room);
+    minus_smallest = larger(minus_smallest, find_dilatations(team, v, c, room));
     for (std::int32_t p = team.thread(); p < c.points; p += team.threads()) {
       v.point_tangent[c.first_point + p] = tangent_at(v, c, room, p);
       find_slope(v, c, room, p);
@@ -268,15 +269,16 @@ BRAINSHIFT_ON_DEVICE void find_slot_bounds(const Team& team, const View<Scalar>&
     }
     team.sync_block();
   }
+  return minus_smallest;
 }
 
 /// The masses that the stiffness at the last force wants, and whether it wants others than there are.
 template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void follow_stiffness(const Team& team, const View<Scalar>& v, const Order& order,
                                            const Motion& m) {
-  find_slot_bounds(team, v, m.before);
-  team.sync_all();
   double of[FollowSums::count] = {};
+  of[FollowSums::minus_jacobian] = find_slot_bounds(team, v, m.before);
+  team.sync_all();
   for (std::int32_t a = first_of_all(team); a < v.nodes; a += all_threads(team)) {
     double bound = 0;
     for (std::int64_t k = v.node_begin[a]; k < v.node_begin[a + 1]; ++k) {

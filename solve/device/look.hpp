@@ -16,8 +16,11 @@ template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE void look_at_nodes(const Team& team, const View<Scalar>& v, const Order& order, const Motion& m,
                                         double (&of)[LookSums::count]) {
   using Sums = LookSums;
-  const double *first = v.span_state[(order.states + 1) % 3], *middle = v.span_state[(order.states + 2) % 3];
-  double* last = v.span_state[order.states % 3];
+  const auto state = [&](int looks_on) {
+    return v.span_state + 4 * static_cast<std::int64_t>(v.nodes) * ((order.states + looks_on) % (2 * order.span + 1));
+  };
+  const double *first = state(1), *middle = state(1 + order.span);
+  double* last = state(0);
   for (std::int32_t a = first_of_all(team); a < v.nodes; a += all_threads(team)) {
     const double mass = v.mass[a];
     double moved = 0, push = 0, force = 0, went = 0, went_before = 0;
@@ -104,8 +107,10 @@ BRAINSHIFT_ON_DEVICE void look(const Team& team, const View<Scalar>& v, const Or
   of[LookSums::minus_jacobian] = -1;
   of[LookSums::stretch] = 1;
   look_at_nodes(team, v, order, m, of);
-  look_at_conditions(team, v, m, of);
-  look_at_points(team, v, m, of);
+  if (!order.glance) {
+    look_at_conditions(team, v, m, of);
+    look_at_points(team, v, m, of);
+  }
   leave<LookSums::sums>(team, of, v.partial);
   team.sync_all();
   if (team.block() == 0) {

@@ -16,8 +16,11 @@ namespace brainshift::solve::device {
 SteppingResult go_on(SteppingResult left, const Course& course, SolveOptions options, const Progress& progress) {
   report(progress, 0, "slow; the processor goes on, which makes rigid motions quicker");
   options.max_steps -= left.steps;
-  SteppingResult result = solve::relax(std::move(left.body),
-                                       {.curve = course.curve, .start = std::move(left.parameters)}, options, progress);
+  Course rest{.curve = course.curve, .start = std::move(left.parameters)};
+  if (course.settled) {
+    rest.settled = std::move(left.settled);
+  }
+  SteppingResult result = solve::relax(std::move(left.body), rest, options, progress);
   result.steps += left.steps;
   for (HistoryRow& row : result.history) {
     row.step += left.steps;
@@ -29,21 +32,31 @@ SteppingResult go_on(SteppingResult left, const Course& course, SolveOptions opt
   return result;
 }
 
-std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,
-                                             bool cautious, const Progress& progress) {
+namespace {
+
+/// As a sentence; empty: it can.
+std::string why_not_there(const Backend* backend, const Body& body, const Course& course, const SolveOptions& options) {
+  if (backend == nullptr) {
+    return why_no_gpu();
+  }
+  if (const std::string of_body = why_not(body); !of_body.empty()) {
+    return "a GPU cannot solve this body, which " + of_body;
+  }
+  if (course.change || options.snapshot_every > 0 || options.imposition == Imposition::simplified) {
+    return "a GPU does not cut, keep steps or impose displacements in the simplified form";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<SteppingResult> relax_where_asked(const Backend* backend, const Body& body, const Course& course,
+                                                const SolveOptions& options, const Progress& progress,
+                                                const std::function<Relaxed(const Backend&)>& relax) {
   if (options.device == Device::cpu) {
     return std::nullopt;
   }
-  std::string why = why_no_gpu();
-  if (why.empty()) {
-    const std::string of_body = why_not(body);
-    why = of_body.empty() ? of_body : "a GPU cannot solve this body, which " + of_body;
-  }
-  if (why.empty() &&
-      (course.settled || course.change || options.snapshot_every > 0 || options.imposition == Imposition::simplified)) {
-    why = "a GPU does not update runs, cut, keep steps or impose displacements in the simplified form";
-  }
-  if (!why.empty()) {
+  if (const std::string why = why_not_there(backend, body, course, options); !why.empty()) {
     if (options.device == Device::cuda) {
       throw std::invalid_argument("device cuda: " + why + "; take cpu, or auto");
     }
@@ -51,7 +64,7 @@ std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, c
     return std::nullopt;
   }
   try {
-    Relaxed relaxed = relax(*gpu(), body, course, options, cautious, progress);
+    Relaxed relaxed = relax(*backend);
     return relaxed.slow ? go_on(std::move(relaxed.result), course, options, progress) : std::move(relaxed.result);
   } catch (const DeviceFault& fault) {
     if (options.device == Device::cuda) {
@@ -60,6 +73,13 @@ std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, c
     report(progress, 0, std::string("once more on the processor: ") + fault.what());
     return std::nullopt;
   }
+}
+
+std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,
+                                             bool cautious, const Progress& progress) {
+  const Backend* backend = options.device == Device::cpu ? nullptr : gpu();
+  return relax_where_asked(backend, body, course, options, progress,
+                           [&](const Backend& on) { return relax(on, body, course, options, cautious, progress); });
 }
 
 }  // namespace brainshift::solve::device

@@ -16,22 +16,29 @@
 #include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/dynamics/rest_report.hpp"
 #include "solve/dynamics/soundness.hpp"
+#include "solve/dynamics/span_bound.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 
 namespace brainshift::solve::device {
 
 namespace {
 
-static_assert(usual_window <= most_steps);
+static_assert(usual_window <= most_steps && settled_window <= most_steps);
+
+int window_of(const Course& course) {
+  return course.settled ? settled_window : usual_window;
+}
 
 template <class Scalar>
 class Relaxation {
  public:
-  Relaxation(const Backend& backend, Body& body, const Course& course, const SolveOptions& options, bool cautious)
+  /// on: the body, on a device; with settled masses it may have come to rest there before.
+  Relaxation(DeviceBody<Scalar>& on, Body& body, const Course& course, const SolveOptions& options, bool cautious)
       : body_(body),
         course_(course),
         options_(options),
-        on_(backend, body),
+        window_(window_of(course)),
+        on_(on),
         pace_(steps_of_load(options.load_steps, body.laws), false),
         cautious_(cautious),
         rounding_energy_(rounding_energy(body)),
@@ -41,28 +48,26 @@ class Relaxation {
         volume_[static_cast<std::size_t>(patch.material)] += body.points.volume[static_cast<std::size_t>(p)];
       }
     }
+    on_.backend().clear(on_.view().record, sizeof(Record));
     order_.alpha = relaxation_alpha;
-    order_.iterations = tightness_iterations;
-    order_.mode_size = small_mode;
-    if (!cautious) {
-      on_.perform(Task::follow, order_);
-      on_.write(rough_mode(on_.nodes()), on_.view().mode_of_body);
-      on_.perform(Task::measure_tightness, order_);
-      order_.mass_scale = std::min(1.0, tightness_margin * on_.record().eigenvalue);
+    order_.span = SpanBound::windows_of(window_);
+    if (course.settled) {
+      take_over(*course.settled);
+      start();
+      return;
     }
-    order_.mass_margin = mass_margin;
-    on_.perform(Task::follow, order_);
-    weigh();
+    find_masses();
     if (!course.start.empty()) {
       start();
+      follow_stiffness();
     }
   }
 
   Relaxed run(const Progress& progress) {
     while (result_.failure.empty() && result_.steps < options_.max_steps) {
-      const int steps = std::min(usual_window, options_.max_steps - result_.steps);
+      const int steps = std::min(window_, options_.max_steps - result_.steps);
       advance(steps);
-      if (steps < usual_window) {
+      if (steps < window_) {
         break;
       }
       look();
@@ -70,16 +75,19 @@ class Relaxation {
       if (result_.failure.empty() && is_slow()) {
         return finish(true);
       }
-      if (time_ >= 1 && error_bound_ <= tolerance() && result_.failure.empty()) {
+      if (time_ >= 1 && error_bound_ <= tolerance() && ends_soundly()) {
         return finish();
       }
       if (result_.failure.empty() && bound_.stands_still(rounding_of_step(farthest_, precision()))) {
         error_bound_ = bound_.at_standstill(std::sqrt(critical_beta(smallest_eigenvalue)));
-        if (error_bound_ <= tolerance()) {
-          return finish();
+        if (ends_soundly()) {
+          if (error_bound_ <= tolerance()) {
+            return finish();
+          }
+          result_.rounded = precision() == Precision::single_precision;
+          result_.failure =
+              stands_still(result_.steps - ErrorBound::standstill, error_bound_, tolerance(), precision());
         }
-        result_.rounded = precision() == Precision::single_precision;
-        result_.failure = stands_still(result_.steps - ErrorBound::standstill, error_bound_, tolerance(), precision());
       }
     }
     if (result_.failure.empty()) {
@@ -95,6 +103,31 @@ class Relaxation {
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
   double* displacement(int steps_on) const { return on_.view().displacement[(order_.first + steps_on) % 3]; }
 
+  void find_masses() {
+    order_.iterations = tightness_iterations;
+    order_.mode_size = small_mode;
+    if (!cautious_) {
+      on_.perform(Task::follow, order_);
+      on_.write(rough_mode(on_.nodes()), on_.view().mode_of_body);
+      on_.perform(Task::measure_tightness, order_);
+      order_.mass_scale = std::min(1.0, tightness_margin * on_.record().eigenvalue);
+    }
+    order_.mass_margin = mass_margin;
+    on_.perform(Task::follow, order_);
+    weigh();
+  }
+
+  void take_over(const Settled& settled) {
+    order_.mass_margin = mass_margin;
+    order_.mass_scale = settled.mass_scale;
+    lowest_ = settled.lowest;
+    mass_jacobian_ = squeezed_to_ = settled.smallest_jacobian;
+    if (on_.weighed() != settled.mass) {
+      on_.write(settled.mass, on_.view().stiffer_mass);
+      weigh();
+    }
+  }
+
   /// As Motion::start_from().
   void start() {
     on_.write(course_.start, displacement(1));
@@ -106,10 +139,10 @@ class Relaxation {
     fraction_ = fraction_before_ = time_ = 1;
     books_.looks_before = 2;
     pace_.skip();
-    follow_stiffness();
   }
 
   void weigh() {
+    on_.note_weighed({});
     on_.perform(Task::weigh, order_);
     if (on_.record().singular != 0) {
       body_.essential.factorise(on_.masses(), order_.alpha);  // which says where
@@ -121,6 +154,7 @@ class Relaxation {
   void follow_stiffness() {
     on_.perform(Task::follow, order_);
     const FollowSums sums = on_.record().follow;
+    mass_jacobian_ = -sums.of[FollowSums::minus_jacobian];
     if (sums.of[FollowSums::stiffer] > 0) {
       books_.dissipated +=
           (1 + order_.beta) / (4 * order_.alpha) * (sums.of[FollowSums::inertia] - sums.of[FollowSums::inertia_then]);
@@ -128,10 +162,13 @@ class Relaxation {
     }
   }
 
+  bool only_glances(int steps) const { return course_.settled && solve::only_glances(steps, options_.max_steps); }
+
   /// So many steps of a window, and the look at its end.
   void advance(int steps) {
     const double beta_before = order_.beta;
     order_.beta = critical_beta(lowest_);
+    order_.glance = only_glances(result_.steps + steps);
     for (int done = 0; done < steps; done += record_.steps) {
       const LoadPace pace_before = pace_;
       double time[most_steps];
@@ -195,26 +232,53 @@ class Relaxation {
     return order;
   }
 
+  double moved() const { return std::sqrt(record_.look.of[LookSums::longest_step]); }
+
+  /// As relax() has it: where the last look was a glance, with another at the points.
+  bool ends_soundly() {
+    if (result_.failure.empty() && order_.glance) {
+      order_.glance = false;
+      --order_.states;
+      on_.perform(Task::look, order_);
+      ++order_.states;
+      record_.look = on_.record().look;
+      if (is_sound(moved())) {
+        complete_row();
+      }
+    }
+    return result_.failure.empty();
+  }
+
   /// As Motion::look() and what relax() reads off a window.
   void look() {
     const auto& of = record_.look.of;
-    const double moved = std::sqrt(of[LookSums::longest_step]);
-    if (!is_sound(moved)) {
+    if (!order_.glance && !is_sound(moved())) {
       return;
     }
     farthest_ = std::max(farthest_, of[LookSums::farthest]);
-    estimate_lowest_eigenvalue(moved);
-    bound_.add(moved, std::sqrt(critical_beta(lowest_)), time_ >= 1,
+    estimate_lowest_eigenvalue(moved());
+    bound_.add(moved(), std::sqrt(critical_beta(lowest_)), time_ >= 1,
                rounding_of_step(farthest_, Precision::double_precision));
-    error_bound_ = bound_.value();
-    if (error_bound_ <= tolerance() && order_.states > 2) {
-      error_bound_ = std::max(
-          {error_bound_, of[LookSums::span_of_nodes],
-           SpanBound::of_all(of[LookSums::span_longest], of[LookSums::span_product], of[LookSums::span_squares])});
+    find_error_bound();
+    if (order_.glance) {
+      return;
     }
     complete_row();
-    if (result_.steps / usual_window % windows_to_stiffness(time_ >= 1) == 0) {
+    if (result_.steps / window_ % windows_to_stiffness(time_ >= 1) == 0) {
       follow_stiffness();
+    }
+  }
+
+  void find_error_bound() {
+    const auto& of = record_.look.of;
+    error_bound_ = bound_.value();
+    if (error_bound_ <= tolerance()) {
+      const bool spans_are_known = order_.states > 2 * order_.span;
+      error_bound_ = spans_are_known
+                         ? std::max({error_bound_, of[LookSums::span_of_nodes],
+                                     SpanBound::of_all(of[LookSums::span_longest], of[LookSums::span_product],
+                                                       of[LookSums::span_squares])})
+                         : std::numeric_limits<double>::infinity();
     }
   }
 
@@ -280,16 +344,20 @@ class Relaxation {
 
   /// A_0 from the last increments, and where these feel rounding from those of the last window, too.
   void estimate_lowest_eigenvalue(double moved) {
+    if (course_.settled && result_.steps < settled_steps) {
+      return;
+    }
     const auto& of = record_.look.of;
     const auto quotient = [](double stiffness, double inertia) { return inertia > 0 ? stiffness / inertia : 0; };
     double estimate = quotient(of[LookSums::stiffness], of[LookSums::inertia_before]);
     if (looked_under_load_ && feels_rounding(moved, farthest_, precision())) {
       estimate = std::min(estimate, quotient(of[LookSums::window_stiffness], of[LookSums::window_inertia]));
     }
-    looked_under_load_ = time_ >= 1;
+    looked_under_load_ = time_ >= 1 && !course_.settled;
     if (estimate > 0) {
       const double springs = fraction_ == fraction_before_ ? of[LookSums::spring_work] / order_.alpha : 0;
-      lowest_ = bounded_eigenvalue(estimate + (springs > 0 ? quotient(springs, of[LookSums::inertia_now]) : 0));
+      estimate = bounded_eigenvalue(estimate + (springs > 0 ? quotient(springs, of[LookSums::inertia_now]) : 0));
+      lowest_ = course_.settled ? std::min(lowest_, estimate) : estimate;
     }
   }
 
@@ -303,18 +371,19 @@ class Relaxation {
 
   /// relax() would make its rigid motions quicker. Not at the first sign: that ends the device's part.
   bool is_slow() {
-    constexpr int slow_windows = 5;
+    constexpr int slow_steps = 100;
     const bool slow = time_ >= 1 && !cautious_ && std::isfinite(bound_.value()) &&
                       bound_.value() > far_from_rest * tolerance() && Quickening::wanted(lowest_);
-    slow_windows_ = slow ? slow_windows_ + 1 : 0;
-    return slow_windows_ >= slow_windows;
+    slow_steps_ = slow ? slow_steps_ + window_ : 0;
+    return slow_steps_ >= slow_steps;
   }
 
   Relaxed finish(bool slow = false) {
     result_.error_bound = error_bound_;
     result_.parameters = on_.read(on_.kept_displacement);
     result_.settled = {
-        .mass = on_.masses(), .mass_scale = order_.mass_scale, .lowest = lowest_, .smallest_jacobian = squeezed_to_};
+        .mass = on_.masses(), .mass_scale = order_.mass_scale, .lowest = lowest_, .smallest_jacobian = mass_jacobian_};
+    on_.note_weighed(result_.settled.mass);
     std::vector<double> multipliers(on_.conditions());
     on_.backend().from_device(multipliers.data(), on_.kept_multipliers, multipliers.size() * sizeof(double));
     result_.reactions = body_.essential.reactions(order_.alpha, on_.nodes(), multipliers);
@@ -325,21 +394,23 @@ class Relaxation {
   Body& body_;
   const Course& course_;
   const SolveOptions& options_;
-  DeviceBody<Scalar> on_;
+  const int window_;
+  DeviceBody<Scalar>& on_;
   Order order_;
   Record record_;
   LoadPace pace_;
-  ErrorBound bound_{usual_window};
+  ErrorBound bound_{window_};
   Books books_;
   SteppingResult result_;
   bool cautious_;
-  int slow_windows_ = 0;
+  int slow_steps_ = 0;
   double rounding_energy_;                                        // mJ
   std::vector<double> volume_;                                    // of each material, mm³
   double lowest_ = 1e-4;                                          // A_0: a guess until there are increments
   double error_bound_ = std::numeric_limits<double>::infinity();  // at the last look, mm
   double time_ = 0, fraction_ = 0, fraction_before_ = 0;
   double squeezed_to_ = 1;    // J
+  double mass_jacobian_ = 1;  // J of the state that the masses follow
   double farthest_ = 0;       // largest |û| on the way, mm
   double force_at_rest_ = 0;  // largest sum of |f_int| of a state at rest, µN
   double done_ = 0;           // reported
@@ -348,11 +419,24 @@ class Relaxation {
 
 }  // namespace
 
+template <class Scalar>
+Relaxed relax(DeviceBody<Scalar>& on, Body& body, const Course& course, const SolveOptions& options, bool cautious,
+              const Progress& progress) {
+  return Relaxation<Scalar>(on, body, course, options, cautious).run(progress);
+}
+
+template Relaxed relax(DeviceBody<float>& on, Body& body, const Course& course, const SolveOptions& options,
+                       bool cautious, const Progress& progress);
+template Relaxed relax(DeviceBody<double>& on, Body& body, const Course& course, const SolveOptions& options,
+                       bool cautious, const Progress& progress);
+
 Relaxed relax(const Backend& backend, Body& body, const Course& course, const SolveOptions& options, bool cautious,
               const Progress& progress) {
-  return body.points.precision() == Precision::single_precision
-             ? Relaxation<float>(backend, body, course, options, cautious).run(progress)
-             : Relaxation<double>(backend, body, course, options, cautious).run(progress);
+  const auto with = [&]<class Scalar>(Scalar) {
+    DeviceBody<Scalar> on(backend, body, window_of(course));
+    return relax(on, body, course, options, cautious, progress);
+  };
+  return body.points.precision() == Precision::single_precision ? with(float{}) : with(double{});
 }
 
 }  // namespace brainshift::solve::device

@@ -8,6 +8,8 @@
 namespace brainshift::solve::device {
 
 struct Backend;
+template <class Scalar>
+class DeviceBody;
 
 struct Relaxed {
   SteppingResult result;
@@ -17,9 +19,14 @@ struct Relaxed {
 /// relax() once, with the masses from the bound itself where `cautious`, wholly on a device: after each window of steps
 /// the host gets some sums, goes by the same rules, and says how to go on. Ends, to rounding, where and when relax()
 /// does, but that HistoryRow::residual has the damping of the window, not of the next. body: moved into the result;
-/// kept where it throws. Of a course without settled masses and changes. Throws DeviceFault, and as
-/// EssentialConditions::factorise() does.
+/// kept where it throws. Of a course without changes. Throws DeviceFault, and as EssentialConditions::factorise() does.
 Relaxed relax(const Backend& backend, Body& body, const Course& course, const SolveOptions& options, bool cautious,
+              const Progress& progress);
+
+/// The same of a body that lies there already, under its load, and stays there. It may have come to rest there before
+/// where the course has settled masses; else it has not moved yet.
+template <class Scalar>
+Relaxed relax(DeviceBody<Scalar>& on, Body& body, const Course& course, const SolveOptions& options, bool cautious,
               const Progress& progress);
 
 }  // namespace brainshift::solve::device

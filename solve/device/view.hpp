@@ -143,7 +143,7 @@ struct LookSums {
 
 /// Of a look at the stiffness.
 struct FollowSums {
-  enum : int { inertia, inertia_then, stiffer, count };
+  enum : int { inertia, inertia_then, stiffer, minus_jacobian, count };
   static constexpr int sums = stiffer;
   double of[count];
 };
@@ -170,6 +170,8 @@ struct Order {
   double halt_below = 0;
   double fraction[most_steps + 1] = {};  ///< of the load: now, and after each step
   int states = 0;                        ///< looks so far
+  int span = 1;                          ///< looks that make a span of SpanBound
+  bool glance = false;                   ///< a look is at the nodes alone
   double mass_scale = 1, mass_margin = 1;
   int iterations = 0;    ///< of the power iteration
   double mode_size = 0;  ///< root mean square of its modes, mm
@@ -221,7 +223,7 @@ struct View {
   double* mode_of_body;  ///< of the power iteration
   double* place_at_look;
   double* force_at_look;
-  double* span_state[3];
+  double* span_state;           ///< û at the last looks, as many as two spans have ends, one after the other
   std::int32_t external_count;  ///< at equal steps of the load's fraction
   const double* external;
 

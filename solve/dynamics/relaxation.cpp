@@ -20,9 +20,6 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int settled_window = 2;     // steps between looks of a start that is near the end
-constexpr int windows_of_a_row = 60;  // every so manieth of its looks is at the points, too, which costs half a step
-constexpr int settled_steps = 120;    // in which the A_0 of a start near the end is not estimated anew
 constexpr double rate_of_stiff_parts = 0.97;  // slowest of a node in a span, where there are some
 constexpr double alpha = relaxation_alpha;
 
@@ -164,11 +161,7 @@ class Relaxation {
     }
   }
 
-  /// Near the end a state is hardly ever unsound. Whether it is shows at the end at the latest.
-  bool only_glances() const {
-    const int steps = motion_.result.steps;
-    return course_.settled && steps / window_ % windows_of_a_row != 0 && steps + window_ <= options_.max_steps;
-  }
+  bool only_glances() const { return course_.settled && solve::only_glances(motion_.result.steps, options_.max_steps); }
 
   bool is_sound() { return motion_.look(laws(), mass_, std::numeric_limits<double>::infinity()); }
 

@@ -40,6 +40,18 @@ inline int windows_to_stiffness(bool loaded) {
   return loaded ? 10 : 3;
 }
 
+// What is other of a start near the end, Course::settled.
+
+inline constexpr int settled_window = 2;   // steps between its looks
+inline constexpr int settled_steps = 120;  // in which its A_0 is not estimated anew
+
+/// Whether its look after so many steps is at the nodes alone. Near the end a state is hardly ever unsound, and a look
+/// at the points costs half a step. Whether it is shows at the end at the latest.
+inline bool only_glances(int steps, int most_steps) {
+  constexpr int windows_of_a_row = 60;
+  return steps / settled_window % windows_of_a_row != 0 && steps + settled_window <= most_steps;
+}
+
 /// Steps over the load's curve. Tissue that hardly changes its volume gives way by shear, √(K/µ) slower than by volume,
 /// by which steps are measured. A load that comes sooner may fold it: a plate at ν = 0.499, pressed by a quarter in 400
 /// steps, came to rest with a corner turned in, in 600 as it should. In plane stress the volume is free.

@@ -6,14 +6,8 @@
 
 namespace brainshift::solve {
 
-namespace {
-
-constexpr int shortest_span = 8;  // steps
-
-}  // namespace
-
 SpanBound::SpanBound(int window, double slowest)
-    : windows_(static_cast<std::size_t>((shortest_span + window - 1) / window)), slowest_(slowest) {}
+    : windows_(static_cast<std::size_t>(windows_of(window))), slowest_(slowest) {}
 
 void SpanBound::add(const NodalVectors& now) {
   NodalVectors state;

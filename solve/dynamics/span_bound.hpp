@@ -17,6 +17,12 @@ class SpanBound {
  public:
   static constexpr double usual_rate = 0.9;  // at 0.95 the bound of the demo is 2.4 times its error
 
+  /// How many windows of so many steps make a span.
+  static constexpr int windows_of(int window) {
+    constexpr int shortest_span = 8;  // steps
+    return (shortest_span + window - 1) / window;
+  }
+
   /// window: steps between two calls of add(). slowest: the largest q of a node.
   explicit SpanBound(int window, double slowest = usual_rate);
 

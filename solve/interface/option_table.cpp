@@ -78,9 +78,9 @@ OptionTable<SolveOptions> stepping_options() {
                              "what relaxation runs on: the processor; an NVIDIA GPU, in a program built with it; or "
                              "that where there is one that can, else the processor. A GPU does not do cuts, cavities, "
                              "septa, plane stress, swelling tissue, laws of one's own, the simplified imposition, "
-                             "snapshots and more than 4096 prescribed displacements of a component; updates are "
-                             "the processor's in any case. Samples of an uncertainty are solved 32 at a time there, "
-                             "with at most 1024 prescribed displacements of a component"),
+                             "snapshots and more than 4096 prescribed displacements of a component. Samples of an "
+                             "uncertainty are solved 32 at a time there, with at most 1024 prescribed displacements of "
+                             "a component"),
       choice_option<Options>("start", &Options::start, {{"coarse", Start::coarse}, {"rest", Start::rest}},
                              "of relaxation: under the full load, as a coarse cloud's solution lies, or undeformed, "
                              "with a history of the load; also where a body is cut or snapshots are wanted"),

@@ -43,8 +43,8 @@ Eigen::VectorXd extended(const PlanePoints& points, const Values& values, const 
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n + 3, values.cols());
   Eigen::VectorXd row = Eigen::VectorXd::Zero(n + 3);
   for (Eigen::Index a = 0; a < n; ++a) {
-    for (Eigen::Index b = 0; b < n; ++b) {
-      system(a, b) = thin_plate((local.row(a) - local.row(b)).squaredNorm());
+    for (Eigen::Index b = 0; b < a; ++b) {
+      system(a, b) = system(b, a) = thin_plate((local.row(a) - local.row(b)).squaredNorm());
     }
     system.row(a).tail<3>() << 1, local(a, 0), local(a, 1);
     row[a] = thin_plate(local.row(a).squaredNorm());

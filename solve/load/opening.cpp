@@ -21,6 +21,9 @@ namespace {
 /// outermost then lie nearly on it in the mean. Discretise leaves none so near but on it, unless the surface is steep.
 constexpr double on_rim = 0.25;
 
+/// Places that are looked at in one go. Most are not under the opening; those that are take a spline each.
+constexpr std::int64_t splines_a_part = 4;
+
 void check_load(const CraniotomyLoad& load) {
   if (load.positions.rows() == 0 || load.positions.rows() != load.displacement.rows()) {
     throw std::invalid_argument("load: no displacement is measured, or not one at each position");
@@ -70,7 +73,7 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
   const OpeningShape opening(load, surface, margin_of(load, options, cloud, nodes));
   const Points candidates = opening.local(surface);
   Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
-  share_work(candidates.rows(), places_a_part, [&](std::int64_t n) {
+  share_work(candidates.rows(), splines_a_part, [&](std::int64_t n) {
     const std::int32_t node = nodes[static_cast<std::size_t>(n)];
     const double past = on_rim * cloud.spacing[static_cast<std::size_t>(node)];
     if (const auto displacement = opening.displacement_at(candidates.row(n), past, options.depth)) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/arrays/shared_work.hpp"
+
 namespace brainshift::solve {
 
 namespace {
@@ -58,19 +60,24 @@ void Departures::add_expected(const Responses& responses, const Points& change, 
   const auto count = static_cast<Eigen::Index>(lessons_.size());
   Eigen::MatrixXd known(count, count);
   Eigen::VectorXd with_asked(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
+  share_work(count, 1, [&](Eigen::Index i) {
     const Lesson& lesson = lessons_[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j <= i; ++j) {
       known(i, j) = covariance(lesson, lessons_[static_cast<std::size_t>(j)]);
     }
     known(i, i) += lesson.left_open * lesson.left_open;
     with_asked[i] = covariance(lesson, asked);
-  }
+  });
   const Eigen::VectorXf shares = known.llt().solve(with_asked).cast<float>();
-  Eigen::Map<Eigen::Matrix4Xd> start(first_order.data(), 4, static_cast<Eigen::Index>(first_order.size() / 4));
-  for (Eigen::Index i = 0; i < count; ++i) {
-    start.topRows<3>() += (shares[i] * lessons_[static_cast<std::size_t>(i)].departure).cast<double>();
-  }
+  const auto nodes = static_cast<Eigen::Index>(first_order.size() / 4);
+  Eigen::Map<Eigen::Matrix4Xd> start(first_order.data(), 4, nodes);
+  share_work((nodes + nodes_a_part - 1) / nodes_a_part, 1, [&](std::int64_t part) {
+    const Eigen::Index first = part * nodes_a_part, size = std::min(nodes_a_part, nodes - first);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      start.middleCols(first, size).topRows<3>() +=
+          (shares[i] * lessons_[static_cast<std::size_t>(i)].departure.middleCols(first, size)).cast<double>();
+    }
+  });
 }
 
 void Departures::shorten(Eigen::VectorXd& asked, Eigen::VectorXd Lesson::*part) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <stdexcept>
 
@@ -11,7 +12,10 @@
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/body/soft_nodes.hpp"
 #include "solve/boundary/patch_rim.hpp"
+#include "solve/device/backend.hpp"
+#include "solve/device/kept_on_device.hpp"
 #include "solve/dynamics/relaxation.hpp"
+#include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "solve/shape/nodal_displacement.hpp"
@@ -39,23 +43,19 @@ std::vector<std::int32_t> free_nodes(const std::vector<std::uint8_t>& on_surface
   return nodes;
 }
 
-/// As a run from the beginning holds it.
-void hold(const Points& prescribed, KeptRun& run) {
+/// As a run from the beginning holds it. ordered: what is prescribed at the body's nodes.
+void hold(const Points& ordered, KeptRun& run) {
   Body& body = run.fine.body;
   const NodeCloud given{.positions = body.positions, .spacing = body.spacing, .on_surface = run.on_surface};
   const NodeCloud cloud = subset(given, body.original);
-  const Points ordered = prescribed(body.original, Eigen::all);
   PatchRim rim = patch_rim(cloud, ordered, {});
   rim.rows = rows_at_rim({cloud.positions, cloud.spacing, run.options.shape, {}, body.node_modulus}, rim);
   body.essential = {ordered, body.nodal_rows, body.original, Imposition::exact, rim};
 }
 
-void set_fine_load(const Points& prescribed, KeptRun& run) {
+/// The nodes that nothing prescribes may touch.
+void free_to_touch(const Points& prescribed, KeptRun& run) {
   Body& body = run.fine.body;
-  hold(prescribed, run);
-  if (!body.contact) {
-    return;
-  }
   std::vector<std::int32_t> ordinal(body.original.size());
   for (std::size_t a = 0; a < ordinal.size(); ++a) {
     ordinal[static_cast<std::size_t>(body.original[a])] = static_cast<std::int32_t>(a);
@@ -67,6 +67,21 @@ void set_fine_load(const Points& prescribed, KeptRun& run) {
   std::sort(nodes.begin(), nodes.end());
   const Points ordered = body.positions(body.original, Eigen::all);
   body.contact.emplace(std::shared_ptr(body.contact->skull()), ordered, nodes, body.nodal_rows);
+}
+
+void set_fine_load(const Points& prescribed, KeptRun& run) {
+  Body& body = run.fine.body;
+  const Points ordered = prescribed(body.original, Eigen::all);
+  if (run.ready && body.essential.prescribe(ordered)) {
+    return;  // at the nodes of the last load: all else depends on these alone
+  }
+  run.ready = false;
+  hold(ordered, run);
+  body.essential.factorise(run.fine.settled.mass, relaxation_alpha);  // throws while the body is still here
+  if (body.contact) {
+    free_to_touch(prescribed, run);
+  }
+  run.ready = true;
 }
 
 /// Takes over where a body has come to rest.
@@ -126,6 +141,18 @@ SolveMeasures sizes_of(const KeptRun& run, const Points& prescribed) {
   measures.single_precision = points.precision() == Precision::single_precision;
   measures.loaded_nodes = loaded_nodes(prescribed).size();
   return measures;
+}
+
+/// relax(), on the device that the options want.
+SteppingResult come_to_rest(KeptRun& run, const Course& course, const Progress& progress) {
+  RelaxElsewhere elsewhere;
+  if (run.options.device != Device::cpu) {
+    if (!run.on_device) {
+      run.on_device = std::make_shared<device::KeptOnDevice>(device::gpu());
+    }
+    elsewhere = std::bind_front(&device::KeptOnDevice::relax_if_asked, run.on_device.get());
+  }
+  return relax(std::move(run.fine.body), course, run.options, progress, elsewhere);
 }
 
 }  // namespace
@@ -203,7 +230,7 @@ SolveResult update(KeptRun& run, const Points& prescribed, const Progress& progr
     course.settled->lowest = std::max(course.settled->lowest, tells_all ? local_eigenvalue : farther_eigenvalue);
   }
   set_fine_load(prescribed, run);
-  SteppingResult stepped = relax(std::move(run.fine.body), course, run.options, progress);
+  SteppingResult stepped = come_to_rest(run, course, progress);
   SolveResult result = result_of(stepped, run.options, measures);
   result.measures.seconds_stepping = stepping.seconds();
   take(stepped, run.fine);

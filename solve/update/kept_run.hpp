@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,10 @@
 #include "solve/update/responses.hpp"
 
 namespace brainshift::solve {
+
+namespace device {
+class KeptOnDevice;
+}
 
 /// Where a body came to rest.
 struct RestState {
@@ -35,6 +40,8 @@ struct KeptRun {
   RestState origin;                      ///< under the run's own load; responses are of it
   Responses responses;
   Departures departures;  ///< from the first order; not kept on disk
+  bool ready = false;     ///< conditions and contact of `fine` are as an update makes them
+  std::shared_ptr<device::KeptOnDevice> on_device = nullptr;  ///< from the first update on that options.device wants
 };
 
 /// Why a model cannot be kept, as half a sentence ("it has cuts"); empty: it can.

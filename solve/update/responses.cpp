@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/arrays/shared_work.hpp"
 #include "solve/ensemble/each.hpp"
 #include "solve/ensemble/relax_together.hpp"
 
@@ -147,11 +148,15 @@ NodalVectors answered(const NodalVectors& at_rest, const Responses& responses, c
   const Eigen::MatrixXd shares = change(responses.nodes, Eigen::all).transpose() * waves;  // (3 × waves)
   const auto nodes = static_cast<Eigen::Index>(at_rest.size() / 4);
   const Eigen::Map<const Eigen::MatrixXf> of_waves(responses.parameters.data(), 3 * nodes, 3 * count);
-  const Eigen::VectorXf sum = of_waves * Eigen::Map<const Eigen::VectorXd>(shares.data(), shares.size()).cast<float>();
+  const Eigen::VectorXf of_shares = Eigen::Map<const Eigen::VectorXd>(shares.data(), shares.size()).cast<float>();
   NodalVectors parameters = at_rest;
-  for (Eigen::Index a = 0; a < nodes; ++a) {
-    at(parameters, static_cast<std::size_t>(a)).head<3>() += sum.segment<3>(3 * a).cast<double>();
-  }
+  Eigen::Map<Eigen::Matrix4Xd> sum(parameters.data(), 4, nodes);
+  share_work((nodes + nodes_a_part - 1) / nodes_a_part, 1, [&](std::int64_t part) {
+    const Eigen::Index first = part * nodes_a_part, size = std::min(nodes_a_part, nodes - first);
+    const Eigen::VectorXf change_of_part = of_waves.middleRows(3 * first, 3 * size) * of_shares;
+    sum.middleCols(first, size).topRows<3>() +=
+        Eigen::Map<const Eigen::Matrix3Xf>(change_of_part.data(), 3, size).cast<double>();
+  });
   return parameters;
 }
 

@@ -9,24 +9,42 @@
 //   device step NODES COPIES
 //
 // A step of an ellipsoid of so many nodes, so many of them side by side; on the processor only where there is one.
+//
+//   device update SCENE RUN COUNT
+//
+// The run kept in memory, as `brainshift live` does, and so many loads by chance as tests/benchmark/live.py has them:
+// from a load's file to the nodes' displacements, on both.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "pipelines/runner/jobs.hpp"
+#include "pipelines/runner/plan.hpp"
+#include "pipelines/scene/parse_scene.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/device/device_body.hpp"
+#include "solve/device/kept_on_device.hpp"
 #include "solve/device/relax_on_device.hpp"
 #include "solve/dynamics/motion.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/force/stiffness_bound.hpp"
+#include "solve/load/craniotomy_load.hpp"
+#include "solve/output/solution_file.hpp"
 #include "solve/run/coarse.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/whole_body.hpp"
+#include "solve/update/kept_run.hpp"
 #include "tests/benchmark/problems.hpp"
 
 namespace {
@@ -248,6 +266,109 @@ void time_run(const device::Backend& backend, const Problem& problem, int repeat
       on_gpu.error_bound, on_gpu.failure.c_str());
 }
 
+/// Gentle changes that fade to the rim as the displacement does; the largest is 1 mm or less.
+CraniotomyLoad changed(const CraniotomyLoad& own, std::mt19937& chance) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> share;
+  const Eigen::VectorXd length = own.displacement.rowwise().norm();
+  const Points about = own.positions.rowwise() - own.positions.colwise().mean();
+  const double reach = about.rowwise().norm().maxCoeff();
+  const Eigen::RowVector3d shift(normal(chance), normal(chance), normal(chance));
+  const Eigen::Vector3d tilt(normal(chance), normal(chance), normal(chance));
+  Points change(own.positions.rows(), 3);
+  for (Eigen::Index p = 0; p < change.rows(); ++p) {
+    const Eigen::RowVector3d along = length[p] > 0 ? Eigen::RowVector3d(own.displacement.row(p) / length[p])
+                                                   : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
+    change.row(p) = length[p] / length.maxCoeff() * (shift + about.row(p).dot(tilt) / reach * along);
+  }
+  CraniotomyLoad load = own;
+  load.displacement += share(chance) / change.rowwise().norm().maxCoeff() * change;
+  return load;
+}
+
+/// Milliseconds of an answer, and what they went to.
+struct AnswerTimes {
+  std::vector<double> whole, file, nodes, to_first_look, steps, after_last_look;
+  int most_steps = 0;
+  double all_steps = 0;
+
+  void print(const char* where) {
+    std::printf("%s: %.1f steps in the mean, at most %d\n", where, all_steps / static_cast<double>(whole.size()),
+                most_steps);
+    for (auto& [what, values] :
+         {std::pair("from the file to the nodes", &whole), std::pair("  reading", &file),
+          std::pair("  to the surface's nodes", &nodes), std::pair("  to the first look", &to_first_look),
+          std::pair("  further steps", &steps), std::pair("  the rest", &after_last_look)}) {
+      std::sort(values->begin(), values->end());
+      const auto last = static_cast<double>(values->size() - 1);
+      std::printf("  %-28s median %8.2f ms, 99 %% %8.2f ms, largest %8.2f ms\n", what,
+                  (*values)[static_cast<std::size_t>(0.5 * last)], (*values)[static_cast<std::size_t>(0.99 * last)],
+                  values->back());
+    }
+  }
+};
+
+void answer(KeptRun& run, const std::filesystem::path& file, const OpeningOptions& opening, AnswerTimes& times) {
+  const double begin = seconds_now();
+  const CraniotomyLoad load = read_craniotomy_csv(file);
+  const double read = seconds_now();
+  const NodeCloud cloud{
+      .positions = run.fine.body.positions, .spacing = run.fine.body.spacing, .on_surface = run.on_surface};
+  const Points prescribed = prescribed_on_surface_nodes(cloud, load, opening);
+  const double there = seconds_now();
+  double first = 0, last = 0;
+  const SolveResult result = update(run, prescribed, [&](double, std::string_view) {
+    last = seconds_now();
+    first = first > 0 ? first : last;
+  });
+  const double end = seconds_now();
+  if (!result.failure.empty()) {
+    throw std::runtime_error(result.failure);
+  }
+  constexpr double ms = 1e3;
+  times.whole.push_back(ms * (end - begin));
+  times.file.push_back(ms * (read - begin));
+  times.nodes.push_back(ms * (there - read));
+  times.to_first_look.push_back(ms * (first - there));
+  times.steps.push_back(ms * (last - first));
+  times.after_last_look.push_back(ms * (end - last));
+  times.most_steps = std::max(times.most_steps, result.measures.steps);
+  times.all_steps += result.measures.steps;
+}
+
+void time_updates(const device::Backend& backend, const std::filesystem::path& scene, const std::filesystem::path& run,
+                  int count) {
+  const Problem problem = bench::problem_of_run(scene, run);
+  const OpeningOptions opening = pipelines::solve_job(pipelines::parse_scene(scene), run).load->opening;
+  const double begin = seconds_now();
+  KeptRun here = keep(problem.model, problem.options, read_solution(run / "solve" / "solution.vtu").displacement);
+  std::printf("kept in %.1f s: %zu nodes, %zu waves\n", seconds_now() - begin, here.fine.body.nodes(),
+              here.responses.count());
+  here.options.device = Device::cpu;
+  KeptRun there = here;
+  there.options.device = Device::cuda;
+  there.on_device = std::make_shared<device::KeptOnDevice>(&backend);
+  for (KeptRun* first : {&here, &there}) {  // as live does before it watches
+    update(*first, first->origin.prescribed);
+  }
+  const CraniotomyLoad own = read_craniotomy_csv(run / "solve" / "load.csv");
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "device_update.csv";
+  std::mt19937 chance(1);
+  AnswerTimes on_processor, on_gpu;
+  double apart = 0;
+  for (int i = 0; i < count; ++i) {
+    write_craniotomy_csv(file, changed(own, chance));
+    answer(here, file, opening, on_processor);
+    answer(there, file, opening, on_gpu);
+    apart = std::max(apart, (here.displacement - there.displacement).rowwise().norm().maxCoeff());
+  }
+  std::filesystem::remove(file);
+  on_processor.print("processor");
+  on_gpu.print("GPU");
+  std::printf("at most %.2g mm apart, of which the bounds allow each %.2g mm; %d answers\n", apart,
+              here.options.tolerance, count);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -259,10 +380,13 @@ int main(int argc, char** argv) {
     }
     if (what == "run" && argc > 3) {
       time_run(*backend, bench::problem_of_run(argv[2], argv[3]), argc > 4 ? std::atoi(argv[4]) : 5);
+    } else if (what == "update" && argc > 4) {
+      time_updates(*backend, argv[2], argv[3], std::atoi(argv[4]));
     } else if (what == "step" && argc > 3) {
       time_steps(*backend, static_cast<std::size_t>(std::atoll(argv[2])), std::atoi(argv[3]));
     } else {
-      throw std::invalid_argument("device run SCENE RUN [REPEATS] | device step NODES COPIES");
+      throw std::invalid_argument(
+          "device run SCENE RUN [REPEATS] | device step NODES COPIES | device update SCENE RUN COUNT");
     }
     return 0;
   } catch (const std::exception& error) {

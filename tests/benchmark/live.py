@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How long `brainshift live` takes from a load file's change to its transforms.
 
-  live.py PROGRAM RUN --out DIR [--updates 1000] [--most 1.0]
+  live.py PROGRAM RUN --out DIR [--updates 1000] [--most 1.0] [--device cuda]
 
 RUN is a finished run whose load lies in RUN/solve/load.csv. Each update changes its displacements by up to MOST mm:
 deeper or shallower, tilted, and sideways, each by chance. DIR gets latency.csv (number, seconds, resident MB),
@@ -89,6 +89,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, required=True)
     parser.add_argument("--updates", type=int, default=1000)
     parser.add_argument("--most", type=float, default=1.0)
+    parser.add_argument("--device", help="as of the program")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     rows, chance = read_load(arguments.run / "solve" / "load.csv"), random.Random(1)
@@ -96,8 +97,9 @@ def main():
     load.unlink(missing_ok=True)
     shutil.rmtree(answers, ignore_errors=True)
     measured = []
-    with subprocess.Popen([arguments.program, "live", arguments.run, "--load", load], stdout=subprocess.PIPE,
-                          text=True) as live:
+    command = [arguments.program, "live", arguments.run, "--load", load]
+    command += ["--device", arguments.device] if arguments.device else []
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as live:
         live.stdout.readline()  # it watches
         for number in range(1, arguments.updates + 1):
             write_load(load, changed(rows, arguments.most, chance))

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "solve/boundary/contact.hpp"
@@ -42,6 +43,55 @@ TEST(EssentialConditions, HoldForTheDisplacementNotTheParameter) {
       EXPECT_NEAR(displacement.data()[i], 0.7 * prescribed.data()[i], 1e-10);
     }
   }
+}
+
+TEST(EssentialConditions, MayPrescribeOtherValuesAtTheSameNodes) {
+  WeightedBox cloud;
+  Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
+  for (Eigen::Index a = 0; a < prescribed.rows(); a += 5) {
+    prescribed.row(a) << 1.0, std::nan(""), 0.0;
+  }
+  EssentialConditions conditions(prescribed, cloud.rows, names(prescribed));
+  conditions.factorise(cloud.mass);
+  NodalVectors u = cloud.random_parameters(3), again = u;
+  conditions.apply(1, u);
+  Points other = prescribed;
+  other.row(0) << 0.0, std::nan(""), 0.0;
+  other.row(5) << -2.0, std::nan(""), 0.5;
+  ASSERT_TRUE(conditions.prescribe(other));
+  EXPECT_EQ(conditions.reactions(1, cloud.mass.size()), Points::Zero(other.rows(), 3));
+  conditions.factorise(cloud.mass);
+  conditions.apply(1, again);
+  EssentialConditions anew(other, cloud.rows, names(other));
+  anew.factorise(cloud.mass);
+  NodalVectors expected = cloud.random_parameters(3);
+  anew.apply(1, expected);
+  EXPECT_EQ(again, expected);
+  EXPECT_EQ(conditions.reaction_of_loaded(1), anew.reaction_of_loaded(1));
+  other(5, 1) = 0;
+  EXPECT_FALSE(conditions.prescribe(other));
+  other(5, 1) = std::nan("");
+  other(0, 0) = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(conditions.prescribe(other), std::invalid_argument);
+}
+
+/// A factorisation is that of the masses given last.
+TEST(EssentialConditions, FollowTheMasses) {
+  WeightedBox cloud;
+  Points prescribed = Points::Constant(cloud.nodes.positions.rows(), 3, std::nan(""));
+  prescribed.row(0).setConstant(1);
+  prescribed.row(7).setConstant(2);
+  EssentialConditions conditions(prescribed, cloud.rows, names(prescribed));
+  std::vector<double> mass = cloud.mass;
+  conditions.factorise(mass);
+  mass[1] *= 3;
+  conditions.factorise(mass);
+  EssentialConditions anew(prescribed, cloud.rows, names(prescribed));
+  anew.factorise(mass);
+  NodalVectors u = cloud.random_parameters(3), expected = u;
+  conditions.apply(1, u);
+  anew.apply(1, expected);
+  EXPECT_EQ(u, expected);
 }
 
 TEST(EssentialConditions, MoveTheParametersLeastInTheNormOfTheMasses) {

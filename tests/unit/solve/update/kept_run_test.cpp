@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
+#include "solve/shape/too_few_nodes.hpp"
 #include "solve/solve.hpp"
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/pressed_bar.hpp"
@@ -93,6 +95,20 @@ TEST(KeptRun, IsAsItWasAfterALoadThatItRefuses) {
   const Model own = uniaxial(0.9, 5);
   KeptRun run = kept(own);
   EXPECT_THROW(update(run, Points::Constant(own.cloud.positions.rows(), 3, std::nan(""))), std::invalid_argument);
+  const SolveResult back = update(run, own.conditions.displacement);
+  EXPECT_LE(distance(back.solution.displacement, run.origin.displacement), tolerance);
+}
+
+TEST(KeptRun, IsAsItWasAfterConditionsThatRepeatEachOther) {
+  const Model own = uniaxial(0.9, 5);
+  KeptRun run = kept(own);
+  ShapeRows repeated;
+  for (std::size_t a = 0; a < run.fine.body.nodal_rows.size(); ++a) {
+    repeated.append(run.fine.body.nodal_rows[a / 2]);
+  }
+  const ShapeRows rows = std::exchange(run.fine.body.nodal_rows, repeated);
+  EXPECT_THROW(update(run, own.conditions.displacement), TooFewNodes);
+  run.fine.body.nodal_rows = rows;
   const SolveResult back = update(run, own.conditions.displacement);
   EXPECT_LE(distance(back.solution.displacement, run.origin.displacement), tolerance);
 }
