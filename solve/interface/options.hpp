@@ -73,7 +73,7 @@ struct SolveOptions {
   double time_step = 0;  ///< transient: s; 0: nine tenths of the critical one
   double damping = 0;    ///< transient: c of METHOD.md (20), 1/s
   int max_steps = 50000;
-  Device device = Device::cpu;  ///< of a relaxation by itself, device/README.md
+  Device device = Device::cpu;  ///< of relaxation, device/README.md
   double region = 0;       ///< mm; only what a coarse solution moves by more is solved, region.hpp; 0: the whole body
   int snapshot_every = 0;  ///< steps between displacements kept for steps.pvd, each 20th at the most; 0: none
 };

@@ -114,6 +114,12 @@ Points as_prescribed(Points displacement, const Conditions& conditions) {
   return displacement;
 }
 
+Points from_coarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Points& displacement,
+                   const Model& model) {
+  const Points parameters = parameters_from_displacement(shape, coarse.positions, displacement);
+  return as_prescribed(shape.interpolate(model.cloud.positions, parameters), model.conditions);
+}
+
 namespace {
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> shape_at(const ShapeFunctions& shape, const Points& positions,
@@ -144,7 +150,7 @@ std::optional<Points> solved_on(const std::vector<std::int32_t>& nodes, const Mo
     return std::nullopt;
   }
   const ShapeFunctions shape(coarse.cloud.positions, coarse.cloud.spacing, result.solution.shape);
-  return FromCoarse(shape, coarse.cloud, model)(result.solution.displacement);
+  return from_coarse(shape, coarse.cloud, result.solution.displacement, model);
 }
 
 }  // namespace

@@ -121,13 +121,13 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
     }
     const std::vector<MemberResult> results = relax_all(body, loads, model.curve, coarse.options, progress);
     const ShapeFunctions shape(coarse.model.cloud.positions, coarse.model.cloud.spacing, coarse.options.shape);
-    const FromCoarse from_coarse(shape, coarse.model.cloud, model);
+    const FromCoarse at_all(shape, coarse.model.cloud, model);
     Displacements displacements(constants.size());
     share_work(std::ssize(results), 1, [&](std::int64_t i) {
       const OnThisThread own;
       const auto m = static_cast<std::size_t>(i);
       if (holds(results[m], body)) {
-        displacements[m] = from_coarse(nodal_displacement(body.nodal_rows, results[m].parameters, body.original));
+        displacements[m] = at_all(nodal_displacement(body.nodal_rows, results[m].parameters, body.original));
       }
     });
     for (std::size_t m = 0; m < results.size(); ++m) {
