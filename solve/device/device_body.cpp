@@ -126,6 +126,18 @@ void DeviceBody<Scalar>::load(const Body& body) {
 }
 
 template <class Scalar>
+void DeviceBody<Scalar>::forget_steps() const {
+  backend_.clear(view_.record, sizeof(Record));
+  if (view_.contact.count > 0) {
+    backend_.clear(view_.contact.push, 3 * static_cast<std::size_t>(view_.contact.count) * sizeof(double));
+  }
+  for (const int parity : {0, 1}) {
+    backend_.clear(view_.force_at[parity], 4 * nodes() * sizeof(double));
+    backend_.clear(view_.condition[0].multiplier[parity], conditions_ * sizeof(double));
+  }
+}
+
+template <class Scalar>
 void DeviceBody<Scalar>::put_points(const PointBlocks& points) {
   const auto all = static_cast<std::int32_t>(points.points());
   Clusters<Scalar> made;
