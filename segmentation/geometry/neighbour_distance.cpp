@@ -18,8 +18,9 @@ NearestNeighbours nearest_neighbours(const Points& points, int count) {
   if (width == 0) {
     return result;
   }
+  constexpr Eigen::Index worth_threads = 2048;  // fewer take less than the time that threads stay awake afterwards
   const PointTree tree(points);
-#pragma omp parallel
+#pragma omp parallel if (rows >= worth_threads)
   {
     std::vector<std::size_t> found(width + 1);
     std::vector<double> squared(width + 1);

@@ -175,6 +175,18 @@ void DeviceBody<Scalar>::load(const Body& body) {
 }
 
 template <class Scalar>
+void DeviceBody<Scalar>::forget_steps() const {
+  backend_.clear(view_.record, sizeof(Record));
+  if (view_.contact.count > 0) {
+    backend_.clear(view_.contact.push, 3 * static_cast<std::size_t>(view_.contact.count) * sizeof(double));
+  }
+  for (const int parity : {0, 1}) {
+    backend_.clear(view_.force_at[parity], 4 * nodes() * sizeof(double));
+    backend_.clear(view_.condition[0].multiplier[parity], conditions_ * sizeof(double));
+  }
+}
+
+template <class Scalar>
 void DeviceBody<Scalar>::put_points(const PointBlocks& points) {
   const Clusters<Scalar> made = make_fitting_clusters<Scalar>(points, backend_);
   const Slices<Scalar> slices = make_slices(made);

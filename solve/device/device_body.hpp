@@ -22,6 +22,9 @@ class DeviceBody {
   /// their rows are taken to be the same, and so is the contact.
   void load(const Body& body);
 
+  /// What the steps of an earlier way to rest have left is gone.
+  void forget_steps() const;
+
   const Backend& backend() const { return backend_; }
   const View<Scalar>& view() const { return view_; }
   std::size_t nodes() const { return static_cast<std::size_t>(view_.nodes); }

@@ -122,6 +122,7 @@ class Relaxation {
     order_.mass_scale = settled.mass_scale;
     lowest_ = settled.lowest;
     mass_jacobian_ = squeezed_to_ = settled.smallest_jacobian;
+    on_.forget_steps();
     if (on_.weighed() != settled.mass) {
       on_.write(settled.mass, on_.view().stiffer_mass);
       weigh();
