@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "solve/device/each/view.hpp"
 #include "solve/device/tasks.hpp"
 
 namespace brainshift::solve::device {
@@ -22,17 +21,9 @@ struct Backend {
   void (*copy)(void* to, const void* from, std::size_t bytes);  ///< on the device
   void (*single)(Task task, const View<float>& view, const Order& order);
   void (*twofold)(Task task, const View<double>& view, const Order& order);  ///< in double precision
-  void (*each_single)(TaskOfEach task, const ViewOfEach<float>& view, const OrderOfEach& order);
-  void (*each_twofold)(TaskOfEach task, const ViewOfEach<double>& view, const OrderOfEach& order);
 
   void perform(Task task, const View<float>& view, const Order& order) const { single(task, view, order); }
   void perform(Task task, const View<double>& view, const Order& order) const { twofold(task, view, order); }
-  void perform(TaskOfEach task, const ViewOfEach<float>& view, const OrderOfEach& order) const {
-    each_single(task, view, order);
-  }
-  void perform(TaskOfEach task, const ViewOfEach<double>& view, const OrderOfEach& order) const {
-    each_twofold(task, view, order);
-  }
 };
 
 /// One thread of the host: for tests, and for whoever looks for a fault.

@@ -62,7 +62,7 @@ BRAINSHIFT_ON_DEVICE inline std::int64_t whole(double x) {
 
 /// The largest sum, with room for what rounding adds.
 template <class Scalar>
-inline constexpr Scalar most_whole = std::is_same_v<Scalar, float> ? Scalar{2.147e9} : Scalar{9.2e18};
+inline constexpr auto most_whole = static_cast<Scalar>(std::is_same_v<Scalar, float> ? 2.147e9 : 9.2e18);
 
 /// Raises what a block has in common by the largest x of its threads.
 template <class Team>

@@ -5,7 +5,6 @@
 
 #include "solve/device/backend.hpp"
 #include "solve/device/cuda_check.hpp"
-#include "solve/device/each/cuda_each.hpp"
 
 namespace brainshift::solve::device {
 
@@ -149,9 +148,7 @@ struct Found {
         .copy = [](void* to, const void* from,
                    std::size_t bytes) { check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice), "copy"); },
         .single = perform_on_gpu<float>,
-        .twofold = perform_on_gpu<double>,
-        .each_single = perform_each_on_gpu,
-        .each_twofold = perform_each_on_gpu};
+        .twofold = perform_on_gpu<double>};
   }
 };
 

@@ -4,7 +4,6 @@
 #include <new>
 
 #include "solve/device/backend.hpp"
-#include "solve/device/each/tasks.hpp"
 
 namespace brainshift::solve::device {
 
@@ -20,11 +19,6 @@ void perform_alone(Task task, const View<Scalar>& view, const Order& order) {
   std::vector<Line> memory(std::max(Room<Scalar>::size(view), room_to_sweep) / sizeof(Line) + 1);
   const OneThread alone{memory.front().bytes};
   with_task(task, [&]<Task which>() { perform<which>(alone, view, order); });
-}
-
-template <class Scalar>
-void perform_each_alone(TaskOfEach task, const ViewOfEach<Scalar>& view, const OrderOfEach& order) {
-  with_task(task, [&]<TaskOfEach which>() { perform<which>(OneForEach{}, view, order); });
 }
 
 void copy(void* to, const void* from, std::size_t bytes) {
@@ -46,9 +40,7 @@ const Backend& one_thread() {
       .from_device = copy,
       .copy = copy,
       .single = perform_alone<float>,
-      .twofold = perform_alone<double>,
-      .each_single = perform_each_alone<float>,
-      .each_twofold = perform_each_alone<double>};
+      .twofold = perform_alone<double>};
   return backend;
 }
 

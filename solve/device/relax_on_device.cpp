@@ -48,7 +48,6 @@ class Relaxation {
         volume_[static_cast<std::size_t>(patch.material)] += body.points.volume[static_cast<std::size_t>(p)];
       }
     }
-    on_.backend().clear(on_.view().record, sizeof(Record));
     order_.alpha = relaxation_alpha;
     order_.span = SpanBound::windows_of(window_);
     if (course.settled) {

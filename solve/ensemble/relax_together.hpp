@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "segmentation/progress/progress.hpp"
@@ -13,19 +11,6 @@
 #include "solve/interface/options.hpp"
 
 namespace brainshift::solve {
-
-/// How a member ended.
-struct MemberResult {
-  enum class End : std::uint8_t {
-    rest,           ///< as relax() ends
-    not_converged,  ///< relax() would not either: too many steps, or rounding in double precision
-    left,           ///< it wants what an ensemble does not have, as double precision: relax() it alone
-  };
-  End end = End::left;
-  NodalVectors parameters = {};  ///< û at rest, mm
-  double error_bound = 0;        ///< mm
-  int steps = 0;
-};
 
 /// Whether these loads of a body can be stepped as an ensemble: at rest it may hold prescribed displacements, exact or
 /// with noise, touch a skull and have forces; it may not be cut, parted, planar or held by the simplified imposition or

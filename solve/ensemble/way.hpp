@@ -9,7 +9,7 @@
 #include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
-#include "solve/ensemble/relax_together.hpp"
+#include "solve/ensemble/member.hpp"
 
 namespace brainshift::solve {
 

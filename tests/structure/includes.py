@@ -20,7 +20,7 @@ SOLVE_ROOMS = [
     "solve/" + room
     for room in (
         "arrays", "material", "interface", "load", "shape", "quadrature", "boundary", "force", "body", "measured", "dynamics",
-        "device", "ensemble", "cut", "output", "run", "update", "region", "uncertainty",
+        "device", "ensemble", "device/each", "cut", "output", "run", "update", "region", "uncertainty",
     )
 ] + ["solve"]
 MOST_HEADERS_OF_SOLVE = 15

@@ -6,7 +6,7 @@
 
 #include "solve/body/body.hpp"
 #include "solve/device/clusters.hpp"
-#include "solve/device/each/view.hpp"
+#include "solve/device/each/perform_each.hpp"
 #include "solve/device/memory.hpp"
 #include "solve/ensemble/member.hpp"
 
@@ -36,7 +36,7 @@ class DeviceEnsemble {
 
   /// Of each member's load, [most_steps + 1][member], for what is performed next.
   void set_fractions(const std::vector<double>& fractions) const { put(fractions, view_.fraction); }
-  void perform(TaskOfEach task, const OrderOfEach& order) const { backend_.perform(task, view_, order); }
+  void perform(TaskOfEach task, const OrderOfEach& order) const { perform_each(backend_, task, view_, order); }
   void read(RecordOfEach& record) const { backend_.from_device(&record, view_.record, sizeof record); }
   std::vector<double> read(const double* from, std::size_t count) const;
   void write(const std::vector<double>& values, double* to) const;
