@@ -81,7 +81,7 @@ BRAINSHIFT_ON_DEVICE void keep_pairs(const Team& team, const View<Scalar>& v, Ro
   team.sync_block();
 }
 
-/// Goes through the slices of a cluster: begin(p), give(p, pair) for the lane's pairs, end(p), by the lanes that have
+/// Goes through the slices of a cluster: begin(p), give(pair) for the lane's pairs, end(p), by the lanes that have
 /// point p of the cluster; p is −1 in the empty places of a slice.
 template <class Team, class Scalar, class Begin, class Give, class End>
 BRAINSHIFT_ON_DEVICE void for_slices(const Team& team, const View<Scalar>& v, std::int32_t cluster,

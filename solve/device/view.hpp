@@ -181,7 +181,7 @@ template <class Scalar>
 struct View {
   std::int32_t clusters, nodes;
   std::int32_t most_slots, most_points, most_patches;  ///< of a cluster
-  std::int32_t resident;  ///< turns that a block keeps from step to step; 0 where it has several clusters
+  std::int32_t resident;  ///< turns that a block keeps from step to step, at most, where it has one cluster alone
   const Cluster* cluster;
   const PatchPoints* patch;
   const std::int32_t* patch_of;  ///< one a point

@@ -67,14 +67,31 @@ bool holds(const MemberResult& result, const Body& body) {
   return result.end == MemberResult::End::rest && !(body.contact && body.contact->measure(result.parameters).lost);
 }
 
-/// The precision that an option leaves to the model may be another with other constants.
-bool same_precision(const Model& model, const SolveOptions& options, std::span<const Constants> constants) {
-  Model with = model;
-  const Precision own = completed(options, model).precision;
-  return std::all_of(constants.begin(), constants.end(), [&](const Constants& c) {
-    with = with_constants(std::move(with), c);
-    return completed(options, with).precision == own;
-  });
+/// What together(options, constants) finds of those constants that single precision serves, and of those that want
+/// double.
+template <class Together>
+Displacements by_precision(const Model& model, const SolveOptions& options, std::span<const Constants> constants,
+                           const Together& together) {
+  Displacements displacements(constants.size());
+  for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
+    std::vector<std::size_t> places;
+    std::vector<Constants> some;
+    Model with = model;
+    for (std::size_t m = 0; m < constants.size(); ++m) {
+      with = with_constants(std::move(with), constants[m]);
+      if (completed(options, with).precision == precision) {
+        places.push_back(m);
+        some.push_back(constants[m]);
+      }
+    }
+    SolveOptions in_precision = options;
+    in_precision.precision = precision;
+    Displacements found = some.empty() ? Displacements() : together(in_precision, some);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      displacements[places[i]] = std::move(found[i]);
+    }
+  }
+  return displacements;
 }
 
 /// While it lives, OpenMP's loops of the thread, as Eigen's are, are the thread's own: others do other members.
@@ -103,13 +120,11 @@ std::optional<Points> whole_displacement(const Model& model, const SolveOptions&
   return result.failure.empty() ? std::optional(std::move(result.solution.displacement)) : std::nullopt;
 }
 
-}  // namespace
-
-Displacements coarse_displacements(const Model& model, const SolveOptions& options,
-                                   std::span<const Constants> constants, const Progress& progress) {
+Displacements coarse_together(const Model& model, const SolveOptions& options, std::span<const Constants> constants,
+                              const Progress& progress) {
   const auto one = [&](const Model& with) { return coarse_displacement(with, options, {}); };
   const std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
-  if (nodes.size() < fewest_coarse_nodes || !same_precision(model, options, constants)) {
+  if (nodes.size() < fewest_coarse_nodes) {
     return alone(model, constants, one);
   }
   try {
@@ -147,17 +162,17 @@ Displacements coarse_displacements(const Model& model, const SolveOptions& optio
   }
 }
 
-Displacements whole_displacements(const Model& model, const SolveOptions& given, std::span<const Constants> constants,
-                                  const Progress& progress) {
+Displacements whole_together(const Model& model, const SolveOptions& given, std::span<const Constants> constants,
+                             const Progress& progress) {
   const SolveOptions options = completed(given, model);
   const auto one = [&](const Model& with) { return whole_displacement(with, given, progress); };
   const bool parts = !model.cuts.empty() || model.rupture;
-  if (parts || is_confined(model) || !same_precision(model, given, constants)) {
+  if (parts || is_confined(model)) {
     return alone(model, constants, one);
   }
   Displacements starts(constants.size());
   if (starts_coarse(model, options)) {
-    starts = coarse_displacements(model, of_coarse_start(options), constants, progress);
+    starts = coarse_together(model, of_coarse_start(options), constants, progress);
   }
   SolveMeasures measures;
   const Prepared prepared = prepare(model, options, {}, measures, progress, forces_differ(model, constants));
@@ -190,6 +205,22 @@ Displacements whole_displacements(const Model& model, const SolveOptions& given,
     }
   }
   return displacements;
+}
+
+}  // namespace
+
+Displacements coarse_displacements(const Model& model, const SolveOptions& options,
+                                   std::span<const Constants> constants, const Progress& progress) {
+  return by_precision(model, options, constants, [&](const SolveOptions& with, std::span<const Constants> some) {
+    return coarse_together(model, with, some, progress);
+  });
+}
+
+Displacements whole_displacements(const Model& model, const SolveOptions& options, std::span<const Constants> constants,
+                                  const Progress& progress) {
+  return by_precision(model, options, constants, [&](const SolveOptions& with, std::span<const Constants> some) {
+    return whole_together(model, with, some, progress);
+  });
 }
 
 }  // namespace brainshift::solve

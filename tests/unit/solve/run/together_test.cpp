@@ -6,6 +6,7 @@
 #include "solve/device/backend.hpp"
 #include "solve/device/device_fault.hpp"
 #include "solve/run/coarse.hpp"
+#include "solve/run/prepare.hpp"
 #include "solve/run/whole_body.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/models.hpp"
@@ -44,6 +45,26 @@ SolveOptions quick() {
   options.load_steps = 100;
   options.tolerance = 0.003;
   return options;
+}
+
+TEST(Together, TakesDoublePrecisionForThoseConstantsAloneThatWantIt) {
+  const Model model = drained_block();
+  std::vector<Constants> constants = some_constants(model, 3);
+  constants[1].materials[1].poisson_ratio = 0.4995;
+  SolveOptions options = quick();
+  options.precision = Precision::single_precision;
+  const auto coarse = coarse_displacements(model, options, constants, {});
+  const auto whole = whole_displacements(model, options, constants, {});
+  for (std::size_t m = 0; m < constants.size(); ++m) {
+    const Model with = with_constants(model, constants[m]);
+    const bool in_double = completed(options, with).precision == Precision::double_precision;
+    EXPECT_EQ(in_double, m == 1);
+    const auto alone = coarse_displacement(with, completed(options, with), {});
+    ASSERT_TRUE(alone && coarse[m] && whole[m]);
+    EXPECT_LT((*coarse[m] - *alone).cwiseAbs().maxCoeff(), in_double ? 1e-7 : 1e-5);
+    const Points solved = solve_whole_body(with, options, {}).solution.displacement;
+    EXPECT_LT((*whole[m] - solved).cwiseAbs().maxCoeff(), in_double ? 1e-6 : 1e-4);
+  }
 }
 
 TEST(Together, CoarseDisplacementsAreThoseOfEachAlone) {
