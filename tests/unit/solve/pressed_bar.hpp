@@ -8,11 +8,11 @@
 
 namespace brainshift::solve {
 
-/// A bar of 8 × 8 × 20 spacings, held on the surface of its far two thirds and pressed in at the middle of the near
-/// end: what moves is near.
-inline Model pressed_bar() {
+/// A bar of 8 × 8 × 20 spacings, or a shorter one, held on its surface from the seventh on and pressed in at the middle
+/// of the near end: what moves is near.
+inline Model pressed_bar(int length = 20) {
   constexpr double h = 5;
-  const Eigen::Vector3i steps(8, 8, 20);
+  const Eigen::Vector3i steps(8, 8, length);
   const Eigen::Vector3d size = h * steps.cast<double>();
   std::mt19937 random(1);
   std::uniform_real_distribution<double> within(-0.25 * h, 0.25 * h);

@@ -39,7 +39,7 @@ TEST(KeptRun, AnswersAnotherLoadAsARunFromTheBeginning) {
 }
 
 TEST(KeptRun, HoldsInsideTheRimOfAPatchAsARunFromTheBeginning) {
-  Model model = pressed_bar();
+  Model model = pressed_bar(8);
   KeptRun run = kept(model);
   model.conditions.displacement *= 1.2;
   const SolveResult answer = update(run, model.conditions.displacement), anew = solve(model, options());
