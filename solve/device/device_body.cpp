@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "solve/device/device_fault.hpp"
+#include "solve/device/rows.hpp"
 #include "solve/device/slices.hpp"
 #include "solve/dynamics/span_bound.hpp"
 #include "solve/force/firmness.hpp"
@@ -28,29 +29,6 @@ std::vector<Law> laws_of(const PointLaws& laws) {
         elastic);
   }
   return result;
-}
-
-CompressedRows rows_of(const EssentialConditions::RowMatrix& matrix) {
-  CompressedRows rows;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    for (EssentialConditions::RowMatrix::InnerIterator entry(matrix, i); entry; ++entry) {
-      rows.node.push_back(static_cast<std::int32_t>(entry.col()));
-      rows.shape.push_back(entry.value());
-    }
-    rows.begin.push_back(static_cast<std::int64_t>(rows.node.size()));
-  }
-  return rows;
-}
-
-CompressedRows rows_of(const PushedNodes& nodes) {
-  CompressedRows rows;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const PushedNodes::Row row = nodes.row(i);
-    rows.node.insert(rows.node.end(), row.node.begin(), row.node.end());
-    rows.shape.insert(rows.shape.end(), row.shape.begin(), row.shape.end());
-    rows.begin.push_back(static_cast<std::int64_t>(rows.node.size()));
-  }
-  return rows;
 }
 
 template <class Scalar>
@@ -98,11 +76,6 @@ std::int32_t turns_that_fit(const Slices<Scalar>& slices, std::size_t bytes) {
   }
   return static_cast<std::int32_t>(
       std::min<std::int64_t>(most, static_cast<std::int64_t>(bytes / Room<Scalar>::turn_size(1))));
-}
-
-std::vector<double> dense(const Eigen::SparseMatrix<double>& matrix) {
-  const Eigen::MatrixXd full(matrix);
-  return {full.data(), full.data() + full.size()};
 }
 
 std::vector<double> values_of(const Eigen::VectorXd& vector) {
@@ -264,20 +237,6 @@ void DeviceBody<Scalar>::put_motion(const Body& body, int window) {
 }
 
 template <class Scalar>
-void DeviceBody<Scalar>::put_rows(const CompressedRows& rows, SparseRows& to) {
-  const NodeRows moved = by_node(rows);
-  to.count = static_cast<std::int32_t>(rows.begin.size() - 1);
-  to.begin = memory_.put(rows.begin);
-  to.node = memory_.put(rows.node);
-  to.shape = memory_.put(rows.shape);
-  to.moved = static_cast<std::int32_t>(moved.node.size());
-  to.moved_node = memory_.put(moved.node);
-  to.moved_begin = memory_.put(moved.begin);
-  to.moved_row = memory_.put(moved.row);
-  to.moved_shape = memory_.put(moved.shape);
-}
-
-template <class Scalar>
 void DeviceBody<Scalar>::put_skull(const SignedDistance& skull) {
   view_.contact.skull = skull.grid();
   view_.contact.skull.sample = memory_.put(skull.samples().value);
@@ -287,7 +246,7 @@ template <class Scalar>
 void DeviceBody<Scalar>::put_contact(const Contact& contact) {
   TouchingNodes& c = view_.contact;
   const CompressedRows rows = rows_of(contact.nodes());
-  put_rows(rows, c);
+  put_rows(rows, memory_, c);
   std::vector<double> column_sum(nodes(), 0.0), position;
   for (std::size_t k = 0; k < rows.node.size(); ++k) {
     column_sum[static_cast<std::size_t>(rows.node[k])] += std::abs(rows.shape[k]);
@@ -322,8 +281,8 @@ void DeviceBody<Scalar>::put_conditions(const EssentialConditions& essential) {
     Conditions& c = view_.condition[axis];
     const CompressedRows rows = rows_of(from.shape);
     const auto count = static_cast<std::size_t>(from.prescribed.size());
-    const std::vector<double> compliance = dense(from.compliance);
-    put_rows(rows, c);
+    const std::vector<double> compliance = entries_of(from.compliance);
+    put_rows(rows, memory_, c);
     c.prescribed = memory_.put(values_of(from.prescribed));
     c.loaded = memory_.put(values_of(from.loaded));
     c.compliance = compliance.empty() ? nullptr : memory_.put(compliance);

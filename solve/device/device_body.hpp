@@ -57,7 +57,6 @@ class DeviceBody {
   void put_laws(const Body& body);
   void put_motion(const Body& body, int window);
   void put_skull(const SignedDistance& skull);
-  void put_rows(const CompressedRows& rows, SparseRows& to);
   void put_contact(const Contact& contact);
   void put_conditions(const EssentialConditions& essential);
 

@@ -7,7 +7,7 @@
 
 #include "solve/device/device_body.hpp"
 #include "solve/device/each/pieces.hpp"
-#include "solve/device/each/rows.hpp"
+#include "solve/device/rows.hpp"
 #include "solve/force/firmness.hpp"
 
 namespace brainshift::solve::device {
@@ -148,24 +148,10 @@ void DeviceEnsemble<Scalar>::put_motion(bool with_forces) {
 }
 
 template <class Scalar>
-void DeviceEnsemble<Scalar>::put_rows(const CompressedRows& rows, SparseRows& to) {
-  const NodeRows moved = by_node(rows);
-  to.count = static_cast<std::int32_t>(rows.begin.size() - 1);
-  to.begin = memory_.put(rows.begin);
-  to.node = memory_.put(rows.node);
-  to.shape = memory_.put(rows.shape);
-  to.moved = static_cast<std::int32_t>(moved.node.size());
-  to.moved_node = memory_.put(moved.node);
-  to.moved_begin = memory_.put(moved.begin);
-  to.moved_row = memory_.put(moved.row);
-  to.moved_shape = memory_.put(moved.shape);
-}
-
-template <class Scalar>
 void DeviceEnsemble<Scalar>::put_contact(const Contact& contact) {
   ContactOfEach& c = view_.contact;
-  const CompressedRows rows = compressed(contact.nodes());
-  put_rows(rows, c);
+  const CompressedRows rows = rows_of(contact.nodes());
+  put_rows(rows, memory_, c);
   std::vector<double> column_sum(nodes(), 0.0), position;
   for (std::size_t k = 0; k < rows.node.size(); ++k) {
     column_sum[static_cast<std::size_t>(rows.node[k])] += std::abs(rows.shape[k]);
@@ -197,10 +183,10 @@ void DeviceEnsemble<Scalar>::put_conditions() {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const EssentialConditions::Component& from = body_.essential.components()[axis];
     ConditionsOfEach& c = view_.condition[axis];
-    const CompressedRows rows = compressed(from.shape);
+    const CompressedRows rows = rows_of(from.shape);
     const auto count = static_cast<std::size_t>(from.prescribed.size());
     const std::vector<double> compliance = entries_of(from.compliance);
-    put_rows(rows, c);
+    put_rows(rows, memory_, c);
     c.compliance = compliance.empty() ? nullptr : memory_.put(compliance);
     c.prescribed = of_all[0] + before;
     c.residual = of_all[1] + before;

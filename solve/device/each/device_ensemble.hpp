@@ -48,7 +48,6 @@ class DeviceEnsemble {
   }
   void put_points();
   void put_motion(bool with_forces);
-  void put_rows(const CompressedRows& rows, SparseRows& to);
   void put_contact(const Contact& contact);
   void put_conditions();
   void load_laws(std::span<const Member> loads);

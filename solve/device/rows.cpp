@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#pragma once
-
-#include <vector>
-
-#include "solve/boundary/essential_conditions.hpp"
-#include "solve/boundary/pushed_nodes.hpp"
-#include "solve/device/clusters.hpp"
+#include "solve/device/rows.hpp"
 
 namespace brainshift::solve::device {
 
-inline CompressedRows compressed(const EssentialConditions::RowMatrix& matrix) {
+CompressedRows rows_of(const EssentialConditions::RowMatrix& matrix) {
   CompressedRows rows;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     for (EssentialConditions::RowMatrix::InnerIterator entry(matrix, i); entry; ++entry) {
@@ -21,7 +15,7 @@ inline CompressedRows compressed(const EssentialConditions::RowMatrix& matrix) {
   return rows;
 }
 
-inline CompressedRows compressed(const PushedNodes& nodes) {
+CompressedRows rows_of(const PushedNodes& nodes) {
   CompressedRows rows;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const PushedNodes::Row row = nodes.row(i);
@@ -32,10 +26,22 @@ inline CompressedRows compressed(const PushedNodes& nodes) {
   return rows;
 }
 
-/// Row by row.
-inline std::vector<double> entries_of(const Eigen::SparseMatrix<double>& matrix) {
+std::vector<double> entries_of(const Eigen::SparseMatrix<double>& matrix) {
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> full(matrix);
   return {full.data(), full.data() + full.size()};
+}
+
+void put_rows(const CompressedRows& rows, Memory& memory, SparseRows& to) {
+  const NodeRows moved = by_node(rows);
+  to.count = static_cast<std::int32_t>(rows.begin.size() - 1);
+  to.begin = memory.put(rows.begin);
+  to.node = memory.put(rows.node);
+  to.shape = memory.put(rows.shape);
+  to.moved = static_cast<std::int32_t>(moved.node.size());
+  to.moved_node = memory.put(moved.node);
+  to.moved_begin = memory.put(moved.begin);
+  to.moved_row = memory.put(moved.row);
+  to.moved_shape = memory.put(moved.shape);
 }
 
 }  // namespace brainshift::solve::device
