@@ -146,7 +146,7 @@ int main(int argc, char** argv) {
   // So is a reader of our output that has gone away.
   std::signal(SIGPIPE, SIG_IGN);
   end_well_when_crashing();
-  wait_asleep(argv);
+  take_short_turns();
   silence_libraries();
   try {
     return run_program(argc, argv);

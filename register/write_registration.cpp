@@ -4,6 +4,7 @@
 
 #include <omp.h>
 
+#include <cmath>
 #include <fstream>
 #include <future>
 #include <iomanip>
@@ -29,7 +30,10 @@ void write_landmarks(const std::filesystem::path& file, const Registration& regi
       out << ',' << triple.x() << ',' << triple.y() << ',' << triple.z();
     }
     if (!error.empty()) {
-      out << ',' << error[static_cast<std::size_t>(p)];
+      out << ',';
+      if (const double known = error[static_cast<std::size_t>(p)]; !std::isnan(known)) {
+        out << known;
+      }
     }
     out << '\n';
   }

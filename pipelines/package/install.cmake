@@ -3,6 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS brainshift RUNTIME COMPONENT program)
+install(TARGETS brainshift_program RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/brainshift COMPONENT program)
 install(FILES pipelines/package/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 find_program(GZIP_PROGRAM gzip REQUIRED)
 execute_process(COMMAND ${GZIP_PROGRAM} -9nc ${PROJECT_SOURCE_DIR}/pipelines/package/changelog

@@ -12,6 +12,7 @@
 #include "pipelines/runner/libraries.hpp"
 #include "pipelines/runner/run.hpp"
 #include "pipelines/runner/stage_folder.hpp"
+#include "pipelines/runner/warnings.hpp"
 #include "pipelines/runner/warp_files.hpp"
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
@@ -22,10 +23,12 @@
 #include "segmentation/interface/option_table.hpp"
 #include "segmentation/segment.hpp"
 #include "solve/interface/option_table.hpp"
+#include "solve/load/contradictions.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/load/noisy_load.hpp"
 #include "solve/material/material_options.hpp"
 #include "solve/material/named_materials.hpp"
+#include "solve/run/measured.hpp"
 #include "solve/solve.hpp"
 #include "solve/solve_each.hpp"
 
@@ -129,15 +132,49 @@ solve::Model model_of(const discretise::Discretisation& body, const solve::Crani
   return model;
 }
 
+/// As the program's notes have them.
+pipelines::Warnings warnings_on(const solve::CraniotomyLoad& load, const solve::Model& model,
+                                const solve::SolveOptions& options, const solve::SolveResult& result) {
+  using pipelines::warnings_of;
+  std::vector<pipelines::Warnings> parts = {warnings_of(result.measures),
+                                            warnings_of(load, model.cloud, model.conditions.displacement),
+                                            warnings_of(model, result.solution.displacement)};
+  if (load.sigma.rows() > 0) {
+    parts.push_back(warnings_of(solve::worst_of_joined(load)));
+    parts.push_back(warnings_of(solve::worst_outlier(model, options)));
+  }
+  pipelines::Warnings all;
+  for (const pipelines::Warnings& part : parts) {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+/// By Python's own warnings, which a caller may turn into exceptions.
+void warn(const pipelines::Warnings& warnings) {
+  for (const std::string& warning : warnings) {
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) {
+      throw py::error_already_set();
+    }
+  }
+}
+
 solve::SolveResult solve_model(const discretise::Discretisation& body, const py::dict& materials,
                                const solve::CraniotomyLoad& load, const LabelMap* labels, const Surface* skull,
                                const Surface* boundary, const Listener& progress, const py::kwargs& named) {
   const solve::SolveOptions options = options_of(named);
   std::map<std::int32_t, solve::Material> given = materials_of(materials);
-  const Free free;
-  solve::Model model = model_of(body, load, labels, skull, boundary);
-  model.materials = std::move(given);
-  return solve::solve(model, options, attentive(progress));
+  solve::SolveResult result;
+  pipelines::Warnings warnings;
+  {
+    const Free free;
+    solve::Model model = model_of(body, load, labels, skull, boundary);
+    model.materials = std::move(given);
+    result = solve::solve(model, options, attentive(progress));
+    warnings = warnings_on(load, model, options, result);
+  }
+  warn(warnings);
+  return result;
 }
 
 /// The numbers of a matrix that nobody else holds, as an array without a copy.
@@ -178,8 +215,13 @@ registration::Registration register_images(const solve::SolveResult& moved, cons
   if (landmarks) {
     input.landmarks = points_of(*landmarks, "landmarks");
   }
-  const Free free;
-  return registration::register_images(input, options, attentive(progress));
+  registration::Registration result;
+  {
+    const Free free;
+    result = registration::register_images(input, options, attentive(progress));
+  }
+  warn(pipelines::warnings_of(result.measures));
+  return result;
 }
 
 registration::Interpolation interpolation_of(const std::string& name) {

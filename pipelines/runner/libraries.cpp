@@ -13,7 +13,6 @@
 
 #include <cerrno>
 #include <cstdint>
-#include <cstdlib>
 #include <exception>
 #include <latch>
 #include <thread>
@@ -22,10 +21,6 @@
 namespace brainshift::pipelines {
 
 namespace {
-
-// A thread that has nothing to do looks so often, some microseconds, before it sleeps: alone that costs nothing
-// measurable, and beside a busy process a thread that spins on takes the processor from the one that it waits for.
-constexpr const char* spins = "1000";
 
 /// The shortest turn that Linux gives, ns.
 constexpr std::uint64_t turn = 100000;
@@ -85,15 +80,6 @@ void take_short_turns() {
     syscall(SYS_sched_setattr, 0, &attributes, 0U);
   }
 #endif
-}
-
-void wait_asleep(char** arguments) {
-  take_short_turns();
-  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) {
-    return;
-  }
-  setenv("GOMP_SPINCOUNT", spins, 1);
-  execv("/proc/self/exe", arguments);  // returns where there is no /proc: the threads then spin
 }
 
 void silence_libraries() {

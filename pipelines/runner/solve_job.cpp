@@ -293,7 +293,9 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
   if (input.model.last) {
     measure_move(*input.model.last, result.solution, said);
   }
-  said.notes.insert(said.notes.end(), input.notes.begin(), input.notes.end());
+  for (const std::vector<std::string>& notes : {input.notes, notes_of(result.measures)}) {
+    said.notes.insert(said.notes.end(), notes.begin(), notes.end());
+  }
   write_measured(input, result, out, said);
   add_uncertainty(job, input, result, out, said, part_of(given, solving_share, 1));
   warn(warnings_of(result.measures), said);

@@ -176,11 +176,26 @@ Warnings warnings_of_cavity(const solve::SolveMeasures& measures) {
           "other; expect no accuracy there better than two spacings"};
 }
 
-Warnings warnings_of_few_nodes(const solve::SolveMeasures& measures) {
+constexpr std::size_t few_nodes = 500;
+
+/// Of many nodes a tissue that they hardly resolve, as a ventricle, does little to the rest.
+bool does_little(const solve::ThinPart& part, const solve::SolveMeasures& measures) {
+  return part.is_tissue && measures.estimated_error_95 && measures.nodes >= few_nodes;
+}
+
+/// The parts that do little, or the others: "tissue 2 2.7, ...".
+std::string thin_parts(const solve::SolveMeasures& measures, bool doing_little) {
   std::string parts;
   for (const solve::ThinPart& part : measures.thin) {
-    parts += (parts.empty() ? "" : ", ") + part.what + " " + with_digits(part.spacings);
+    if (does_little(part, measures) == doing_little) {
+      parts += (parts.empty() ? "" : ", ") + part.what + " " + with_digits(part.spacings);
+    }
   }
+  return parts;
+}
+
+Warnings warnings_of_few_nodes(const solve::SolveMeasures& measures) {
+  const std::string parts = thin_parts(measures, false);
   if (parts.empty()) {
     return {};
   }
@@ -199,6 +214,17 @@ Warnings warnings_of(const solve::SolveMeasures& measures) {
     warnings.insert(warnings.end(), more.begin(), more.end());
   }
   return warnings;
+}
+
+std::vector<std::string> notes_of(const solve::SolveMeasures& measures) {
+  std::vector<std::string> notes;
+  if (const std::string parts = thin_parts(measures, true); !parts.empty()) {
+    notes.push_back("spacings of the nodes across, where it takes four for the motion within: " + parts);
+  }
+  if (measures.converged && !measures.estimated_error_95 && thin_parts(measures, false).empty()) {
+    notes.emplace_back("nothing estimates how far off this answer is for want of nodes: hold it against one on more");
+  }
+  return notes;
 }
 
 Warnings warnings_of(const std::optional<solve::Outlier>& outlier) {

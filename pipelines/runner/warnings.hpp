@@ -35,6 +35,9 @@ Warnings warnings_of_weight(const solve::Model& model);
 /// Of few integration points, at all or under strong compression, of high pressure, and of what few nodes resolve.
 Warnings warnings_of(const solve::SolveMeasures& measures);
 
+/// Of tissues that many nodes hardly resolve, and of an error that nothing estimates.
+std::vector<std::string> notes_of(const solve::SolveMeasures& measures);
+
 /// Of what was measured where it contradicts itself.
 Warnings warnings_of(const std::optional<solve::Outlier>& outlier);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -30,7 +31,8 @@ struct KnownNodes {
   PointTree tree{places};
 };
 
-Eigen::MatrixXd look_up(const KnownNodes& nodes, const Points& points) {
+/// outside: the values of a point farther than the spacing from every node.
+Eigen::MatrixXd look_up(const KnownNodes& nodes, const Points& points, double outside = 0) {
   constexpr std::size_t neighbours = 8;
   constexpr Eigen::Index many = 1000;  // threads for fewer cost more than they bring
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), nodes.values.cols());
@@ -40,6 +42,7 @@ Eigen::MatrixXd look_up(const KnownNodes& nodes, const Points& points) {
     std::array<double, neighbours> squared{};
     const auto found = nodes.tree.nearest(points.row(i).data(), neighbours, index.data(), squared.data());
     if (std::sqrt(squared[0]) > nodes.spacing[index[0]]) {
+      result.row(i).setConstant(outside);
       continue;
     }
     double weights = 0;
@@ -82,7 +85,8 @@ ScalarImage nodal_values_on(const Solution& solution, const std::vector<double>&
 }
 
 std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points) {
-  const Eigen::VectorXd values = nodal_values_at(solution, as_vector(solution.estimated_error), moved, points);
+  const KnownNodes nodes{places_of_nodes(solution, moved), solution.spacing, as_vector(solution.estimated_error)};
+  const Eigen::VectorXd values = look_up(nodes, points, std::numeric_limits<double>::quiet_NaN());
   return {values.begin(), values.end()};
 }
 

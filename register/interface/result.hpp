@@ -36,7 +36,7 @@ struct Registration {
   ScalarImage jacobian;                   ///< determinant of the forward map's gradient, in the world
   Points landmarks = Points(0, 3);        ///< intraop
   Points preop_landmarks = Points(0, 3);  ///< as they came in
-  std::vector<double> landmark_error;     ///< the solution's estimated error at each, mm; none without an estimate
+  std::vector<double> landmark_error;     ///< the solution's estimated error at each, mm, NaN outside; none without one
   RegisterMeasures measures;
 };
 

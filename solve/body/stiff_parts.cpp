@@ -13,7 +13,7 @@ namespace {
 
 constexpr double much = 30;           // times as stiff
 constexpr std::size_t fewest = 8;     // nodes of a part
-constexpr double most_of_body = 0.6;  // of all nodes
+constexpr double most_of_body = 0.9;  // of all nodes
 
 /// Which step of stiffness each value is on: the first is that of the softest tissue, and each begins thirty times
 /// higher than the one below.

@@ -8,13 +8,42 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr int recent_windows = 4;  // that the bound looks back on
+constexpr std::ptrdiff_t recent_windows = 4;  // that the bound looks back on at least
 
-double largest_recent(const std::vector<double>& values) {
-  return *std::max_element(values.end() - recent_windows, values.end());
+/// Steps in which a motion of this rate a step dies down to 1/e.
+double lasting(double rate) {
+  return rate < 1 ? 1 / (1 - rate) : std::numeric_limits<double>::infinity();
+}
+
+double largest_recent(const std::vector<double>& values, std::ptrdiff_t windows = recent_windows) {
+  return *std::max_element(values.end() - std::min(windows, std::ssize(values)), values.end());
 }
 
 }  // namespace
+
+double ErrorBound::slowest_rate() const {
+  constexpr double memory = 3;
+  double slowest = largest_recent(rates_);
+  std::ptrdiff_t windows = recent_windows;
+  while (windows < std::ssize(rates_) && static_cast<double>(windows * window_) < memory * lasting(slowest)) {
+    ++windows;
+    slowest = std::max(slowest, *(rates_.end() - windows));
+  }
+  return slowest;
+}
+
+double ErrorBound::largest_bound(double rate) const {
+  constexpr double soon = 80;  // steps
+  double largest = largest_recent(bounds_);
+  const double steps = lasting(rate);
+  const auto windows = static_cast<std::ptrdiff_t>(std::min(steps / window_, static_cast<double>(bounds_.size())));
+  if (steps > soon) {
+    for (auto bound = bounds_.end() - windows; bound < bounds_.end() - recent_windows; ++bound) {
+      largest = std::isfinite(*bound) ? std::max(largest, *bound) : largest;
+    }
+  }
+  return largest;
+}
 
 void ErrorBound::add(double moved, double damping_rate, bool loaded, double rounding) {
   moved_.push_back(moved);
@@ -24,9 +53,9 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded, double roun
   if (loaded_ > recent_windows) {  // a rate while the load comes is the load's
     const double earlier = *(moved_.end() - 1 - recent_windows);
     const double measured = moved > rounding ? std::pow(moved / earlier, 1.0 / (recent_windows * window_)) : 0.0;
-    const double rate = std::max(measured, largest_recent(rates_));
+    const double slowest = slowest_rate(), rate = std::max(measured, slowest);
     bounds_.back() = rate < 1 ? rate / (1 - rate) * moved : bounds_.back();
-    value_ = largest_recent(bounds_);
+    value_ = largest_bound(slowest);
   }
 }
 

@@ -9,7 +9,8 @@ namespace brainshift::solve {
 
 /// The bound of the error that relaxation leaves open, ρ/(1 − ρ) max |û⁺ − û| of a node, with ρ the slower of the
 /// measured rate a step and of the rate that the damping stands for. A passing low, as when the body swings through a
-/// turning point, is no rest: the largest of the last windows counts, for the rate and for the bound.
+/// turning point, is no rest: the largest of the last windows counts, for the rate and for the bound. Where motions are
+/// slow these windows are as many as such motions take to die down.
 class ErrorBound {
  public:
   /// window: steps between two calls of add().
@@ -37,6 +38,12 @@ class ErrorBound {
   void reset();
 
  private:
+  /// Of the damping, in the last four windows or in as many as three times what the slowest motion in them lasts.
+  double slowest_rate() const;
+
+  /// In the last four windows, or, of finite bounds, while a motion of this rate lasts.
+  double largest_bound(double rate) const;
+
   /// Windows of half a standstill.
   std::ptrdiff_t half() const { return standstill / 2 / window_; }
 

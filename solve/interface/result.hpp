@@ -133,6 +133,7 @@ inline constexpr double much_pressed = 0.1;
 struct ThinPart {
   std::string what;  ///< "the moved patch", "the held patch", "tissue 2"
   double spacings;   ///< of the nodes, that it is across
+  bool is_tissue = false;
 };
 
 struct SolveMeasures {

@@ -49,17 +49,19 @@ std::optional<ThinPart> patch_of(const Model& model) {
     }
   }
   if (!moved.empty()) {
-    return ThinPart{"the moved patch", patch_across(model, moved)};
+    return ThinPart{.what = "the moved patch", .spacings = patch_across(model, moved)};
   }
   const bool pulls = !model.gravity.isZero() || model.conditions.force.rows() > 0 || model.body_force;
   if (!held.empty() && pulls && !model.skull) {
-    return ThinPart{"the held patch", patch_across(model, held)};
+    return ThinPart{.what = "the held patch", .spacings = patch_across(model, held)};
   }
   return std::nullopt;
 }
 
-/// Twice the farthest that a point of a tissue lies from other tissue and from the surface.
-double across(const PlacedPoints& points, std::int32_t tissue, const Points& surface) {
+/// Twice the farthest that a point of a tissue lies from other tissue and from the surface, in spacings of the nodes
+/// there.
+double across(const PlacedPoints& points, std::int32_t tissue, const Points& surface, const NodeCloud& cloud,
+              const PointTree& nodes) {
   std::vector<Eigen::Index> inside, outside;
   for (Eigen::Index p = 0; p < points.position.rows(); ++p) {
     (points.tissue[static_cast<std::size_t>(p)] == tissue ? inside : outside).push_back(p);
@@ -71,10 +73,13 @@ double across(const PlacedPoints& points, std::int32_t tissue, const Points& sur
   }
   const PointTree tree(around);
   double farthest = 0;
+#pragma omp parallel for reduction(max : farthest)
   for (const Eigen::Index p : inside) {
-    farthest = std::max(farthest, tree.nearest(Eigen::RowVector3d(points.position.row(p)).data()).second);
+    const Eigen::RowVector3d x = points.position.row(p);
+    const double spacing = cloud.spacing[nodes.nearest(x.data()).first];
+    farthest = std::max(farthest, std::sqrt(tree.nearest(x.data()).second) / spacing);
   }
-  return 2 * std::sqrt(farthest);
+  return 2 * farthest;
 }
 
 }  // namespace
@@ -85,10 +90,10 @@ std::vector<ThinPart> thin_parts(const Model& model, const PlacedPoints& points)
     thin.push_back(*patch);
   }
   const Points surface = model.cloud.positions(surface_nodes(model.cloud), Eigen::all);
-  const double spacing = mean_spacing(model.cloud);
+  const PointTree nodes(model.cloud.positions);
   for (const std::int32_t tissue : std::set<std::int32_t>(points.tissue.begin(), points.tissue.end())) {
-    if (const double spacings = across(points, tissue, surface) / spacing; spacings < enough) {
-      thin.push_back({"tissue " + std::to_string(tissue), spacings});
+    if (const double spacings = across(points, tissue, surface, model.cloud, nodes); spacings < enough) {
+      thin.push_back({.what = "tissue " + std::to_string(tissue), .spacings = spacings, .is_tissue = true});
     }
   }
   return thin;

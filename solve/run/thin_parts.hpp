@@ -10,8 +10,7 @@
 namespace brainshift::solve {
 
 /// What of a model is fewer than four spacings of its nodes across: the patch that is moved, or held where nothing is
-/// moved, and of each tissue the largest ball in it. points: the integration points and their tissues; none: the patch
-/// alone.
+/// moved, and of each tissue the largest ball in it. points: the integration points and their tissues.
 std::vector<ThinPart> thin_parts(const Model& model, const PlacedPoints& points);
 
 }  // namespace brainshift::solve

@@ -176,6 +176,17 @@ class Chain(WithFolder):
         self.assertIn("points, moved by up to", said[0])
         self.assertTrue((self.folder / "moved/warped_landmarks.mrk.json").exists())
 
+    def test_what_the_program_warns_of_is_a_warning(self):
+        labels = brainshift.read_label_map(self.head / "labels.nii.gz")
+        head = brainshift.segment(labels, edge_length=5)
+        body = brainshift.discretise(head.brain, labels, nodes=600)
+        load = brainshift.read_load(self.head / "craniotomy.csv")
+        twice = [np.concatenate([rows, rows[:1] + by]) for rows, by in
+                 ((load.positions, [[0.1, 0, 0]]), (load.displacement, [[0, 30, 0]]))]
+        wrong = brainshift.Load(*twice, np.full_like(twice[0], 0.5))
+        with self.assertWarnsRegex(UserWarning, "standard deviations from what the other points say"):
+            brainshift.solve(body, {1: "brain", 2: "ventricle", 3: "tumour"}, wrong, labels, head.skull, head.brain)
+
     def test_what_does_not_converge_is_told_with_what_there_is(self):
         with self.assertRaises(brainshift.NotConverged) as caught:
             brainshift.run(self.head / "scene.xml", self.folder / "run", until="solve",

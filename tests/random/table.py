@@ -44,6 +44,17 @@ def by_load(rows):
     return lines
 
 
+def share(values, low, high):
+    return f"{sum(low <= v <= high for v in values)} of {len(values)}" if values else "none"
+
+
+def tightness(rows):
+    """How far bounds and estimates are above what they stand for."""
+    bounds, estimates = ratios(rows, "bound", "off_by"), ratios(rows, "estimate_95", "error_95")
+    return ["", f"The bound over the distance: median {shown(bounds, statistics.median)}, at most 10 in "
+                f"{share(bounds, 0, 10)}. The estimate over the error: 0.5 to 5 in {share(estimates, 0.5, 5)}."]
+
+
 def worst(rows, above, below, title, count=8):
     known = [(a / b, r) for r in rows for a, b in [(number(r, above), number(r, below))] if a is not None and b]
     lines = ["", f"## {title}", line(("ratio", "seed", "body", "cloud; cells; basis", "tissues: E over the least, nu",
@@ -55,7 +66,7 @@ def worst(rows, above, below, title, count=8):
 
 
 def page(rows):
-    lines = ["# Random problems", ""] + by_load(rows)
+    lines = ["# Random problems", ""] + by_load(rows) + tightness(rows)
     bad = [r for r in rows if r["verdict"] != "good"]
     lines += ["", "## Not good", line(("seed", "verdict", "body", "cloud; cells; basis", "tissues", "load", "says")),
               line(["---"] * 7)]

@@ -7,6 +7,7 @@
 #include <itkResampleImageFilter.h>
 
 #include <fstream>
+#include <limits>
 
 #include "register/registration.hpp"
 #include "register/warp/warp.hpp"
@@ -156,7 +157,7 @@ TEST_F(RegistrationFiles, TheLandmarksNameTheirFrameAndBothPlaces) {
 
 TEST_F(RegistrationFiles, TheLandmarksTellTheEstimatedErrorWhereThereIsOne) {
   Registration registration = *registration_;
-  registration.landmark_error = {0.25, 0.5};
+  registration.landmark_error = {0.25, std::numeric_limits<double>::quiet_NaN()};
   const ScratchFolder folder;
   write_registration(folder.path(), registration);
   std::ifstream in(folder.path() / "landmarks.csv");
@@ -167,7 +168,7 @@ TEST_F(RegistrationFiles, TheLandmarksTellTheEstimatedErrorWhereThereIsOne) {
   ASSERT_EQ(lines.size(), 5U);
   EXPECT_TRUE(lines[2].ends_with(",uz,estimated_error"));
   EXPECT_TRUE(lines[3].ends_with(",0.250000"));
-  EXPECT_TRUE(lines[4].ends_with(",0.500000"));
+  EXPECT_TRUE(lines[4].ends_with(","));
 }
 
 /// What is thrown names the file.

@@ -48,6 +48,16 @@ Model graded_cube() {
   return graded_cube_in(0.75);
 }
 
+/// Of 4.6 points a node.
+Model coarse_cells() {
+  return graded_cube_in(0.4);
+}
+
+/// Of 1.2 points a node.
+Model coarsest_cells() {
+  return graded_cube_in(0.08);
+}
+
 /// Some 410 nodes in hexahedra that do not conform.
 Model cylinder() {
   return verification::cylinder_model(12, 0.75, 0.49, Eigen::RowVector3d::Zero());
@@ -129,7 +139,8 @@ void expect_homogeneous(const Model& model, const Points& wanted, const Eigen::M
   EXPECT_LE(off, bounds.displacement) << figures;
   EXPECT_GE(found.smallest, volume - bounds.strain) << figures;
   EXPECT_LE(found.largest, volume + bounds.strain) << figures;
-  EXPECT_NEAR(result.measures.smallest_jacobian, std::min(1.0, found.smallest), 1e-6) << figures;
+  EXPECT_NEAR(result.measures.smallest_jacobian, std::min(1.0, found.smallest), std::max(1e-6, 1e-3 * bounds.strain))
+      << figures;
   EXPECT_NEAR(result.measures.largest_stretch, std::max(1.0, stretch), bounds.strain) << figures;
 }
 
@@ -227,7 +238,10 @@ TEST_P(Surrounded, FollowsAnAffineDisplacementOfTheSurfaceAtFortyPercent) {
 
 struct Squeezed : testing::TestWithParam<Filled> {};
 
-INSTANTIATE_TEST_SUITE_P(Bodies, Squeezed, testing::Values(Filled{"graded_cube", graded_cube}), name_of_body);
+INSTANTIATE_TEST_SUITE_P(Bodies, Squeezed,
+                         testing::Values(Filled{"coarse_cells", coarse_cells},
+                                         Filled{"coarsest_cells", coarsest_cells}),
+                         name_of_body);
 
 /// At ν = 0.49 that is a pressure of eight shear moduli.
 Eigen::Matrix3d squeeze() {
@@ -236,14 +250,6 @@ Eigen::Matrix3d squeeze() {
 
 TEST_P(Squeezed, LosesTheSixthOfItsVolumeThatIsPrescribedEverywhere) {
   expect_affine(GetParam().model(), squeeze(), {}, {0.01, 0.005});
-}
-
-/// With five points a node it folds, whatever is tried; with seven it is right or not, as the cloud has it.
-TEST(SqueezedBody, WithFewPointsANodeSaysThatItMayBeAllWrong) {
-  for (Model model : {graded_cube_in(0.4), opened_brain()}) {
-    move_surface(squeeze(), model);
-    EXPECT_EQ(solve(model, {}).measures.pressed_share, 1);
-  }
 }
 
 struct BetweenPlates : testing::TestWithParam<Filled> {};

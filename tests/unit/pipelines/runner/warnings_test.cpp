@@ -156,6 +156,30 @@ TEST(Warnings, TellOfFewSpacingsAcrossAPatch) {
   expect_parts(warnings_of(measures).front(), {"farther off than is estimated", "the held patch 3.2"});
 }
 
+/// A ventricle nearly always is: no alarm where the rest is estimated.
+TEST(Warnings, OfATissueThatIsFewSpacingsAcrossAreNotesWhereNodesAreMany) {
+  solve::SolveMeasures measures = of_many_points();
+  measures.converged = true;
+  measures.nodes = 400;
+  measures.thin = {{.what = "tissue 2", .spacings = 2.7, .is_tissue = true}};
+  measures.estimated_error_95 = 0.3;
+  EXPECT_EQ(warnings_of(measures).size(), 1U);
+  EXPECT_TRUE(notes_of(measures).empty());
+  measures.nodes = 600;
+  EXPECT_TRUE(warnings_of(measures).empty());
+  ASSERT_EQ(notes_of(measures).size(), 1U);
+  expect_parts(notes_of(measures).front(), {"four", "tissue 2 2.7"});
+}
+
+TEST(Warnings, HaveANoteWhereNothingEstimatesTheError) {
+  solve::SolveMeasures measures = of_many_points();
+  measures.converged = true;
+  ASSERT_EQ(notes_of(measures).size(), 1U);
+  expect_parts(notes_of(measures).front(), {"nothing estimates"});
+  measures.estimated_error_95 = 0.3;
+  EXPECT_TRUE(notes_of(measures).empty());
+}
+
 TEST(Warnings, TellOfVolumeUnderHighPressure) {
   solve::SolveMeasures measures = of_many_points();
   measures.pressed_share = 0.02;
