@@ -150,10 +150,10 @@ pipelines::Warnings warnings_on(const solve::CraniotomyLoad& load, const solve::
   return all;
 }
 
-/// By Python's own warnings, which a caller may turn into exceptions.
-void warn(const pipelines::Warnings& warnings) {
+/// By Python's own warnings, which a caller may turn into exceptions. frames: of Python between the caller and this.
+void warn(const pipelines::Warnings& warnings, Py_ssize_t frames = 0) {
   for (const std::string& warning : warnings) {
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) {
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1 + frames) != 0) {
       throw py::error_already_set();
     }
   }
@@ -173,7 +173,7 @@ solve::SolveResult solve_model(const discretise::Discretisation& body, const py:
     result = solve::solve(model, options, attentive(progress));
     warnings = warnings_on(load, model, options, result);
   }
-  warn(warnings);
+  warn(warnings, 1);  // init.py has a solve() of its own
   return result;
 }
 

@@ -106,11 +106,11 @@ TEST_F(Tolerance, RunReachesItAndSaysWhatItEstimated) {
 
 TEST_F(Tolerance, RunSaysWhatItReachedWhereItCouldNot) {
   const fs::path out = *scratch / "missed";
-  const ProgramResult result = run_shell("brainshift run " + scene() + " --tolerance 0.001 --max-nodes 5000 --out " +
+  const ProgramResult result = run_shell("brainshift run " + scene() + " --tolerance 0.001 --max-nodes 2500 --out " +
                                          out.string() + " --set solve.max_steps=50000");
   EXPECT_EQ(result.code, 3);
   EXPECT_NE(result.err.find("was not reached"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("5000 are allowed"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("2500 are allowed"), std::string::npos) << result.err;
   EXPECT_TRUE(fs::exists(out / "report/index.html")) << "what was reached is carried to the end";
   EXPECT_EQ(run_shell("brainshift run " + scene() + " --tolerance 0 --out " + out.string()).code, 2);
   EXPECT_EQ(run_shell("brainshift run " + scene() + " --tolerance 1 --preset fast --out " + out.string()).code, 2);
