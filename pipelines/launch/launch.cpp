@@ -6,6 +6,7 @@
 #include <sys/auxv.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <climits>
 #include <cstdio>
 #include <cstdlib>
@@ -42,6 +43,7 @@ int main(int, char** arguments) {
   for (const char* program : places) {
     become(program, arguments);
   }
-  std::fputs("brainshift: the program itself is not where it was put; build or install brainshift again\n", stderr);
+  std::fprintf(stderr, "brainshift: the program itself cannot be started (%s); build or install brainshift again\n",
+               std::strerror(errno));
   return 1;
 }

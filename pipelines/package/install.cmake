@@ -44,7 +44,7 @@ function(man_page name command sentence)
   add_custom_command(OUTPUT ${page}
     COMMAND ${CMAKE_COMMAND} -E env BRAINSHIFT=$<TARGET_FILE:brainshift>
       bash ${PROJECT_SOURCE_DIR}/pipelines/package/man_page.sh ${HELP2MAN} ${command} ${sentence} ${page}
-    DEPENDS brainshift ${PROJECT_SOURCE_DIR}/pipelines/package/man_page.sh ${ARGN} VERBATIM)
+    DEPENDS brainshift brainshift_program ${PROJECT_SOURCE_DIR}/pipelines/package/man_page.sh ${ARGN} VERBATIM)
   set_property(GLOBAL APPEND PROPERTY brainshift_man_pages ${page})
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 endfunction()

@@ -55,7 +55,8 @@ if [ $try = yes ]; then
     test -s run/register/warped.nii.gz -a -s run/report/index.html
     python3 -c "import brainshift; print(brainshift.segment(brainshift.read_label_map(\"head/labels.nii.gz\")).brain)"
     dpkg --purge python3-brainshift brainshift
-    test ! -e /usr/bin/brainshift -a ! -e /usr/share/doc/brainshift -a ! -e /usr/lib/python3/dist-packages/brainshift'
+    test ! -e /usr/bin/brainshift -a ! -e /usr/libexec/brainshift -a ! -e /usr/share/doc/brainshift
+    test ! -e /usr/lib/python3/dist-packages/brainshift'
   echo "The packages install, run a phantom and leave nothing behind."
 fi
 echo "Done: $out"

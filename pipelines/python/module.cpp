@@ -136,10 +136,13 @@ solve::Model model_of(const discretise::Discretisation& body, const solve::Crani
 pipelines::Warnings warnings_on(const solve::CraniotomyLoad& load, const solve::Model& model,
                                 const solve::SolveOptions& options, const solve::SolveResult& result) {
   using pipelines::warnings_of;
-  std::vector<pipelines::Warnings> parts = {warnings_of(result.measures),
-                                            warnings_of(load, model.cloud, model.conditions.displacement),
-                                            warnings_of(model, result.solution.displacement)};
-  if (load.sigma.rows() > 0) {
+  std::vector<pipelines::Warnings> parts = {warnings_of(result.measures)};
+  const bool points_inside = model.conditions.measured && model.conditions.measured->inner.rows() > 0;
+  if (!points_inside) {
+    parts.push_back(warnings_of(load, model.cloud, model.conditions.displacement));
+    parts.push_back(warnings_of(model, result.solution.displacement));
+  }
+  if (result.measures.measured) {
     parts.push_back(warnings_of(solve::worst_of_joined(load)));
     parts.push_back(warnings_of(solve::worst_outlier(model, options)));
   }
@@ -171,7 +174,9 @@ solve::SolveResult solve_model(const discretise::Discretisation& body, const py:
     solve::Model model = model_of(body, load, labels, skull, boundary);
     model.materials = std::move(given);
     result = solve::solve(model, options, attentive(progress));
-    warnings = warnings_on(load, model, options, result);
+    if (result.failure.empty()) {
+      warnings = warnings_on(load, model, options, result);
+    }
   }
   warn(warnings, 1);  // init.py has a solve() of its own
   return result;

@@ -16,7 +16,7 @@ file(RELATIVE_PATH program /${installed} /${CMAKE_INSTALL_BINDIR}/brainshift)
 launcher(${CMAKE_CURRENT_BINARY_DIR}/slicer/BrainShift "$(dirname \"$(readlink -f \"$0\")\")/${program}")
 
 # Slicer reads the description where it lies beside the module, and starts nothing.
-add_custom_command(TARGET brainshift POST_BUILD COMMAND brainshift slicer --xml > ${modules}/BrainShift.xml VERBATIM)
+add_custom_command(TARGET brainshift_program POST_BUILD COMMAND brainshift_program slicer --xml > ${modules}/BrainShift.xml VERBATIM)
 
 configure_file(slicer/BrainShiftPanel.py ${modules}/BrainShiftPanel.py COPYONLY)
 configure_file(slicer/BrainShiftLib/__init__.py ${modules}/BrainShiftLib/__init__.py COPYONLY)

@@ -53,7 +53,7 @@ double distance_to_boundary(const Mask& mask, const Eigen::Vector3d& point) {
   const Eigen::Array3d index = mask.geometry.to_index(point).array();
   const double spacing = mask.geometry.spacing.minCoeff();
   constexpr int farthest = 8;
-  for (int reach = 2;; reach *= 2) {
+  for (int reach = 1;; reach *= 2) {
     const double distance = std::sqrt(squared_distance_within(mask, index, reach));
     const double certain = (reach - 0.5) * spacing;  // what lies outside the box looked at is farther than this
     if (distance <= certain || reach == farthest) {

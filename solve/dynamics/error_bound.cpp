@@ -15,8 +15,8 @@ double lasting(double rate) {
   return rate < 1 ? 1 / (1 - rate) : std::numeric_limits<double>::infinity();
 }
 
-double largest_recent(const std::vector<double>& values, std::ptrdiff_t windows = recent_windows) {
-  return *std::max_element(values.end() - std::min(windows, std::ssize(values)), values.end());
+double largest_recent(const std::vector<double>& values) {
+  return *std::max_element(values.end() - recent_windows, values.end());
 }
 
 }  // namespace

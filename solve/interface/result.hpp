@@ -162,7 +162,7 @@ struct SolveMeasures {
   double largest_stretch = 0;                ///< largest principal stretch
   double compressed_share = 0;               ///< of the volume, pressed so far that its free faces may crease
   double pressed_share = 0;                  ///< of the volume, patches under a pressure above most_pressure
-  std::vector<ThinPart> thin;                ///< see thin_parts(); tissues below 500 nodes alone
+  std::vector<ThinPart> thin;                ///< see thin_parts()
   std::optional<double> estimated_error_95;  ///< 95 % of the nodes' estimates, mm, see estimated_error()
   std::optional<CutMeasures> cut;            ///< absent: nothing was cut
   std::optional<SeptumMeasures> septum;

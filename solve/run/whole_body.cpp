@@ -219,26 +219,30 @@ bool holds_under_pressure(const SolveResult& result) {
   return result.measures.fewest_points >= points_that_hold;
 }
 
-/// With pointwise dilatation and linear shape functions, of cells split up to 64, then up to 512 parts if it takes that
-/// for points that hold, where so many points can be kept. patchwise: the result without all this.
+/// With pointwise dilatation and linear shape functions. Cells are split up to 64, then up to 512 parts if it takes
+/// that for points that hold, where these are not too many and nobody asked for a way to split cells. patchwise: the
+/// result without all this.
 SolveResult attempt_pointwise(const Model& model, SolveOptions options, const SolveResult& patchwise,
                               const SolveMeasures& known, const Progress& progress) {
   const auto may_split = [&](int depth) {
-    constexpr std::size_t most_points = 2'500'000;
+    constexpr std::size_t most_points = 1'000'000;
     return model.plane == Plane::none && model.cells.size() << (3 * depth) <= most_points;
   };
   options.volumetric = Volumetric::pointwise;
   options.shape.basis = Basis::linear;
-  if (holds_under_pressure(patchwise) || !may_split(2)) {
+  if (holds_under_pressure(patchwise) || options.integration_tolerance > 0 || !may_split(2)) {
     return attempt(model, options, known, progress);
   }
   options.integration_tolerance = 0.1;
   options.points_per_cell = 1;
   options.integration_depth = 2;
   SolveResult result = attempt(model, options, known, progress);
-  if (!holds_under_pressure(result) && may_split(3)) {
+  if (!holds_under_pressure(result) && result.measures.capped_points > 0 && may_split(3)) {
     options.integration_depth = 3;
-    result = attempt(model, options, known, progress);
+    SolveResult finer = attempt(model, options, known, progress);
+    if (finer.failure.empty()) {
+      return finer;
+    }
   }
   return result;
 }
@@ -256,16 +260,18 @@ SolveResult attempt_under_pressure(const Model& model, const SolveOptions& optio
   }
   report(progress, 0, "under high pressure; once more with pointwise dilatation and linear shape functions");
   SolveResult next = attempt_pointwise(model, options, result, known, progress);
+  const bool solid = model.plane == Plane::none;
   if (!next.failure.empty()) {
+    result.measures.pressed_share = solid ? 1 : result.measures.pressed_share;
     return result;
   }
-  if (model.plane == Plane::none && !holds_under_pressure(next)) {
+  if (solid && !holds_under_pressure(next)) {
     next.measures.pressed_share = 1;
   }
-  put_first(
-      "pointwise dilatation and linear shape functions, as the volume that is prescribed puts the tissue under high "
-      "pressure",
-      next.measures.took);
+  const bool split = next.measures.integration_points > result.measures.integration_points;
+  put_first(std::string("pointwise dilatation and linear shape functions") + (split ? " in split cells" : "") +
+                ", as the volume that is prescribed puts the tissue under high pressure",
+            next.measures.took);
   return next;
 }
 
