@@ -33,7 +33,7 @@ double ErrorBound::slowest_rate() const {
 }
 
 double ErrorBound::largest_bound(double rate) const {
-  constexpr double soon = 80;  // steps
+  constexpr double soon = 80;  // steps, as four windows of a run from rest have
   double largest = largest_recent(bounds_);
   const double steps = lasting(rate);
   const auto windows = static_cast<std::ptrdiff_t>(std::min(steps / window_, static_cast<double>(bounds_.size())));
