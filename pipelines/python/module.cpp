@@ -136,12 +136,8 @@ solve::Model model_of(const discretise::Discretisation& body, const solve::Crani
 pipelines::Warnings warnings_on(const solve::CraniotomyLoad& load, const solve::Model& model,
                                 const solve::SolveOptions& options, const solve::SolveResult& result) {
   using pipelines::warnings_of;
-  std::vector<pipelines::Warnings> parts = {warnings_of(result.measures)};
-  const bool points_inside = model.conditions.measured && model.conditions.measured->inner.rows() > 0;
-  if (!points_inside) {
-    parts.push_back(warnings_of(load, model.cloud, model.conditions.displacement));
-    parts.push_back(warnings_of(model, result.solution.displacement));
-  }
+  std::vector<pipelines::Warnings> parts = {warnings_of(result.measures),
+                                            warnings_of(load, model, result.solution.displacement)};
   if (result.measures.measured) {
     parts.push_back(warnings_of(solve::worst_of_joined(load)));
     parts.push_back(warnings_of(solve::worst_outlier(model, options)));

@@ -73,11 +73,6 @@ void impose_field(const Load& how, SolveInput& input) {
   conditions.force = std::move(force);
 }
 
-/// Then what is said of points of the cortex alone does not hold.
-bool has_inner_points(const solve::Model& model) {
-  return model.conditions.measured && model.conditions.measured->inner.rows() > 0;
-}
-
 /// What is taken of the load. Where that is asked for, points that contradict those with which the solve joins them
 /// hardly count; else a note names the worst, which the mean would hide.
 solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, bool robust, std::vector<std::string>& notes) {
@@ -300,9 +295,8 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
   add_uncertainty(job, input, result, out, said, part_of(given, solving_share, 1));
   warn(warnings_of(result.measures), said);
   warn(warnings_of_weight(input.model), said);
-  if (input.load && !has_inner_points(input.model)) {
-    warn(warnings_of(*input.load, input.model.cloud, input.model.conditions.displacement), said);
-    warn(warnings_of(input.model, result.solution.displacement), said);
+  if (input.load) {
+    warn(warnings_of(*input.load, input.model, result.solution.displacement), said);
   }
   return said;
 }

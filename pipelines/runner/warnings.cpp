@@ -110,6 +110,16 @@ Warnings warnings_of(const solve::Model& model, const Points& displacement) {
           " mm); in a patient the skull holds it: add <contact/>, unless that is meant"};
 }
 
+Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& model, const Points& displacement) {
+  if (model.conditions.measured && model.conditions.measured->inner.rows() > 0) {
+    return {};
+  }
+  Warnings warnings = warnings_of(load, model.cloud, model.conditions.displacement);
+  const Warnings more = warnings_of(model, displacement);
+  warnings.insert(warnings.end(), more.begin(), more.end());
+  return warnings;
+}
+
 Warnings warnings_of_weight(const solve::Model& model) {
   if (model.gravity.isZero() || !model.skull) {
     return {};

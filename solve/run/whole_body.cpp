@@ -177,13 +177,12 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
       start_from = in_body_order(*last, prepared.body.original);
     }
   }
-  const std::vector<ThinPart> thin = thin_parts(model, prepared.body.placed);
+  measures.thin = thin_parts(model, prepared.body.placed);
   SolveResult result = step_to_end(model, options, std::move(prepared), measures, std::move(start_from), progress);
   if (coarse && result.failure.empty()) {
     result.solution.estimated_error = estimated_error(model.cloud, result.solution.displacement, *coarse);
     result.measures.estimated_error_95 = percentile_95(result.solution.estimated_error);
   }
-  result.measures.thin = thin;
   return result;
 }
 
