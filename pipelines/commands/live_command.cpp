@@ -47,6 +47,9 @@ void answer_next(LiveRun& run, FileWatch& watch, const LiveArguments& arguments,
     if (arguments.image) {
       run.warp_image();
     }
+    for (const std::string& warning : run.warnings()) {
+      std::fprintf(stderr, "brainshift: warning: %s\n", printable(warning).c_str());
+    }
   } catch (const std::invalid_argument& fault) {
     std::fprintf(stderr, "brainshift: passed over: %s\n", printable(fault.what()).c_str());
   } catch (const std::runtime_error& fault) {

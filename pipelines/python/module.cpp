@@ -140,7 +140,7 @@ pipelines::Warnings warnings_on(const solve::CraniotomyLoad& load, const solve::
                                             warnings_of(load, model, result.solution.displacement)};
   if (result.measures.measured) {
     parts.push_back(warnings_of(solve::worst_of_joined(load)));
-    parts.push_back(warnings_of(solve::worst_outlier(model, options)));
+    parts.push_back(warnings_of(solve::worst_outlier(solve::thinned_body(model, options.shape), model.conditions)));
   }
   pipelines::Warnings all;
   for (const pipelines::Warnings& part : parts) {

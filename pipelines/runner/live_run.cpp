@@ -85,7 +85,7 @@ UpdatedRun& LiveRun::updated() {
 }
 
 LiveRun::Answer LiveRun::answer(const fs::path& file) {
-  const solve::CraniotomyLoad load = UpdatedRun::read(file);
+  solve::CraniotomyLoad load = updated().read(file);
   const std::string fault_before = updated().device_fault();
   solve::SolveResult result;
   try {
@@ -114,6 +114,7 @@ LiveRun::Answer LiveRun::answer(const fs::path& file) {
   solve::write_craniotomy_csv(folder.path() / "load.csv", load);
   folder.replace();
   ++number_;
+  load_ = std::move(load);
   return {place, result.measures.largest_displacement, result.measures.error_bound,
           fault_before.empty() ? updated().device_fault() : std::string()};
 }

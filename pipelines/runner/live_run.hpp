@@ -37,6 +37,9 @@ class LiveRun {
   /// UpdatedRun::not_kept() of the run as it was read first.
   const std::string& not_kept() const { return not_kept_; }
 
+  /// What is wrong with the load of the last answer, as a run's notes have it.
+  Warnings warnings() const { return updated_->warnings(load_); }
+
   /// Adds warped.nii.gz to the last answer. Only with an image.
   void warp_image();
 
@@ -53,8 +56,9 @@ class LiveRun {
   std::optional<ScalarImage> t1_;
   registration::RegisterOptions options_;
   std::string not_kept_;
-  int number_ = 0;          ///< of the last answer
-  VectorImage resampling_;  ///< of the last answer
+  int number_ = 0;              ///< of the last answer
+  solve::CraniotomyLoad load_;  ///< of the last answer
+  VectorImage resampling_;      ///< of the last answer
 };
 
 }  // namespace brainshift::pipelines

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <stdexcept>
 
+#include "pipelines/runner/impose.hpp"
 #include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/patient_registration.hpp"
@@ -30,15 +31,10 @@ std::string load_files(const Load& load) {
   return files ? files->before.string() + " and " + files->after.string() : "";
 }
 
-/// As measured where standard deviations are known, else exactly.
+/// The forces that the nodes' file has stay.
 void impose(const solve::CraniotomyLoad& load, const Load& how, solve::Model& model) {
-  if (load.sigma.rows() == 0) {
-    model.conditions.displacement = solve::prescribed_on_surface_nodes(model.cloud, load, how.opening);
-    return;
-  }
   Points force = std::move(model.conditions.force);
-  model.conditions = solve::noisy_conditions(model.cloud, load, how.opening);
-  model.conditions.measured->weight = how.weight;
+  model.conditions = imposed(load, how, model.cloud);
   model.conditions.force = std::move(force);
 }
 
@@ -73,17 +69,6 @@ void impose_field(const Load& how, SolveInput& input) {
   conditions.force = std::move(force);
 }
 
-/// What is taken of the load. Where that is asked for, points that contradict those with which the solve joins them
-/// hardly count; else a note names the worst, which the mean would hide.
-solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, bool robust, std::vector<std::string>& notes) {
-  solve::CraniotomyLoad taken = load;
-  if (load.sigma.rows() == 0) {
-    return taken;
-  }
-  warn(robust ? warnings_of(solve::lessen_joined(taken)) : warnings_of(solve::worst_of_joined(taken)), notes);
-  return taken;
-}
-
 /// Whether a turn about one line would hardly move any of them.
 bool are_in_line(const Points& positions) {
   constexpr double nearly = 0.01;  // of their extent along the line
@@ -111,7 +96,8 @@ void write_measured(const SolveInput& input, const solve::SolveResult& result, c
     return;
   }
   const solve::MeasuredFit& fit = *result.measures.measured;
-  warn(warnings_of(solve::worst_outlier(input.model, input.options)), said);
+  warn(warnings_of(solve::worst_outlier(solve::thinned_body(input.model, input.options.shape), input.model.conditions)),
+       said);
   if (input.registration) {
     solve::write_rigid(out / "registration_error.tfm", *input.registration);
     said.measures["registration_angle_deg"] = input.registration->angle();
@@ -240,9 +226,7 @@ SolveInput read_input(const SolveJob& job) {
   } else if (job.load) {
     input.load = read_load(*job.load, job.surface);
     solve::CraniotomyLoad& load = *input.load;
-    if (load.sigma.rows() == 0 && job.load->noise) {
-      load.sigma = Points::Constant(load.positions.rows(), 3, *job.load->noise);
-    }
+    add_noise(*job.load, load);
     naming(load_files(*job.load), [&] {
       const solve::CraniotomyLoad taken = looked_through(load, job.load->robust, input.notes);
       if (!job.load->registration_unknown) {

@@ -137,7 +137,7 @@ class Sampler {
   Sampler(const UncertaintyJob& job, const Solved& solved, const fs::path& out)
       : options_(solved.options), model_(solved.model), answer_(solved.result.solution), folder_(job.samples, out) {
     if (solved.result.measures.measured) {
-      model_.conditions = solve::weighed_conditions(solved.model, *solved.result.measures.measured);
+      model_.conditions = solve::weighed_conditions(solved.model.conditions, *solved.result.measures.measured);
     }
   }
 

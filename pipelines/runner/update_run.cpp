@@ -3,12 +3,12 @@
 
 #include <fstream>
 
+#include "pipelines/runner/impose.hpp"
 #include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/sha256.hpp"
-#include "pipelines/runner/warnings.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
 #include "segmentation/files/make_folder.hpp"
@@ -16,6 +16,7 @@
 #include "solve/body/nodal_order.hpp"
 #include "solve/device/kept_on_device.hpp"
 #include "solve/output/solution_file.hpp"
+#include "solve/run/measured.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -86,6 +87,12 @@ void refuse_what_cannot(const fs::path& run, const Scene& scene, const StageReco
   if (!scene.load || scene.load->empty()) {
     refuse(run, "the run cannot be updated: its scene has no <load>");
   }
+  if (scene.load->robust) {
+    refuse(run, "the run cannot be updated: its load has robust weights; run a scene with the new load");
+  }
+  if (scene.load->field && scene.load->noise) {
+    refuse(run, "the run cannot be updated: its load is a field with noise; run a scene with the new one");
+  }
   const std::string took = solved.entry.value("/measures/took"_json_pointer, "");
   if (!took.empty() && !took.ends_with(" load steps")) {  // an update has no load that comes slowly
     refuse(run,
@@ -108,7 +115,7 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
   }
   key_ = sha256_of_text(solved.stamp + sha256_of_file(run_ / "solve" / "solution.vtu"));
   const SolveJob job = solve_job(scene_, run_);
-  opening_ = job.load->opening;
+  how_ = *job.load;
   report(progress, 0, "reading");
   if (auto kept = solve::read_kept(file_, key_, job.materials, job.options)) {
     kept_ = std::move(*kept);
@@ -134,12 +141,20 @@ void UpdatedRun::make_kept(const SolveJob& job, const Progress& progress) {
   }
 }
 
-solve::CraniotomyLoad UpdatedRun::read(const fs::path& file) {
+solve::CraniotomyLoad UpdatedRun::read(const fs::path& file) const {
   solve::CraniotomyLoad load = solve::read_craniotomy_csv(file);
-  if (load.sigma.rows() > 0) {
+  if (!kept_.thinned && load.sigma.rows() > 0) {
     refuse(file,
            "it has standard deviations, but the run's load was met exactly; leave the columns sigma out, or run "
            "a scene with this load");
+  }
+  if (kept_.thinned) {
+    add_noise(how_, load);
+    if (load.sigma.rows() == 0) {
+      refuse(file,
+             "it has no standard deviations, but those of the run's load were in its file; add a column sigma, or run "
+             "a scene with this load");
+    }
   }
   return load;
 }
@@ -159,8 +174,33 @@ std::string UpdatedRun::device_fault() const {
 solve::SolveResult UpdatedRun::solve(const solve::CraniotomyLoad& load, const fs::path& file,
                                      const Progress& progress) {
   return naming(file.string(), [&] {
-    return solve::update(kept_, solve::prescribed_on_surface_nodes(cloud(), load, opening_), progress);
+    answered_ = imposed(load, how_, cloud());
+    return solve::update(kept_, answered_, progress);
   });
+}
+
+solve::SolveResult UpdatedRun::answer_own_load(const Progress& progress) {
+  if (kept_.thinned) {
+    const fs::path file = run_ / "solve" / "load.csv";
+    return solve(read(file), file, progress);
+  }
+  return solve::update(kept_, kept_.origin.prescribed, progress);
+}
+
+Warnings UpdatedRun::warnings(const solve::CraniotomyLoad& load) const {
+  std::vector<Warnings> parts;
+  if (answered_.measured) {
+    parts.push_back(warnings_of(solve::worst_of_joined(load)));
+    parts.push_back(warnings_of(solve::worst_outlier(*kept_.thinned, answered_)));
+  }
+  if (!answered_.measured || answered_.measured->inner.rows() == 0) {
+    parts.push_back(warnings_of(load, cloud(), kept_.prescribed));
+  }
+  Warnings all;
+  for (const Warnings& part : parts) {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
 }
 
 StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const Progress& progress) {
@@ -173,7 +213,7 @@ StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const 
     said.notes.push_back("warning: the next update prepares the run again: " + not_kept_);
   }
   warn(warnings_of(result.measures), said);
-  warn(warnings_of(load, cloud(), kept_.prescribed), said);
+  warn(warnings(load), said);
   return said;
 }
 

@@ -7,6 +7,7 @@
 
 #include "pipelines/runner/interruption.hpp"
 #include "pipelines/runner/jobs.hpp"
+#include "pipelines/runner/warnings.hpp"
 #include "pipelines/scene/scene.hpp"
 #include "segmentation/progress/progress.hpp"
 #include "solve/load/craniotomy_load.hpp"
@@ -23,18 +24,20 @@ class UpdatedRun {
   UpdatedRun(const std::filesystem::path& run, Interruption& interruption, const Progress& progress = {},
              std::optional<solve::Device> device = {});
 
-  /// Displacements of a CSV. Throws std::invalid_argument, naming the file, where they cannot be a run's new ones.
-  static solve::CraniotomyLoad read(const std::filesystem::path& file);
+  /// Displacements of a CSV, with standard deviations where the run's load had some: the scene's, where the file says
+  /// none. Throws std::invalid_argument, naming the file, where they cannot be the run's new ones.
+  solve::CraniotomyLoad read(const std::filesystem::path& file) const;
 
   /// Answers them. file: that they are from, for what is at fault. After a throw or a failure the run must be made
   /// anew.
   solve::SolveResult solve(const solve::CraniotomyLoad& load, const std::filesystem::path& file,
                            const Progress& progress);
 
-  /// Once more the load that the run was solved with. After a failure the run must be made anew.
-  solve::SolveResult answer_own_load(const Progress& progress) {
-    return solve::update(kept_, kept_.origin.prescribed, progress);
-  }
+  /// Once more the load that the run was solved with. After a throw or a failure the run must be made anew.
+  solve::SolveResult answer_own_load(const Progress& progress);
+
+  /// What is wrong with the load that was answered last, as a run's notes have it.
+  Warnings warnings(const solve::CraniotomyLoad& load) const;
 
   /// û of the last answer, in the order of the cloud, (n × 3) mm.
   Points parameters() const;
@@ -59,8 +62,9 @@ class UpdatedRun {
   std::filesystem::path run_, file_;
   Scene scene_;
   std::string key_;
-  solve::OpeningOptions opening_;
+  Load how_;  ///< the run's load was imposed
   solve::KeptRun kept_;
+  solve::Conditions answered_;  ///< of the last load
   std::string not_kept_;
 };
 

@@ -77,7 +77,7 @@ Eigen::MatrixXd stiffness_of(const BodyParts& parts) {
 }
 
 /// Outward at a surface node: away from the mean of the nodes about it.
-Eigen::Vector3d outward(const OrderedCloud& cloud, Eigen::Index node) {
+Eigen::Vector3d outward(const NodeCloud& cloud, Eigen::Index node) {
   const Eigen::RowVector3d x = cloud.positions.row(node);
   const double reach = 2.5 * cloud.spacing[static_cast<std::size_t>(node)];
   Eigen::RowVector3d away = Eigen::RowVector3d::Zero();
@@ -98,17 +98,18 @@ bool is_held(const Conditions& conditions, Eigen::Index node, int axis) {
   return conditions.is_prescribed(node, axis) && !is_measured(conditions, node);
 }
 
-bool hold(const OrderedCloud& cloud, bool touches, Eigen::MatrixXd& k) {
+/// K with what holds the body. Returns whether anything does.
+bool hold(const NodeCloud& cloud, const Conditions& conditions, bool touches, Eigen::MatrixXd& k) {
   const double stiff = held_stiffness * k.diagonal().mean();
   bool held = touches;
   for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (is_held(cloud.conditions, a, axis)) {
+      if (is_held(conditions, a, axis)) {
         k(3 * a + axis, 3 * a + axis) += stiff;
         held = true;
       }
     }
-    if (touches && cloud.on_surface[static_cast<std::size_t>(a)] != 0 && !cloud.conditions.is_prescribed(a)) {
+    if (touches && cloud.on_surface[static_cast<std::size_t>(a)] != 0 && !conditions.is_prescribed(a)) {
       const Eigen::Vector3d normal = outward(cloud, a);
       k.block<3, 3>(3 * a, 3 * a) += stiff * normal * normal.transpose();
     }
@@ -143,16 +144,20 @@ Eigen::MatrixXd rigid_motions(const Points& places, const Points& about) {
   return motions;
 }
 
-Response linear_response(const BodyParts& parts, const ShapeRows& at_points, bool touches) {
-  Eigen::MatrixXd k = stiffness_of(parts);
-  const bool held = hold(parts.cloud, touches && !mostly_prescribed(parts.cloud, parts.cloud.conditions), k);
+StiffBody stiff_body(const BodyParts& parts, bool touches) {
+  return {parts.cloud, stiffness_of(parts), touches};
+}
+
+Response linear_response(const StiffBody& body, const Conditions& conditions, const ShapeRows& at_points) {
+  Eigen::MatrixXd k = body.stiffness;
+  const bool held = hold(body.cloud, conditions, body.touches && !mostly_prescribed(body.cloud, conditions), k);
   k.diagonal().array() += slack * k.diagonal().mean();
-  const Eigen::MatrixXd observed = loads_at(at_points, parts.cloud.size());
+  const Eigen::MatrixXd observed = loads_at(at_points, body.cloud.size());
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(k);
   if (held) {
     return {observed.transpose() * factor.solve(observed), Eigen::MatrixXd(observed.cols(), 0), false};
   }
-  const Eigen::MatrixXd motions = rigid_motions(parts.cloud.positions, parts.cloud.positions);
+  const Eigen::MatrixXd motions = rigid_motions(body.cloud.positions, body.cloud.positions);
   const Eigen::MatrixXd basis =
       Eigen::HouseholderQR<Eigen::MatrixXd>(motions).householderQ() * Eigen::MatrixXd::Identity(motions.rows(), 6);
   const Eigen::MatrixXd balanced = observed - basis * (basis.transpose() * observed);
@@ -161,16 +166,16 @@ Response linear_response(const BodyParts& parts, const ShapeRows& at_points, boo
   return {observed.transpose() * moved, observed.transpose() * motions, true};
 }
 
-Carried carried_motion(const BodyParts& parts, const ShapeRows& at_points, bool touches) {
+Carried carried_motion(const StiffBody& body, const Conditions& conditions, const ShapeRows& at_points) {
   Carried carried;
-  for (Eigen::Index a = 0; a < parts.cloud.positions.rows(); ++a) {
-    if (is_measured(parts.cloud.conditions, a)) {
+  for (Eigen::Index a = 0; a < body.cloud.positions.rows(); ++a) {
+    if (is_measured(conditions, a)) {
       carried.nodes.push_back(a);
     }
   }
-  Eigen::MatrixXd k = stiffness_of(parts);
+  Eigen::MatrixXd k = body.stiffness;
   const double stiff = held_stiffness * k.diagonal().mean();
-  hold(parts.cloud, touches, k);
+  hold(body.cloud, conditions, body.touches, k);
   Eigen::MatrixXd push = Eigen::MatrixXd::Zero(k.rows(), static_cast<Eigen::Index>(3 * carried.nodes.size()));
   for (std::size_t i = 0; i < carried.nodes.size(); ++i) {
     const Eigen::Index a = 3 * carried.nodes[i];
@@ -179,7 +184,7 @@ Carried carried_motion(const BodyParts& parts, const ShapeRows& at_points, bool 
   }
   k.diagonal().array() += slack * k.diagonal().mean();
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(k);
-  carried.motion = loads_at(at_points, parts.cloud.size()).transpose() * factor.solve(push);
+  carried.motion = loads_at(at_points, body.cloud.size()).transpose() * factor.solve(push);
   return carried;
 }
 

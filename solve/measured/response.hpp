@@ -26,11 +26,21 @@ struct Response {
 /// `about` by 1 mm a mean distance from it.
 Eigen::MatrixXd rigid_motions(const Points& places, const Points& about);
 
-/// G = Φ K⁻¹ Φᵀ with K the stiffness of the undeformed body, its patches' pressures constant, assembled and factorised
-/// whole: for clouds of some hundred nodes. at_points: shape functions at the points. touches: the surface is held
-/// along its normal where nothing is prescribed, as a skull around it would; not where more of it is prescribed than
-/// free, as the rest would hardly resist a rigid motion. Prescribed nodes that no point has a share in are held.
-Response linear_response(const BodyParts& parts, const ShapeRows& at_points, bool touches);
+/// What a body of some hundred nodes answers forces by.
+struct StiffBody {
+  NodeCloud cloud;
+  Eigen::MatrixXd stiffness;  ///< K of the undeformed body, its patches' pressures constant, nothing held, (3n × 3n)
+  /// The surface is held along its normal where nothing is prescribed, as a skull around it would; not where more of it
+  /// is prescribed than free, as the rest would hardly resist a rigid motion.
+  bool touches = false;
+};
+
+/// Assembled whole: for clouds of some hundred nodes. touches: as StiffBody has it.
+StiffBody stiff_body(const BodyParts& parts, bool touches);
+
+/// G = Φ K⁻¹ Φᵀ. at_points: shape functions at the points. Prescribed nodes that no measured point has a share in are
+/// held. conditions: at the body's nodes.
+Response linear_response(const StiffBody& body, const Conditions& conditions, const ShapeRows& at_points);
 
 /// How the motion of the opening is carried into the same body.
 struct Carried {
@@ -39,6 +49,6 @@ struct Carried {
 };
 
 /// Where the measured nodes are held. Arguments as of linear_response().
-Carried carried_motion(const BodyParts& parts, const ShapeRows& at_points, bool touches);
+Carried carried_motion(const StiffBody& body, const Conditions& conditions, const ShapeRows& at_points);
 
 }  // namespace brainshift::solve

@@ -6,26 +6,17 @@
 #include <numeric>
 #include <utility>
 
-#include "solve/cut/resection.hpp"
 #include "solve/interface/unfit_parts.hpp"
 #include "solve/load/noisy_load.hpp"
 #include "solve/load/spread_out.hpp"
 #include "solve/measured/inner_rows.hpp"
 #include "solve/measured/surprise.hpp"
 #include "solve/measured/weight.hpp"
-#include "solve/quadrature/cell_points.hpp"
-#include "solve/quadrature/pressure_patches.hpp"
-#include "solve/run/coarse.hpp"
-#include "solve/run/prepare.hpp"
 #include "solve/run/whole_body.hpp"
-#include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::solve {
 
 namespace {
-
-constexpr std::size_t most_nodes = 500;  // of the cloud on which the weight is chosen
-constexpr double nodes_a_patch = 8;
 
 void check_parts(const Model& model, const SolveOptions& options) {
   std::vector<UnfitPart> unfit = beyond_rest(model, options);
@@ -48,39 +39,6 @@ struct Seen {
         displacement(stacked(m.cortex_displacement, m.inner_displacement)),
         sigma(stacked(m.sigma, m.inner_sigma)) {}
 };
-
-/// The model on a few hundred of its nodes.
-BodyParts few_nodes(const Model& model, ShapeOptions shape_options, std::optional<ShapeFunctions>& shape) {
-  NodeCloud cloud = model.cloud;
-  Conditions conditions = model.conditions;
-  while (cloud.size() > most_nodes) {
-    const std::vector<std::int32_t> nodes = coarse_nodes(cloud, conditions);
-    if (nodes.size() >= cloud.size()) {
-      break;
-    }
-    const double wider = std::cbrt(static_cast<double>(cloud.size()) / static_cast<double>(nodes.size()));
-    cloud = subset(cloud, nodes);
-    conditions = subset(conditions, nodes);
-    for (double& spacing : cloud.spacing) {
-      spacing *= wider;
-    }
-  }
-  BodyParts parts;
-  parts.cloud = order_nodes(cloud, conditions);
-  shape_options = {.basis = Basis::linear, .derivatives = shape_options.derivatives};
-  shape.emplace(parts.cloud.positions, parts.cloud.spacing, shape_options);
-  const LabelMap* labels = model.labels ? &*model.labels : nullptr;
-  parts.points = integration_points(model.cells, 1, labels, tissues_of(model));
-  parts.point_rows = shape->evaluate(parts.points.positions, true);
-  parts.materials = material_table(model.materials, parts.points.label);
-  const double volume = std::accumulate(parts.points.volume.begin(), parts.points.volume.end(), 0.0);
-  std::vector<double> share = parts.points.volume;
-  for (double& s : share) {
-    s *= static_cast<double>(parts.cloud.size()) / volume;
-  }
-  parts.patches = pressure_patches(parts.points.positions, share, parts.materials.row_of_point, nodes_a_patch);
-  return parts;
-}
 
 /// Each node by itself: the response to forces on its parameters.
 void append_nodes(std::size_t nodes, ShapeRows& rows) {
@@ -109,18 +67,29 @@ Eigen::MatrixXd covariance_of(const ShapeRows& rows, const Eigen::MatrixXd& join
 }
 
 /// What the fit is made on: the thinned body, and what is measured, spread out first.
-struct Thinned {
-  std::optional<ShapeFunctions> shape;
-  BodyParts parts;
+struct Asked {
+  const ThinnedBody& thinned;
+  Conditions conditions;  // at its nodes
+  ShapeFunctions shape;
   std::vector<Eigen::Index> points;  // of Seen
   Points positions, displacement, sigma;
 
-  Thinned(const Model& model, const SolveOptions& options) : parts(few_nodes(model, options.shape, shape)) {
-    const Seen seen(*model.conditions.measured);
+  Asked(const ThinnedBody& body, const Conditions& all)
+      : thinned(body), conditions(subset(all, body.node)), shape(body.shape()) {
+    const Seen seen(*all.measured);
     points = spread_out(seen.positions, seen.positions.rows());
     positions = seen.positions(points, Eigen::all);
     displacement = seen.displacement(points, Eigen::all);
     sigma = seen.sigma(points, Eigen::all);
+  }
+
+  /// places: what the rows see, the measured points first.
+  Response response(const ShapeRows& rows, const Points& places) const {
+    Response response = linear_response(thinned.stiff, conditions, rows);
+    if (conditions.measured->registration_unknown) {
+      response.rigid = rigid_motions(places, positions);
+    }
+    return response;
   }
 };
 
@@ -131,21 +100,21 @@ bool is_held(const Conditions& conditions, Eigen::Index node) {
 
 /// Lets a smooth motion of the opening move its points as they were measured, and all else as the body carries it; not
 /// where the registration, which would share it, is unknown, or the weight is given.
-void add_smooth_motion(const Thinned& thin, const Model& model, const ShapeRows& rows, Response& response) {
-  const Measurement& m = *model.conditions.measured;
+void add_smooth_motion(const Asked& asked, const ShapeRows& rows, Response& response) {
+  const Measurement& m = *asked.conditions.measured;
   if (m.registration_unknown || m.cortex.rows() == 0 || m.weight > 0) {
     return;
   }
   std::vector<Eigen::Index> on_cortex;  // rows
-  for (std::size_t i = 0; i < thin.points.size(); ++i) {
-    if (thin.points[i] < m.cortex.rows()) {
+  for (std::size_t i = 0; i < asked.points.size(); ++i) {
+    if (asked.points[i] < m.cortex.rows()) {
       on_cortex.push_back(static_cast<Eigen::Index>(i));
     }
   }
-  const Carried carried = carried_motion(thin.parts, rows, model.skull.has_value());
+  const StiffBody& body = asked.thinned.stiff;
+  const Carried carried = carried_motion(body, asked.conditions, rows);
   const auto own = static_cast<Eigen::Index>(on_cortex.size());
-  response.sites =
-      stacked(thin.positions(on_cortex, Eigen::all), thin.parts.cloud.positions(carried.nodes, Eigen::all));
+  response.sites = stacked(asked.positions(on_cortex, Eigen::all), body.cloud.positions(carried.nodes, Eigen::all));
   response.carry = Eigen::MatrixXd::Zero(response.compliance.rows(), 3 * response.sites.rows());
   response.carry.rightCols(carried.motion.cols()) = carried.motion;
   for (Eigen::Index i = 0; i < own; ++i) {
@@ -155,32 +124,23 @@ void add_smooth_motion(const Thinned& thin, const Model& model, const ShapeRows&
   }
 }
 
-/// places: what the rows see, the measured points first.
-Response response_of(const Thinned& thin, const Model& model, const ShapeRows& rows, const Points& places) {
-  Response response = linear_response(thin.parts, rows, model.skull.has_value());
-  if (model.conditions.measured->registration_unknown) {
-    response.rigid = rigid_motions(places, thin.positions);
-  }
-  return response;
-}
-
 }  // namespace
 
-MeasuredFit fit_measured(const Model& model, const SolveOptions& options) {
-  const Thinned thin(model, options);
-  const Measurement& measured = *model.conditions.measured;
-  const Points places = stacked(thin.positions, measured.asked);
-  const ShapeRows rows = inner_rows(*thin.shape, places);
-  Response response = response_of(thin, model, rows, places);
-  add_smooth_motion(thin, model, rows, response);
-  MeasuredFit fit = choose_weight(response, thin.displacement, thin.sigma, measured.weight);
-  fit.motion_centre = thin.positions.colwise().mean().transpose();
-  fit.motion_size = (thin.positions.rowwise() - fit.motion_centre.transpose()).rowwise().norm().mean();
+MeasuredFit fit_measured(const ThinnedBody& thinned, const Conditions& conditions) {
+  const Asked asked(thinned, conditions);
+  const Measurement& measured = *conditions.measured;
+  const Points places = stacked(asked.positions, measured.asked);
+  const ShapeRows rows = inner_rows(asked.shape, places);
+  Response response = asked.response(rows, places);
+  add_smooth_motion(asked, rows, response);
+  MeasuredFit fit = choose_weight(response, asked.displacement, asked.sigma, measured.weight);
+  fit.motion_centre = asked.positions.colwise().mean().transpose();
+  fit.motion_size = (asked.positions.rowwise() - fit.motion_centre.transpose()).rowwise().norm().mean();
   if (fit.smooth.length > 0) {
     Points smoothed = measured.cortex_displacement;  // of points that are there twice, as measured
-    for (std::size_t i = 0; i < thin.points.size(); ++i) {
-      if (thin.points[i] < smoothed.rows()) {
-        smoothed.row(thin.points[i]) = fit.smoothed.row(static_cast<Eigen::Index>(i));
+    for (std::size_t i = 0; i < asked.points.size(); ++i) {
+      if (asked.points[i] < smoothed.rows()) {
+        smoothed.row(asked.points[i]) = fit.smoothed.row(static_cast<Eigen::Index>(i));
       }
     }
     fit.smoothed = std::move(smoothed);
@@ -188,8 +148,7 @@ MeasuredFit fit_measured(const Model& model, const SolveOptions& options) {
   return fit;
 }
 
-Conditions weighed_conditions(const Model& model, const MeasuredFit& fit) {
-  Conditions conditions = model.conditions;
+Conditions weighed_conditions(Conditions conditions, const MeasuredFit& fit) {
   Measurement& measured = *conditions.measured;
   measured.weight = fit.weight;
   if (fit.smooth.length > 0) {
@@ -203,14 +162,15 @@ Conditions weighed_conditions(const Model& model, const MeasuredFit& fit) {
 }
 
 Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit) {
-  const Thinned thin(model, options);
-  ShapeRows rows = inner_rows(*thin.shape, thin.positions);
-  append_nodes(thin.parts.cloud.size(), rows);
-  const Points places = stacked(thin.positions, thin.parts.cloud.positions);
-  Response response = response_of(thin, model, rows, places);
-  add_smooth_motion(thin, model, rows, response);
-  const Eigen::MatrixXd joint = posterior_covariance(response, thin.sigma, fit);
-  Eigen::MatrixXd covariance = covariance_of(inner_rows(*thin.shape, model.cloud.positions), joint);
+  const ThinnedBody thinned = thinned_body(model, options.shape);
+  const Asked asked(thinned, model.conditions);
+  ShapeRows rows = inner_rows(asked.shape, asked.positions);
+  append_nodes(thinned.node.size(), rows);
+  const Points places = stacked(asked.positions, thinned.stiff.cloud.positions);
+  Response response = asked.response(rows, places);
+  add_smooth_motion(asked, rows, response);
+  const Eigen::MatrixXd joint = posterior_covariance(response, asked.sigma, fit);
+  Eigen::MatrixXd covariance = covariance_of(inner_rows(asked.shape, model.cloud.positions), joint);
   for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
     if (is_held(model.conditions, a)) {
       covariance.row(a).setZero();  // a ball about it reaches past the body
@@ -219,12 +179,12 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
   return covariance;
 }
 
-std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options) {
-  const Thinned thin(model, options);
+std::optional<Outlier> worst_outlier(const ThinnedBody& thinned, const Conditions& conditions) {
+  const Asked asked(thinned, conditions);
   // Without a smooth motion: one alike over short lengths takes a wrong point for one of its own.
-  const Response response = response_of(thin, model, inner_rows(*thin.shape, thin.positions), thin.positions);
-  const MeasuredFit fit = choose_weight(response, thin.displacement, thin.sigma, model.conditions.measured->weight);
-  const Eigen::VectorXd off = surprise(response, thin.displacement, thin.sigma, fit);
+  const Response response = asked.response(inner_rows(asked.shape, asked.positions), asked.positions);
+  const MeasuredFit fit = choose_weight(response, asked.displacement, asked.sigma, conditions.measured->weight);
+  const Eigen::VectorXd off = surprise(response, asked.displacement, asked.sigma, fit);
   std::vector<double> sorted(off.begin(), off.end());
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
   const double usual = std::max(1.0, sorted[sorted.size() / 2] / usual_surprise);
@@ -232,16 +192,16 @@ std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& opt
   if (!(off.maxCoeff(&worst) > surprising * usual)) {
     return std::nullopt;
   }
-  return Outlier{thin.positions.row(worst), off[worst] / usual};
+  return Outlier{asked.positions.row(worst), off[worst] / usual};
 }
 
 LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const OpeningOptions& opening) {
   check_parts(model, options);
-  std::optional<ShapeFunctions> shape;
-  const BodyParts parts = few_nodes(model, options.shape, shape);
+  const ThinnedBody thinned = thinned_body(model, options.shape);
   const Seen seen(*model.conditions.measured);
   const double weight = model.conditions.measured->weight;
-  const Response response = linear_response(parts, inner_rows(*shape, seen.positions), model.skull.has_value());
+  const Response response = linear_response(thinned.stiff, subset(model.conditions, thinned.node),
+                                            inner_rows(thinned.shape(), seen.positions));
   const Eigen::VectorXd trust = robust_weights(response, seen.displacement, seen.sigma, weight);
   std::vector<Eigen::Index> kept, lessened;
   for (Eigen::Index i = 0; i < trust.size(); ++i) {
@@ -266,9 +226,9 @@ LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const 
 SolveResult solve_measured(const Model& model, const SolveOptions& options, const Progress& progress) {
   check_parts(model, options);
   report(progress, 0, "weighing the deformation against the noise");
-  MeasuredFit fit = fit_measured(model, options);
+  MeasuredFit fit = fit_measured(thinned_body(model, options.shape), model.conditions);
   Model weighed = model;
-  weighed.conditions = weighed_conditions(model, fit);
+  weighed.conditions = weighed_conditions(model.conditions, fit);
   SolveResult result = solve_whole_body(weighed, options, progress);
   result.measures.measured = std::move(fit);
   return result;

@@ -10,23 +10,24 @@
 #include "solve/interface/result.hpp"
 #include "solve/load/contradictions.hpp"
 #include "solve/load/craniotomy_load.hpp"
+#include "solve/run/thinned_body.hpp"
 
 namespace brainshift::solve {
 
-/// What the measured points of a model say of the weight, the noise and a rigid motion, by a linear body of some
-/// hundred of the nodes: choose_weight(). Throws as solve() does.
-MeasuredFit fit_measured(const Model& model, const SolveOptions& options);
+/// What measured points say of the weight, the noise and a rigid motion, by the thinned body: choose_weight().
+/// conditions: at the nodes of the whole cloud. Throws as solve() does.
+MeasuredFit fit_measured(const ThinnedBody& thinned, const Conditions& conditions);
 
 /// What noise and prior leave open of the displacement at each node of the model's cloud, (n × 6) mm²: xx, yy, zz, xy,
-/// yz, zx of its covariance, with the weight and the noise_factor of the fit; of the linear body of some hundred of the
-/// nodes, whose shape functions carry it to the others, and, as at landmarks, of the mean over a ball of seen_radius;
-/// 0 at nodes that are held. Throws as solve() does.
+/// yz, zx of its covariance, with the weight and the noise_factor of the fit; of the thinned body, whose shape
+/// functions carry it to the others, and, as at landmarks, of the mean over a ball of seen_radius; 0 at nodes that are
+/// held. Throws as solve() does.
 Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
 
 /// The most surprising of the measured points, by the energy of the deformation alone as prior, where it is more than
 /// five standard deviations off, and five times farther than is usual of this load: where all are far off, σ is too
 /// small, and no point is to blame. Throws as solve() does.
-std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& options);
+std::optional<Outlier> worst_outlier(const ThinnedBody& thinned, const Conditions& conditions);
 
 /// Lets the measured points that contradict the others count for less: the conditions are made anew,
 /// noisy_conditions(), without those that robust_weights() leaves nothing, and with the standard deviations of the
@@ -34,9 +35,9 @@ std::optional<Outlier> worst_outlier(const Model& model, const SolveOptions& opt
 /// solve_measured() and noisy_conditions() do.
 LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const OpeningOptions& opening);
 
-/// The conditions of a model as a fit weighs them: with its weight and, where it has a smooth motion of the opening,
-/// what that leaves of the noise taken out and the opening held.
-Conditions weighed_conditions(const Model& model, const MeasuredFit& fit);
+/// Conditions as a fit weighs them: with its weight and, where it has a smooth motion of the opening, what that leaves
+/// of the noise taken out and the opening held.
+Conditions weighed_conditions(Conditions conditions, const MeasuredFit& fit);
 
 /// solve() of a model whose conditions were measured with noise: the prior is chosen on a cloud of some hundred of the
 /// nodes, choose_weight(), unless the conditions name a weight. Throws as solve() does, and std::invalid_argument with

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view format = "brainshift kept run 7\n";
+constexpr std::string_view format = "brainshift kept run 8\n";
 constexpr std::size_t head_size = 256;
 
 /// Tells damage; eight bytes at a time, every fourth in a sum of its own, which do not wait for each other.
@@ -99,6 +99,40 @@ void stiff_parts(ArchiveReader& reader, Body& body) {
   }
 }
 
+void thinned(ArchiveWriter& writer, const std::optional<ThinnedBody>& kept) {
+  writer.plain(static_cast<std::uint8_t>(kept.has_value()));
+  if (kept) {
+    writer.many(kept->node);
+    writer.points(kept->stiff.cloud.positions);
+    writer.many(kept->stiff.cloud.spacing);
+    writer.many(kept->stiff.cloud.on_surface);
+    const Eigen::MatrixXd& stiffness = kept->stiff.stiffness;
+    writer.many(std::vector<double>(stiffness.data(), stiffness.data() + stiffness.size()));
+    writer.plain(static_cast<std::uint8_t>(kept->stiff.touches));
+  }
+}
+
+void thinned(ArchiveReader& reader, std::optional<ThinnedBody>& kept) {
+  std::uint8_t there = 0, touches = 0;
+  reader.plain(there);
+  if (there != 0) {
+    ThinnedBody& body = kept.emplace();
+    reader.many(body.node);
+    reader.points(body.stiff.cloud.positions);
+    reader.many(body.stiff.cloud.spacing);
+    reader.many(body.stiff.cloud.on_surface);
+    std::vector<double> entries;
+    reader.many(entries);
+    const auto size = static_cast<Eigen::Index>(3 * body.node.size());
+    if (entries.size() != static_cast<std::size_t>(size * size)) {
+      throw std::length_error("kept run");
+    }
+    body.stiff.stiffness = Eigen::Map<const Eigen::MatrixXd>(entries.data(), size, size);
+    reader.plain(touches);
+    body.stiff.touches = touches != 0;
+  }
+}
+
 template <class Archive, class Blocks>
 void blocks(Archive& archive, Blocks& points) {
   divisions(archive, points);
@@ -143,6 +177,7 @@ void kept_run(Archive& archive, Run& run) {
   archive.many(run.responses.nodes);
   archive.many(run.responses.waves);
   archive.many(run.responses.parameters);
+  thinned(archive, run.thinned);
 }
 
 void write_forces(ArchiveWriter& writer, const Body& body) {

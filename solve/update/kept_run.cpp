@@ -16,6 +16,8 @@
 #include "solve/device/kept_on_device.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
+#include "solve/measured/inner_rows.hpp"
+#include "solve/run/measured.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "solve/shape/nodal_displacement.hpp"
@@ -43,14 +45,20 @@ std::vector<std::int32_t> free_nodes(const std::vector<std::uint8_t>& on_surface
   return nodes;
 }
 
-/// As a run from the beginning holds it. ordered: what is prescribed at the body's nodes.
-void hold(const Points& ordered, KeptRun& run) {
+/// As a run from the beginning holds it. ordered: at the body's nodes.
+void hold(const Conditions& ordered, KeptRun& run) {
   Body& body = run.fine.body;
   const NodeCloud given{.positions = body.positions, .spacing = body.spacing, .on_surface = run.on_surface};
   const NodeCloud cloud = subset(given, body.original);
-  PatchRim rim = patch_rim(cloud, ordered, {});
+  PatchRim rim = patch_rim(cloud, ordered.displacement, {});
   rim.rows = rows_at_rim({cloud.positions, cloud.spacing, run.options.shape, {}, body.node_modulus}, rim);
-  body.essential = {ordered, body.nodal_rows, body.original, Imposition::exact, rim};
+  if (ordered.measured) {
+    const ShapeFunctions shape(cloud.positions, cloud.spacing, run.options.shape);
+    const ShapeRows inner = inner_rows(shape, ordered.measured->inner);
+    body.essential = {ordered.displacement, body.nodal_rows, body.original, *ordered.measured, inner, rim};
+  } else {
+    body.essential = {ordered.displacement, body.nodal_rows, body.original, Imposition::exact, rim};
+  }
 }
 
 /// The nodes that nothing prescribes may touch.
@@ -69,19 +77,19 @@ void free_to_touch(const Points& prescribed, KeptRun& run) {
   body.contact.emplace(std::shared_ptr(body.contact->skull()), ordered, nodes, body.nodal_rows);
 }
 
-void set_fine_load(const Points& prescribed, KeptRun& run) {
+void set_fine_load(const Conditions& load, KeptRun& run) {
   Body& body = run.fine.body;
-  const Points ordered = prescribed(body.original, Eigen::all);
-  if (run.ready && body.essential.prescribe(ordered)) {
+  const Conditions ordered = subset(load, body.original);
+  if (run.ready && !ordered.measured && body.essential.prescribe(ordered.displacement)) {
     return;  // at the nodes of the last load: all else depends on these alone
   }
   run.ready = false;
   hold(ordered, run);
   body.essential.factorise(run.fine.settled.mass, relaxation_alpha);  // throws while the body is still here
   if (body.contact) {
-    free_to_touch(prescribed, run);
+    free_to_touch(load.displacement, run);
   }
-  run.ready = true;
+  run.ready = !ordered.measured;
 }
 
 /// Takes over where a body has come to rest.
@@ -104,9 +112,9 @@ Points change_of(const Points& prescribed, const Points& before, const Points& d
   return change;
 }
 
-/// Whether responses tell all of a load's change to first order: they are known, and the load is at their nodes.
-bool responses_tell(const KeptRun& run, const Points& prescribed) {
-  return run.responses.count() > 0 && loaded_nodes(prescribed) == run.responses.nodes;
+/// Whether responses tell all of a load's change to first order: they are known, and the load is at their nodes, exact.
+bool responses_tell(const KeptRun& run, const Conditions& load) {
+  return run.responses.count() > 0 && !load.measured && loaded_nodes(load.displacement) == run.responses.nodes;
 }
 
 /// û by the first order from the run's own load; where the responses do not tell all, from the last load where that is
@@ -164,8 +172,8 @@ std::string cannot_keep(const Model& model, const SolveOptions& options) {
   if (model.septum || model.resection) {
     return model.septum ? "it has falx or tentorium" : "it has a resection";
   }
-  if (model.conditions.measured) {
-    return "its load has noise";
+  if (model.conditions.measured && model.conditions.measured->registration_unknown) {
+    return "its registration is unknown";
   }
   if (options.dynamics != Dynamics::relaxation || options.region > 0) {
     return options.region > 0 ? "it solves a region alone" : "it is a motion in time";
@@ -179,10 +187,16 @@ std::string cannot_keep(const Model& model, const SolveOptions& options) {
   return model.curve.at(model.curve.duration()) == 1 ? "" : "its load's curve does not end at 1";
 }
 
-KeptRun keep(const Model& model, const SolveOptions& given, const Points& displacement, const Progress& progress) {
-  const std::string why = cannot_keep(model, given);
+KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displacement, const Progress& progress) {
+  const std::string why = cannot_keep(solved, given);
   if (!why.empty()) {
     throw std::invalid_argument("the run cannot be updated: " + why);
+  }
+  Model model = solved;
+  std::optional<ThinnedBody> thinned;
+  if (model.conditions.measured) {
+    thinned = thinned_body(model, given.shape);
+    model.conditions = weighed_conditions(model.conditions, fit_measured(*thinned, model.conditions));
   }
   const SolveOptions options = completed(given, model);
   SolveMeasures measures;
@@ -203,22 +217,36 @@ KeptRun keep(const Model& model, const SolveOptions& given, const Points& displa
               .fine = {},
               .origin = {},
               .responses = {},
-              .departures = {}};
+              .departures = {},
+              .thinned = std::move(thinned)};
   take(stepped, run.fine);
   if (run.prescribed.rows() == 0) {
     run.prescribed = Points::Constant(run.displacement.rows(), 3, std::nan(""));
   }
   run.origin = {run.fine.parameters, run.prescribed, run.displacement};
-  run.responses = responses_of(run.fine, run.prescribed, options, progress);
+  if (!model.conditions.measured) {
+    run.responses = responses_of(run.fine, run.prescribed, options, progress);
+  }
   return run;
 }
 
-SolveResult update(KeptRun& run, const Points& prescribed, const Progress& progress) {
+SolveResult update(KeptRun& run, const Conditions& given, const Progress& progress) {
+  Conditions load = given;
+  std::optional<MeasuredFit> fit;
+  if (given.measured) {
+    if (!run.thinned) {
+      throw std::invalid_argument("it has standard deviations, but the run's load was met exactly");
+    }
+    fit = fit_measured(*run.thinned, given);
+    load = weighed_conditions(given, *fit);
+  }
+  const Points& prescribed = load.displacement;
   check_same_opening(run.origin.prescribed, prescribed);
   SolveMeasures measures = sizes_of(run, prescribed);
+  measures.measured = std::move(fit);
   const Stopwatch stepping;
   const Points from_origin = change_of(prescribed, run.origin.prescribed, run.origin.displacement);
-  const bool tells_all = responses_tell(run, prescribed);
+  const bool tells_all = responses_tell(run, load);
   const NodalVectors told = first_order(prescribed, from_origin, tells_all, run);
   Course course;
   course.start = told;
@@ -226,10 +254,10 @@ SolveResult update(KeptRun& run, const Points& prescribed, const Progress& progr
   if (tells_all) {
     run.departures.add_expected(run.responses, from_origin, course.start);
   }
-  if (run.responses.count() > 0) {
+  if (run.responses.count() > 0 && !load.measured) {
     course.settled->lowest = std::max(course.settled->lowest, tells_all ? local_eigenvalue : farther_eigenvalue);
   }
-  set_fine_load(prescribed, run);
+  set_fine_load(load, run);
   SteppingResult stepped = come_to_rest(run, course, progress);
   SolveResult result = result_of(stepped, run.options, measures);
   result.measures.seconds_stepping = stepping.seconds();

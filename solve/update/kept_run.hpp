@@ -13,6 +13,7 @@
 #include "solve/interface/model.hpp"
 #include "solve/interface/options.hpp"
 #include "solve/interface/result.hpp"
+#include "solve/run/thinned_body.hpp"
 #include "solve/update/departures.hpp"
 #include "solve/update/responses.hpp"
 
@@ -34,13 +35,14 @@ struct RestState {
 struct KeptRun {
   SolveOptions options;                  ///< that the model was solved with
   std::vector<std::uint8_t> on_surface;  ///< one a node
-  Points prescribed;                     ///< (n × 3) mm, NaN: free; of the load that the body is at rest under
-  Points displacement;                   ///< (n × 3) mm, at rest
-  KeptBody fine;                         ///< at rest
-  RestState origin;                      ///< under the run's own load; responses are of it
-  Responses responses;
+  Points prescribed;      ///< (n × 3) mm, NaN: free; of the load that the body is at rest under, as it was weighed
+  Points displacement;    ///< (n × 3) mm, at rest
+  KeptBody fine;          ///< at rest
+  RestState origin;       ///< under the run's own load; responses are of it
+  Responses responses;    ///< none where noise leaves springs: of what is prescribed exactly alone
   Departures departures;  ///< from the first order; not kept on disk
-  bool ready = false;     ///< conditions and contact of `fine` are as an update makes them
+  std::optional<ThinnedBody> thinned = {};  ///< of a load with noise, which chooses each load's weight; else absent
+  bool ready = false;  ///< conditions and contact of `fine` are as an update makes them, and hold exactly
   std::shared_ptr<device::KeptOnDevice> on_device = nullptr;  ///< from the first update on that options.device wants
 };
 
@@ -54,11 +56,17 @@ KeptRun keep(const Model& model, const SolveOptions& options, const Points& disp
              const Progress& progress = {});
 
 /// The answer to another load, from what the responses and the answers so far tell of it; where it loads other nodes or
-/// none are known, from the state of the last load or of the run's own, whichever is nearer. The kept run is at rest
-/// under it afterwards. Stops as solve() does. prescribed (n × 3) mm, NaN: free. Throws std::invalid_argument where it
-/// loads other nodes than the run did, by more than half; TooFewNodes where its conditions contradict each other; the
-/// kept run then is as it was. After another throw or a failure it must be read or made again.
-SolveResult update(KeptRun& kept, const Points& prescribed, const Progress& progress = {});
+/// none are known, from the state of the last load or of the run's own, whichever is nearer. Noise is weighed for each
+/// load anew, as a run does. The kept run is at rest under it afterwards. Stops as solve() does. Of the load's
+/// conditions forces are left aside: they stay the run's. Throws std::invalid_argument where it loads other nodes than
+/// the run did, by more than half, or has noise where the run had none; TooFewNodes where its conditions contradict
+/// each other; the kept run then is as it was. After another throw or a failure it must be read or made again.
+SolveResult update(KeptRun& kept, const Conditions& load, const Progress& progress = {});
+
+/// Of displacements that are imposed exactly, (n × 3) mm, NaN: free.
+inline SolveResult update(KeptRun& kept, const Points& prescribed, const Progress& progress = {}) {
+  return update(kept, Conditions{.displacement = prescribed}, progress);
+}
 
 /// Writes it whole or not at all. key: of what it was made from. Throws std::runtime_error, naming the file.
 void write_kept(const std::filesystem::path& file, const KeptRun& kept, const std::string& key);

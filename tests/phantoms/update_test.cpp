@@ -157,13 +157,33 @@ TEST_F(Update, SaysThatWhatItPreparedCannotBeKept) {
   EXPECT_NE(result.err.find((copy / "update").string()), std::string::npos) << result.err;
 }
 
-TEST_F(Update, RefusesARunWithNoise) {
-  const fs::path out = *scratch / "with_noise";
-  const ProgramResult ran =
-      run_shell("brainshift run " + quoted(*scratch / "head/scene.xml") + " --until solve --out " + quoted(out) +
-                small + " --set load.noise=1 --set load.weight=1");
-  ASSERT_EQ(ran.code, 0) << ran.err;
-  expect_refused(update(out, "--load " + quoted(new_load())), "its load has noise");
+TEST_F(Update, WeighsNoiseAsARunFromTheBeginning) {
+  const auto run_with = [](const std::string& how, const std::string& name) {
+    const ProgramResult ran = run_shell("brainshift run " + quoted(*scratch / "head/scene.xml") +
+                                        " --until solve --out " + quoted(*scratch / name) + small + how);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+  };
+  const std::string of_new = " --set load.craniotomy.file=" + quoted(new_load());
+  run_with(" --set load.noise=0.5", "noisy");
+  run_with(" --set load.noise=0.5" + of_new, "whole_noisy");
+  const ProgramResult updated = update(*scratch / "noisy", "--load " + quoted(new_load()));
+  ASSERT_EQ(updated.code, 0) << updated.err;
+  const fs::path made = *scratch / "noisy/update/new/solve";
+  const Points answer = read_solution(made / "solution.vtu").displacement;
+  const Points solved = read_solution(*scratch / "whole_noisy/solve/solution.vtu").displacement;
+  EXPECT_LT((answer - solved).rowwise().norm().maxCoeff(), 0.02);
+  EXPECT_NE(contents_of(made / "load.csv").find("sigma"), std::string::npos);
+  EXPECT_NE(contents_of(made / "stage.json").find("weight_mJ"), std::string::npos);
+
+  solve::CraniotomyLoad wrong = solve::read_craniotomy_csv(new_load());
+  wrong.displacement(wrong.displacement.rows() / 2, 0) += 30;
+  solve::write_craniotomy_csv(*scratch / "wrong.csv", wrong);
+  const ProgramResult told = update(*scratch / "noisy", "--load " + quoted(*scratch / "wrong.csv"));
+  EXPECT_EQ(told.code, 0) << told.err;
+  EXPECT_NE(told.err.find("standard deviations from what the other points say"), std::string::npos) << told.err;
+
+  run_with(" --set load.noise=1 --set load.robust=yes", "robust");
+  expect_refused(update(*scratch / "robust", "--load " + quoted(new_load())), "robust weights");
 }
 
 }  // namespace brainshift::update_test

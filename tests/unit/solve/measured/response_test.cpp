@@ -36,11 +36,14 @@ struct Parts {
     std::iota(parts.patches.begin.begin(), parts.patches.begin.end(), 0);
   }
   ShapeRows rows() const { return rows_at(parts.nodal_rows, at); }
+  Response response(bool touches) const {
+    return linear_response(stiff_body(parts, touches), parts.cloud.conditions, rows());
+  }
 };
 
 TEST(LinearResponse, IsWhatTheSolverAnswersToASmallForce) {
   Parts box(true);
-  const Response response = linear_response(box.parts, box.rows(), false);
+  const Response response = box.response(false);
   EXPECT_FALSE(response.free);
   EXPECT_LT((response.compliance - response.compliance.transpose()).norm(), 1e-9 * response.compliance.norm());
   const auto pushed = static_cast<Eigen::Index>(box.parts.cloud.original[171]);
@@ -61,18 +64,18 @@ TEST(LinearResponse, IsWhatTheSolverAnswersToASmallForce) {
 
 TEST(LinearResponse, OfAFreeBodyMovesItNotAsAWhole) {
   const Parts box(false);
-  const Response response = linear_response(box.parts, box.rows(), false);
+  const Response response = box.response(false);
   EXPECT_TRUE(response.free);
   EXPECT_EQ(response.rigid.cols(), 6);
   EXPECT_GT(response.compliance.diagonal().minCoeff(), 0);
   const Parts held(true);
-  EXPECT_LT(response.compliance(8, 8), 2 * linear_response(held.parts, held.rows(), false).compliance(8, 8));
+  EXPECT_LT(response.compliance(8, 8), 2 * held.response(false).compliance(8, 8));
 }
 
 TEST(LinearResponse, InASkullIsThatOfAFreeBodyWhereMoreOfTheSurfaceIsMeasured) {
   Parts box(false);
-  EXPECT_FALSE(linear_response(box.parts, box.rows(), true).free);
-  const Response free = linear_response(box.parts, box.rows(), false);
+  EXPECT_FALSE(box.response(true).free);
+  const Response free = box.response(false);
   const std::vector<std::int32_t> surface = surface_nodes(box.parts.cloud);
   Conditions& conditions = box.parts.cloud.conditions;
   Measurement& measured = conditions.measured.emplace();
@@ -83,7 +86,7 @@ TEST(LinearResponse, InASkullIsThatOfAFreeBodyWhereMoreOfTheSurfaceIsMeasured) {
       measured.spread.insert(a, measured.spread.nonZeros()) = 1;
     }
   }
-  const Response touching = linear_response(box.parts, box.rows(), true);
+  const Response touching = box.response(true);
   EXPECT_TRUE(touching.free);
   EXPECT_EQ(touching.rigid.cols(), 6);
   EXPECT_EQ(touching.compliance, free.compliance);
@@ -97,7 +100,7 @@ TEST(CarriedMotion, TakesTheBodyAlongAsAWhole) {
   for (const Eigen::Index a : {24, 30, 200, 310}) {
     measured.spread.insert(a, measured.spread.nonZeros()) = 1;
   }
-  const Carried carried = carried_motion(box.parts, box.rows(), false);
+  const Carried carried = carried_motion(stiff_body(box.parts, false), box.parts.cloud.conditions, box.rows());
   ASSERT_EQ(carried.nodes, (std::vector<Eigen::Index>{24, 30, 200, 310}));
   const Eigen::MatrixXd opening =
       rigid_motions(box.parts.cloud.positions(carried.nodes, Eigen::all), box.model.cloud.positions);

@@ -7,41 +7,11 @@
 
 #include "solve/measured/inner_rows.hpp"
 #include "tests/unit/scratch_folder.hpp"
-#include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/measured_box.hpp"
 
 namespace brainshift::solve::measured_test {
 
 using test::refusal;
-
-/// A cube held below; its upper face is measured to sink in the middle, each node by itself, and a point inside to move
-/// sideways.
-Model measured_box(double sigma) {
-  Model model = box_model(test::box_cells(6, model_side));
-  std::vector<Eigen::Triplet<double>> share;
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    const Eigen::RowVector3d x = model.cloud.positions.row(a);
-    if (x[2] < 1e-9) {
-      model.conditions.displacement.row(a).setZero();
-    }
-    if (x[2] > model_side - 1e-9 && (x.head<2>().array() - model_side / 2).matrix().norm() < 25) {
-      model.conditions.displacement.row(a) << 0, 0, -4;
-      share.emplace_back(static_cast<int>(a), static_cast<int>(share.size()), 1.0);
-    }
-  }
-  Measurement& measured = model.conditions.measured.emplace();
-  const auto points = static_cast<Eigen::Index>(share.size());
-  measured.spread.resize(model.cloud.positions.rows(), points);
-  measured.spread.setFromTriplets(share.begin(), share.end());
-  measured.sigma = Points::Constant(points, 3, sigma);
-  measured.cortex.resize(points, 3);
-  measured.cortex_displacement.resize(points, 3);
-  for (const auto& entry : share) {
-    measured.cortex.row(entry.col()) = model.cloud.positions.row(entry.row());
-    measured.cortex_displacement.row(entry.col()) = model.conditions.displacement.row(entry.row());
-  }
-  measured.inner = measured.inner_displacement = measured.inner_sigma = Points(0, 3);
-  return model;
-}
 
 SolveOptions quick() {
   SolveOptions options;
@@ -127,7 +97,7 @@ TEST(MeasuredCovariance, IsThatOfTheLandmarksAtANodeInside) {
   Eigen::Index middle = 0;
   (model.cloud.positions.array() - model_side / 2).matrix().rowwise().norm().minCoeff(&middle);
   model.conditions.measured->asked = model.cloud.positions.row(middle);
-  const MeasuredFit fit = fit_measured(model, quick());
+  const MeasuredFit fit = fit_measured(thinned_body(model, {}), model.conditions);
   const Eigen::RowVectorXd at_node = measured_covariance(model, quick(), fit).row(middle);
   EXPECT_LT((at_node - fit.covariance.row(0)).norm(), 1e-9 * at_node.norm());
 }
@@ -138,10 +108,10 @@ TEST(WeighedConditions, HoldAnOpeningThatMovesAlikeAndAreSolvedAsTheyAre) {
   measured.inner = Points::Constant(1, 3, model_side / 2);
   measured.inner_displacement = Points::Zero(1, 3);
   measured.inner_sigma = Points::Constant(1, 3, 0.5);
-  const MeasuredFit fit = fit_measured(model, quick());
+  const MeasuredFit fit = fit_measured(thinned_body(model, {}), model.conditions);
   ASSERT_GT(fit.smooth.length, 0);
   const SolveResult whole = solve(model, quick());
-  model.conditions = weighed_conditions(model, fit);
+  model.conditions = weighed_conditions(model.conditions, fit);
   const SolveResult again = solve(model, quick());
   ASSERT_TRUE(again.failure.empty()) << again.failure;
   EXPECT_LT((whole.solution.displacement - again.solution.displacement).cwiseAbs().maxCoeff(), 1e-9);
@@ -149,11 +119,11 @@ TEST(WeighedConditions, HoldAnOpeningThatMovesAlikeAndAreSolvedAsTheyAre) {
 
 TEST(WorstOutlier, IsThePointThatContradictsTheOthersAndNoneWhereAllAgree) {
   Model model = measured_box(0.5);
-  EXPECT_FALSE(worst_outlier(model, quick()));
+  EXPECT_FALSE(worst_outlier(thinned_body(model, {}), model.conditions));
   Measurement& measured = *model.conditions.measured;
   const Eigen::Index wrong = measured.cortex.rows() / 2;
   measured.cortex_displacement.row(wrong) << 30, 0, -4;
-  const std::optional<Outlier> found = worst_outlier(model, quick());
+  const std::optional<Outlier> found = worst_outlier(thinned_body(model, {}), model.conditions);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->position, measured.cortex.row(wrong).transpose());
   EXPECT_GT(found->deviations, 5);

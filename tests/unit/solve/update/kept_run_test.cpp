@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <utility>
 
 #include "solve/shape/too_few_nodes.hpp"
 #include "solve/solve.hpp"
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/solve/measured_box.hpp"
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/pressed_bar.hpp"
 
@@ -129,6 +132,74 @@ TEST(KeptRun, AnswersTheSameLoadAgainInSinglePrecision) {
     EXPECT_LE(distance(answer.solution.displacement, before), single.tolerance) << again;
     EXPECT_FALSE(answer.history.empty());
   }
+}
+
+/// Measured anew: more of the same, and other noise.
+Model measured_again(Model model) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, 0.3);
+  Measurement& measured = *model.conditions.measured;
+  for (double& u : measured.cortex_displacement.reshaped()) {
+    u = 1.2 * u + noise(random);
+  }
+  const Points at_nodes = measured.spread * measured.cortex_displacement;
+  for (Eigen::Index a = 0; a < at_nodes.rows(); ++a) {
+    if (measured.spread.row(a).norm() > 0) {
+      model.conditions.displacement.row(a) = at_nodes.row(a);
+    }
+  }
+  return model;
+}
+
+/// What the fit leaves of the noise: the opening held exactly, springs inside, springs everywhere.
+TEST(KeptRun, WeighsTheNoiseOfAnotherLoadAsARunFromTheBeginning) {
+  for (const char* left : {"nothing", "inside", "all"}) {
+    SCOPED_TRACE(left);
+    Model model = measured_box(0.5);
+    Measurement& measured = *model.conditions.measured;
+    if (left == std::string("inside")) {
+      measured.inner = Points::Constant(1, 3, model_side / 2);
+      measured.inner_displacement = Points::Constant(1, 3, 1);
+      measured.inner_sigma = Points::Constant(1, 3, 0.2);
+    }
+    measured.weight = left == std::string("all") ? 0.05 : 0;
+    KeptRun run = kept(model);
+    const Model other = measured_again(model);
+    const SolveResult answer = update(run, other.conditions), anew = solve(other, options());
+    ASSERT_TRUE(answer.measures.converged) << answer.failure;
+    EXPECT_LE(distance(answer.solution.displacement, anew.solution.displacement), 2 * tolerance);
+    EXPECT_GT(distance(answer.solution.displacement, run.origin.displacement), 100 * tolerance);
+    ASSERT_TRUE(answer.measures.measured && anew.measures.measured);
+    EXPECT_NEAR(answer.measures.measured->weight / anew.measures.measured->weight, 1, 1e-6);
+    EXPECT_EQ(run.responses.count() > 0, left == std::string("nothing")) << "of what is held exactly alone";
+    const SolveResult back = update(run, model.conditions);
+    EXPECT_LE(distance(back.solution.displacement, run.origin.displacement), 2 * tolerance);
+  }
+}
+
+TEST(KeptRun, RefusesNoiseWhereItsOwnLoadHadNoneAndAnUnknownRegistration) {
+  Model model = measured_box(0.5);
+  const Conditions noisy = model.conditions;
+  model.conditions.measured->registration_unknown = true;
+  EXPECT_NE(cannot_keep(model, options()), "");
+  model.conditions.measured.reset();
+  KeptRun run = kept(model);
+  EXPECT_NE(test::refusal([&] { update(run, noisy); }).find("standard deviations"), std::string::npos);
+  const SolveResult back = update(run, model.conditions);
+  EXPECT_LE(distance(back.solution.displacement, run.origin.displacement), tolerance);
+}
+
+TEST(KeptRun, AnswersFromItsFileAsFromMemory) {
+  const test::ScratchFolder scratch;
+  const Model model = measured_box(0.5);
+  KeptRun run = kept(model);
+  write_kept(scratch / "kept.bin", run, "key");
+  EXPECT_FALSE(read_kept(scratch / "kept.bin", "other", model.materials, options()));
+  std::optional<KeptRun> read = read_kept(scratch / "kept.bin", "key", model.materials, options());
+  ASSERT_TRUE(read);
+  const Model other = measured_again(model);
+  const SolveResult here = update(run, other.conditions), there = update(*read, other.conditions);
+  EXPECT_EQ(here.solution.displacement, there.solution.displacement);
 }
 
 }  // namespace brainshift::solve::kept_run_test

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipelines/runner/impose.hpp"
+
+#include "pipelines/runner/warnings.hpp"
+#include "solve/load/contradictions.hpp"
+#include "solve/load/noisy_load.hpp"
+
+namespace brainshift::pipelines {
+
+void add_noise(const Load& how, solve::CraniotomyLoad& load) {
+  if (load.sigma.rows() == 0 && how.noise) {
+    load.sigma = Points::Constant(load.positions.rows(), 3, *how.noise);
+  }
+}
+
+solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, bool robust, std::vector<std::string>& notes) {
+  solve::CraniotomyLoad taken = load;
+  if (load.sigma.rows() > 0) {
+    warn(robust ? warnings_of(solve::lessen_joined(taken)) : warnings_of(solve::worst_of_joined(taken)), notes);
+  }
+  return taken;
+}
+
+solve::Conditions imposed(const solve::CraniotomyLoad& load, const Load& how, const NodeCloud& cloud) {
+  if (load.sigma.rows() == 0) {
+    return {.displacement = solve::prescribed_on_surface_nodes(cloud, load, how.opening)};
+  }
+  solve::Conditions conditions = solve::noisy_conditions(cloud, load, how.opening);
+  conditions.measured->weight = how.weight;
+  return conditions;
+}
+
+}  // namespace brainshift::pipelines
