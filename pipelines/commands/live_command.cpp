@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/console.hpp"
@@ -30,7 +32,8 @@ double age_of(const FileState& state) {
 }
 
 /// A load that cannot be answered is told and passed over: the next one may be right.
-void answer_next(LiveRun& run, FileWatch& watch, const LiveArguments& arguments, bool quiet) {
+/// told: the warnings of the answer before, which are not repeated.
+void answer_next(LiveRun& run, FileWatch& watch, const LiveArguments& arguments, bool quiet, Warnings& told) {
   try {
     const FileState state = watch.next();
     const LiveRun::Answer answer = run.answer(arguments.load);
@@ -47,8 +50,11 @@ void answer_next(LiveRun& run, FileWatch& watch, const LiveArguments& arguments,
     if (arguments.image) {
       run.warp_image();
     }
-    for (const std::string& warning : run.warnings()) {
-      std::fprintf(stderr, "brainshift: warning: %s\n", printable(warning).c_str());
+    const Warnings before = std::exchange(told, run.warnings());
+    for (const std::string& warning : told) {
+      if (std::ranges::find(before, warning) == before.end()) {
+        std::fprintf(stderr, "brainshift: warning: %s\n", printable(warning).c_str());
+      }
     }
   } catch (const std::invalid_argument& fault) {
     std::fprintf(stderr, "brainshift: passed over: %s\n", printable(fault.what()).c_str());
@@ -74,8 +80,8 @@ LiveRun prepared(const LiveArguments& arguments, const Settings& settings) {
     std::printf("watching %s; Ctrl-C ends it\n", printable(arguments.load.string()).c_str());
     std::fflush(stdout);
   }
-  for (;;) {
-    answer_next(run, watch, arguments, settings.quiet);
+  for (Warnings told;;) {
+    answer_next(run, watch, arguments, settings.quiet, told);
   }
 }
 

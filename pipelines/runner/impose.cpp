@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/impose.hpp"
 
-#include "pipelines/runner/warnings.hpp"
-#include "solve/load/contradictions.hpp"
 #include "solve/load/noisy_load.hpp"
 
 namespace brainshift::pipelines {
@@ -11,14 +9,6 @@ void add_noise(const Load& how, solve::CraniotomyLoad& load) {
   if (load.sigma.rows() == 0 && how.noise) {
     load.sigma = Points::Constant(load.positions.rows(), 3, *how.noise);
   }
-}
-
-solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, bool robust, std::vector<std::string>& notes) {
-  solve::CraniotomyLoad taken = load;
-  if (load.sigma.rows() > 0) {
-    warn(robust ? warnings_of(solve::lessen_joined(taken)) : warnings_of(solve::worst_of_joined(taken)), notes);
-  }
-  return taken;
 }
 
 solve::Conditions imposed(const solve::CraniotomyLoad& load, const Load& how, const NodeCloud& cloud) {

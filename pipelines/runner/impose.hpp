@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "discretise/interface/node_cloud.hpp"
 #include "pipelines/scene/scene.hpp"
 #include "solve/interface/conditions.hpp"
@@ -13,10 +10,6 @@ namespace brainshift::pipelines {
 
 /// Standard deviations of measured points where their file says none, and the scene does.
 void add_noise(const Load& how, solve::CraniotomyLoad& load);
-
-/// What is taken of a load with standard deviations. Where that is asked for, points that contradict those with which
-/// the solve joins them hardly count; else a note names the worst, which the mean would hide.
-solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, bool robust, std::vector<std::string>& notes);
 
 /// A load at the nodes of a cloud, as measured where standard deviations are known, else exactly; without forces.
 /// Throws std::invalid_argument as prescribed_on_surface_nodes() and noisy_conditions() do.

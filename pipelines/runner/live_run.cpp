@@ -72,7 +72,12 @@ LiveRun::LiveRun(const fs::path& run, bool with_image, std::optional<solve::Devi
 
 /// The first answer then waits less for memory that the system has yet to give: 0.44 s on the demo in place of 0.56.
 void LiveRun::rehearse(const Progress& progress) {
-  if (!updated_->answer_own_load(progress).failure.empty()) {
+  try {
+    if (!updated_->answer_own_load(progress).failure.empty()) {
+      updated_.reset();
+      return;
+    }
+  } catch (const std::invalid_argument&) {  // a load.csv that is gone or was changed
     updated_.reset();
     return;
   }
@@ -90,10 +95,10 @@ LiveRun::Answer LiveRun::answer(const fs::path& file) {
   solve::SolveResult result;
   try {
     result = updated().solve(load, file, {});
-  } catch (const std::invalid_argument&) {  // refused before anything moved
-    throw;
   } catch (...) {
-    updated_.reset();
+    if (!updated_->is_whole()) {
+      updated_.reset();
+    }
     throw;
   }
   if (!result.failure.empty()) {

@@ -37,7 +37,7 @@ class LiveRun {
   /// UpdatedRun::not_kept() of the run as it was read first.
   const std::string& not_kept() const { return not_kept_; }
 
-  /// What is wrong with the load of the last answer, as a run's notes have it.
+  /// What is wrong with the load of the last answer, UpdatedRun::warnings(). Only after an answer.
   Warnings warnings() const { return updated_->warnings(load_); }
 
   /// Adds warped.nii.gz to the last answer. Only with an image.

@@ -25,21 +25,16 @@ PatientRegistration patient_registration(const solve::CraniotomyLoad& load, cons
   constexpr int most_rounds = 6;
   PatientRegistration found{.motion = solve::fit_rigid(load.positions, load.positions + load.displacement, load.sigma)};
   solve::RigidMotion& whole = found.motion;
-  const auto impose_registered = [&] {
+  for (int round = 0;; ++round) {
     impose(solve::registered(load, whole), model);
     model.conditions.measured->registration_unknown = true;
-  };
-  impose_registered();
-  const solve::ThinnedBody thinned = solve::thinned_body(model, options.shape);
-  for (int round = 0;; ++round) {
-    const solve::MeasuredFit fit = solve::fit_measured(thinned, model.conditions);
+    const solve::MeasuredFit fit = solve::fit_measured(solve::thinned_body(model, options.shape), model.conditions);
     found.open = fit.motion.cwiseAbs().maxCoeff();
     if (found.open <= registration_at_rest || round == most_rounds) {
       return found;
     }
     const solve::RigidMotion more = motion_of(fit);
     whole = {whole.rotation * more.rotation, whole.rotation * more.translation + whole.translation};
-    impose_registered();
   }
 }
 

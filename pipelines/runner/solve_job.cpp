@@ -69,6 +69,16 @@ void impose_field(const Load& how, SolveInput& input) {
   conditions.force = std::move(force);
 }
 
+/// What is taken of the load. Where that is asked for, points that contradict those with which the solve joins them
+/// hardly count; else a note names the worst, which the mean would hide.
+solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, bool robust, std::vector<std::string>& notes) {
+  solve::CraniotomyLoad taken = load;
+  if (load.sigma.rows() > 0) {
+    warn(robust ? warnings_of(solve::lessen_joined(taken)) : warnings_of(solve::worst_of_joined(taken)), notes);
+  }
+  return taken;
+}
+
 /// Whether a turn about one line would hardly move any of them.
 bool are_in_line(const Points& positions) {
   constexpr double nearly = 0.01;  // of their extent along the line

@@ -90,6 +90,9 @@ void refuse_what_cannot(const fs::path& run, const Scene& scene, const StageReco
   if (scene.load->robust) {
     refuse(run, "the run cannot be updated: its load has robust weights; run a scene with the new load");
   }
+  if (scene.load->registration_unknown) {
+    refuse(run, "the run cannot be updated: its registration is unknown; run a scene with the new load");
+  }
   if (scene.load->field && scene.load->noise) {
     refuse(run, "the run cannot be updated: its load is a field with noise; run a scene with the new one");
   }
@@ -174,8 +177,10 @@ std::string UpdatedRun::device_fault() const {
 solve::SolveResult UpdatedRun::solve(const solve::CraniotomyLoad& load, const fs::path& file,
                                      const Progress& progress) {
   return naming(file.string(), [&] {
-    answered_ = imposed(load, how_, cloud());
-    return solve::update(kept_, answered_, progress);
+    solve::Conditions conditions = imposed(load, how_, cloud());
+    solve::SolveResult result = solve::update(kept_, conditions, progress);
+    answered_ = std::move(conditions);
+    return result;
   });
 }
 

@@ -28,15 +28,18 @@ class UpdatedRun {
   /// none. Throws std::invalid_argument, naming the file, where they cannot be the run's new ones.
   solve::CraniotomyLoad read(const std::filesystem::path& file) const;
 
-  /// Answers them. file: that they are from, for what is at fault. After a throw or a failure the run must be made
-  /// anew.
+  /// Answers them. file: that they are from, for what is at fault. After a failure the run must be made anew, after a
+  /// throw unless it is_whole().
   solve::SolveResult solve(const solve::CraniotomyLoad& load, const std::filesystem::path& file,
                            const Progress& progress);
 
-  /// Once more the load that the run was solved with. After a throw or a failure the run must be made anew.
+  /// Once more the load that the run was solved with; otherwise as solve().
   solve::SolveResult answer_own_load(const Progress& progress);
 
-  /// What is wrong with the load that was answered last, as a run's notes have it.
+  /// Not where a throw has come from between two states of rest.
+  bool is_whole() const { return kept_.fine.body.nodes() > 0; }
+
+  /// What is wrong with the load that was answered last, as a run's notes say it of the load.
   Warnings warnings(const solve::CraniotomyLoad& load) const;
 
   /// û of the last answer, in the order of the cloud, (n × 3) mm.

@@ -19,52 +19,6 @@ namespace brainshift::solve {
 
 namespace {
 
-/// Rigid motions that the conditions leave free make the steady state undefined. A plane has three, x, y and the turn
-/// about z, else there are six.
-void check_held(const OrderedCloud& cloud, Plane plane, bool contact, bool pushed) {
-  std::vector<Eigen::Matrix<double, 1, 6>> rows;
-  const Eigen::RowVector3d centre = cloud.positions.colwise().mean();
-  const double size = (cloud.positions.rowwise() - centre).cwiseAbs().maxCoeff();
-  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
-    const Eigen::Vector3d x = (cloud.positions.row(a) - centre) / size;
-    const Eigen::Matrix3d turn{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
-    for (int axis = 0; axis < (plane == Plane::none ? 3 : 2); ++axis) {
-      if (cloud.conditions.is_prescribed(a, axis)) {
-        Eigen::Matrix<double, 1, 6> row;
-        row << Eigen::RowVector3d::Unit(axis), turn.row(axis);
-        rows.push_back(row);
-      }
-    }
-  }
-  const Points inner = cloud.conditions.measured ? cloud.conditions.measured->inner : Points(0, 3);
-  for (Eigen::Index i = 0; i < inner.rows(); ++i) {
-    const Eigen::Vector3d x = (inner.row(i) - centre) / size;
-    Eigen::Matrix<double, 3, 6> row;
-    row << Eigen::Matrix3d::Identity(), Eigen::Matrix3d{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
-    rows.insert(rows.end(), {row.row(0), row.row(1), row.row(2)});
-  }
-  if (rows.empty() && contact && pushed) {
-    return;  // the skull holds it
-  }
-  if (rows.empty()) {
-    throw std::invalid_argument(
-        pushed ? "nothing holds the body: no displacement is prescribed, and there is no skull to stop it; hold "
-                 "three nodes that are not in line, or add contact"
-               : "nothing is prescribed: no node is loaded or held; give a load");
-  }
-  Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
-  for (const auto& row : rows) {
-    held += row.transpose() * row;
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(held);
-  const int motions = plane == Plane::none ? 6 : 3;
-  if (!contact && svd.singularValues()[motions - 1] < 1e-9 * svd.singularValues()[0]) {
-    throw std::invalid_argument(
-        "the prescribed displacements leave the body free to move as a whole, and there is no skull to stop it: hold " +
-        std::string(plane == Plane::none ? "three nodes that are not in line, or add contact" : "two nodes"));
-  }
-}
-
 void check_plane(const Model& model) {
   const bool planar = model.plane != Plane::none;
   if (planar != is_planar(model.cells.kind)) {
@@ -113,6 +67,51 @@ void check_model(const Model& model) {
   }
   check_plane(model);
   check_cloud(model.cloud);
+}
+
+void check_held(const OrderedCloud& cloud, Plane plane, bool contact, bool pushed) {
+  // Rigid motions that are left free make the steady state undefined: three of a plane, x, y and the turn, else six.
+  std::vector<Eigen::Matrix<double, 1, 6>> rows;
+  const Eigen::RowVector3d centre = cloud.positions.colwise().mean();
+  const double size = (cloud.positions.rowwise() - centre).cwiseAbs().maxCoeff();
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    const Eigen::Vector3d x = (cloud.positions.row(a) - centre) / size;
+    const Eigen::Matrix3d turn{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
+    for (int axis = 0; axis < (plane == Plane::none ? 3 : 2); ++axis) {
+      if (cloud.conditions.is_prescribed(a, axis)) {
+        Eigen::Matrix<double, 1, 6> row;
+        row << Eigen::RowVector3d::Unit(axis), turn.row(axis);
+        rows.push_back(row);
+      }
+    }
+  }
+  const Points inner = cloud.conditions.measured ? cloud.conditions.measured->inner : Points(0, 3);
+  for (Eigen::Index i = 0; i < inner.rows(); ++i) {
+    const Eigen::Vector3d x = (inner.row(i) - centre) / size;
+    Eigen::Matrix<double, 3, 6> row;
+    row << Eigen::Matrix3d::Identity(), Eigen::Matrix3d{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
+    rows.insert(rows.end(), {row.row(0), row.row(1), row.row(2)});
+  }
+  if (rows.empty() && contact && pushed) {
+    return;  // the skull holds it
+  }
+  if (rows.empty()) {
+    throw std::invalid_argument(
+        pushed ? "nothing holds the body: no displacement is prescribed, and there is no skull to stop it; hold "
+                 "three nodes that are not in line, or add contact"
+               : "nothing is prescribed: no node is loaded or held; give a load");
+  }
+  Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
+  for (const auto& row : rows) {
+    held += row.transpose() * row;
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(held);
+  const int motions = plane == Plane::none ? 6 : 3;
+  if (!contact && svd.singularValues()[motions - 1] < 1e-9 * svd.singularValues()[0]) {
+    throw std::invalid_argument(
+        "the prescribed displacements leave the body free to move as a whole, and there is no skull to stop it: hold " +
+        std::string(plane == Plane::none ? "three nodes that are not in line, or add contact" : "two nodes"));
+  }
 }
 
 void check_held(const OrderedCloud& cloud, const Model& model) {

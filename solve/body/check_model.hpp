@@ -13,6 +13,8 @@ void check_model(const Model& model);
 
 /// Throws std::invalid_argument when the conditions leave the body free to move as a whole.
 void check_held(const OrderedCloud& cloud, const Model& model);
+/// contact: of a skull; pushed: forces act, against which it may be enough.
+void check_held(const OrderedCloud& cloud, Plane plane, bool contact, bool pushed);
 
 /// The same of each part of a body that a cut or a resection leaves in two or more. point_rows: shape functions of the
 /// integration points, which hold a part together.

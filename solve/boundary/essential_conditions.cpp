@@ -173,6 +173,10 @@ bool EssentialConditions::prescribe(const Points& prescribed) {
   return true;
 }
 
+bool EssentialConditions::give_way() const {
+  return std::any_of(component_.begin(), component_.end(), [](const Component& c) { return c.compliance.rows() > 0; });
+}
+
 bool EssentialConditions::nothing_prescribed() const {
   return std::all_of(component_.begin(), component_.end(), [](const Component& c) { return c.prescribed.size() == 0; });
 }
@@ -189,9 +193,9 @@ std::vector<std::int32_t> EssentialConditions::nodes() const {
   return {nodes.begin(), nodes.end()};
 }
 
-bool EssentialConditions::is_factorised() const {
-  return std::all_of(component_.begin(), component_.end(), [](const Component& c) {
-    return c.prescribed.size() == 0 || (c.factor && c.compliance.rows() == 0);
+bool EssentialConditions::is_factorised(double alpha) const {
+  return std::all_of(component_.begin(), component_.end(), [&](const Component& c) {
+    return c.prescribed.size() == 0 || (c.factor && (c.compliance.rows() == 0 || alpha == alpha_));
   });
 }
 
@@ -201,9 +205,10 @@ void EssentialConditions::factorise(std::span<const double> mass, double alpha) 
   }
   std::vector<double> inverse_mass(mass.size());
   std::transform(mass.begin(), mass.end(), inverse_mass.begin(), [](double m) { return 1 / m; });
-  if (inverse_mass == inverse_mass_ && is_factorised()) {
+  if (inverse_mass == inverse_mass_ && is_factorised(alpha)) {
     return;
   }
+  alpha_ = alpha;
   inverse_mass_ = std::move(inverse_mass);
   for (Component& c : component_) {
     c.factor.reset();

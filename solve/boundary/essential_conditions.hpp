@@ -70,6 +70,9 @@ class EssentialConditions {
   /// nothing, where they are prescribed at other nodes. Throws as the constructor does.
   bool prescribe(const Points& prescribed);
 
+  /// Whether any of them are springs, which no `prescribe()` changes.
+  bool give_way() const;
+
   /// Nodes whose parameters are in any of the conditions, ascending.
   std::vector<std::int32_t> nodes() const;
 
@@ -106,11 +109,12 @@ class EssentialConditions {
 
  private:
   bool nothing_prescribed() const;
-  /// For `inverse_mass_`, and for any α.
-  bool is_factorised() const;
+  /// For `inverse_mass_`, and where conditions give way for α.
+  bool is_factorised(double alpha) const;
 
   std::array<Component, 3> component_;
   std::vector<double> inverse_mass_;
+  double alpha_ = 0;  // of the last factorise()
   std::vector<std::int32_t> names_;
   Imposition imposition_ = Imposition::exact;
   bool same_compliance_ = true;           // of the three components

@@ -129,7 +129,7 @@ void DeviceBody<Scalar>::load(const Body& body) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     nodes[axis] = body.essential.components()[axis].node;
   }
-  if (held_ == nodes) {
+  if (held_ == nodes && !body.essential.give_way()) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const EssentialConditions::Component& from = body.essential.components()[axis];
       memory_.replace(view_.condition[axis].prescribed, values_of(from.prescribed));
@@ -144,7 +144,9 @@ void DeviceBody<Scalar>::load(const Body& body) {
     put_contact(*body.contact);
   }
   put_conditions(body.essential);
-  held_ = std::move(nodes);
+  if (!body.essential.give_way()) {
+    held_ = std::move(nodes);
+  }
 }
 
 template <class Scalar>

@@ -18,8 +18,8 @@ class DeviceBody {
   /// body: one that why_not() has nothing against. window: steps between two looks. Throws DeviceFault.
   DeviceBody(const Backend& backend, const Body& body, int window = usual_window);
 
-  /// Takes the conditions and the contact of the same body under another load. Where the same nodes are held as before,
-  /// their rows are taken to be the same, and so is the contact.
+  /// Takes the conditions and the contact of the same body under another load. Where the same nodes are held exactly as
+  /// before, their rows are taken to be the same, and so is the contact.
   void load(const Body& body);
 
   /// What the steps of an earlier way to rest have left is gone.
@@ -64,7 +64,7 @@ class DeviceBody {
   Memory memory_;
   View<Scalar> view_{};
   std::size_t of_body_ = 0;                                       ///< pieces of memory that no load changes
-  std::optional<std::array<std::vector<std::int32_t>, 3>> held_;  ///< nodes of each component
+  std::optional<std::array<std::vector<std::int32_t>, 3>> held_;  ///< nodes of each component; absent: springs
   std::size_t conditions_ = 0;                                    ///< of the three components
   std::vector<double> weighed_;
 };

@@ -16,7 +16,7 @@ template <class Scalar>
 class DeviceBody;
 
 /// A body in the memory of a device, where it stays from one load to the next: of a load go there what it prescribes
-/// and, where it holds other nodes, their rows and the contact.
+/// and, where it holds other nodes or has springs, their rows and the contact.
 class KeptOnDevice {
  public:
   /// backend: nullptr: why_no_gpu() says why there is none.

@@ -89,10 +89,6 @@ Eigen::Vector3d outward(const NodeCloud& cloud, Eigen::Index node) {
   return away.transpose().normalized();
 }
 
-bool is_measured(const Conditions& conditions, Eigen::Index node) {
-  return conditions.measured && conditions.measured->spread.row(node).norm() > 0;
-}
-
 /// Whether what is prescribed at a node is held, not measured.
 bool is_held(const Conditions& conditions, Eigen::Index node, int axis) {
   return conditions.is_prescribed(node, axis) && !is_measured(conditions, node);
@@ -131,6 +127,11 @@ Eigen::MatrixXd loads_at(const ShapeRows& at_points, std::size_t nodes) {
 }
 
 }  // namespace
+
+bool is_measured(const Conditions& conditions, Eigen::Index node) {
+  return conditions.measured && conditions.measured->spread.cols() > 0 &&  // Eigen reads past one without columns
+         conditions.measured->spread.row(node).norm() > 0;
+}
 
 Eigen::MatrixXd rigid_motions(const Points& places, const Points& about) {
   const Eigen::RowVector3d centre = about.colwise().mean();

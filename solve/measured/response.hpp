@@ -26,6 +26,9 @@ struct Response {
 /// `about` by 1 mm a mean distance from it.
 Eigen::MatrixXd rigid_motions(const Points& places, const Points& about);
 
+/// Whether a measured point has a share in what is prescribed at a node.
+bool is_measured(const Conditions& conditions, Eigen::Index node);
+
 /// What a body of some hundred nodes answers forces by.
 struct StiffBody {
   NodeCloud cloud;

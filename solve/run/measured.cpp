@@ -2,8 +2,6 @@
 #include "solve/run/measured.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "solve/interface/unfit_parts.hpp"
@@ -95,7 +93,8 @@ struct Asked {
 
 /// Whether all of a node's displacement is prescribed and none of it measured.
 bool is_held(const Conditions& conditions, Eigen::Index node) {
-  return conditions.displacement.row(node).allFinite() && conditions.measured->spread.row(node).norm() == 0;
+  return conditions.displacement.rows() > 0 && conditions.displacement.row(node).allFinite() &&
+         !is_measured(conditions, node);
 }
 
 /// Lets a smooth motion of the opening move its points as they were measured, and all else as the body carries it; not

@@ -36,6 +36,11 @@ class ArchiveWriter {
     plain(points.rows());
     put(points.data(), static_cast<std::size_t>(points.size()) * sizeof(double));
   }
+  void matrix(const Eigen::MatrixXd& matrix) {
+    plain(matrix.rows());
+    plain(matrix.cols());
+    put(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
+  }
 
  private:
   void put(const void* data, std::size_t size) {
@@ -68,6 +73,13 @@ class ArchiveReader {
     plain(rows);
     points = Eigen::Map<const Points>(
         reinterpret_cast<const double*>(take(static_cast<std::size_t>(rows), 3 * sizeof(double))), rows, 3);
+  }
+  void matrix(Eigen::MatrixXd& matrix) {
+    Eigen::Index rows = 0, columns = 0;
+    plain(rows);
+    plain(columns);
+    const char* const first = take(static_cast<std::size_t>(rows), static_cast<std::size_t>(columns) * sizeof(double));
+    matrix = Eigen::Map<const Eigen::MatrixXd>(reinterpret_cast<const double*>(first), rows, columns);
   }
   bool at_end() const { return bytes_.empty(); }
 

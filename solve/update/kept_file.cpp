@@ -106,8 +106,7 @@ void thinned(ArchiveWriter& writer, const std::optional<ThinnedBody>& kept) {
     writer.points(kept->stiff.cloud.positions);
     writer.many(kept->stiff.cloud.spacing);
     writer.many(kept->stiff.cloud.on_surface);
-    const Eigen::MatrixXd& stiffness = kept->stiff.stiffness;
-    writer.many(std::vector<double>(stiffness.data(), stiffness.data() + stiffness.size()));
+    writer.matrix(kept->stiff.stiffness);
     writer.plain(static_cast<std::uint8_t>(kept->stiff.touches));
   }
 }
@@ -121,13 +120,7 @@ void thinned(ArchiveReader& reader, std::optional<ThinnedBody>& kept) {
     reader.points(body.stiff.cloud.positions);
     reader.many(body.stiff.cloud.spacing);
     reader.many(body.stiff.cloud.on_surface);
-    std::vector<double> entries;
-    reader.many(entries);
-    const auto size = static_cast<Eigen::Index>(3 * body.node.size());
-    if (entries.size() != static_cast<std::size_t>(size * size)) {
-      throw std::length_error("kept run");
-    }
-    body.stiff.stiffness = Eigen::Map<const Eigen::MatrixXd>(entries.data(), size, size);
+    reader.matrix(body.stiff.stiffness);
     reader.plain(touches);
     body.stiff.touches = touches != 0;
   }
@@ -274,7 +267,7 @@ std::optional<KeptRun> read_kept(const fs::path& file, const std::string& key,
     ArchiveReader reader(payload);
     KeptRun run;
     kept_run(reader, run);
-    run.origin = {run.fine.parameters, run.prescribed, run.displacement};
+    run.origin = {run.fine.parameters, run.prescribed, run.displacement, run.fine.settled.lowest};
     run.options = options;
     run.options.precision = run.fine.body.points.precision();
     read_forces(reader, run.fine.body);

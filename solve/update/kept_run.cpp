@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "segmentation/progress/stopwatch.hpp"
+#include "solve/body/check_model.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/body/soft_nodes.hpp"
@@ -53,8 +54,10 @@ void hold(const Conditions& ordered, KeptRun& run) {
   PatchRim rim = patch_rim(cloud, ordered.displacement, {});
   rim.rows = rows_at_rim({cloud.positions, cloud.spacing, run.options.shape, {}, body.node_modulus}, rim);
   if (ordered.measured) {
-    const ShapeFunctions shape(cloud.positions, cloud.spacing, run.options.shape);
-    const ShapeRows inner = inner_rows(shape, ordered.measured->inner);
+    ShapeRows inner;
+    if (ordered.measured->inner.rows() > 0) {
+      inner = inner_rows({cloud.positions, cloud.spacing, run.options.shape}, ordered.measured->inner);
+    }
     body.essential = {ordered.displacement, body.nodal_rows, body.original, *ordered.measured, inner, rim};
   } else {
     body.essential = {ordered.displacement, body.nodal_rows, body.original, Imposition::exact, rim};
@@ -121,8 +124,23 @@ bool responses_tell(const KeptRun& run, const Conditions& load) {
 /// nearer.
 NodalVectors first_order(const Points& prescribed, const Points& from_origin, bool tells_all, const KeptRun& run) {
   const Points from_last = change_of(prescribed, run.prescribed, run.displacement);
-  const bool last = !tells_all && from_last.norm() < from_origin.norm();
+  const bool last = !tells_all && from_last.norm() <= from_origin.norm();
   return answered(last ? run.fine.parameters : run.origin.parameters, run.responses, last ? from_last : from_origin);
+}
+
+/// A load of no node at all is one of points inside alone.
+Conditions with_all_rows(Conditions load, Eigen::Index nodes) {
+  if (load.displacement.rows() == 0) {
+    load.displacement = Points::Constant(nodes, 3, std::nan(""));
+  }
+  return load;
+}
+
+void check_is_held(const Conditions& load, const Body& body) {
+  OrderedCloud cloud;
+  cloud.positions = body.positions;
+  cloud.conditions = load;
+  check_held(cloud, Plane::none, body.contact.has_value(), !body.external.empty());
 }
 
 void check_same_opening(const Points& before, const Points& now) {
@@ -210,6 +228,7 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
   if (!stepped.failure.empty()) {
     throw std::invalid_argument("the run does not come to rest once more: " + stepped.failure);
   }
+  model.conditions = with_all_rows(std::move(model.conditions), displacement.rows());
   KeptRun run{.options = options,
               .on_surface = model.cloud.on_surface,
               .prescribed = model.conditions.displacement,
@@ -220,10 +239,7 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
               .departures = {},
               .thinned = std::move(thinned)};
   take(stepped, run.fine);
-  if (run.prescribed.rows() == 0) {
-    run.prescribed = Points::Constant(run.displacement.rows(), 3, std::nan(""));
-  }
-  run.origin = {run.fine.parameters, run.prescribed, run.displacement};
+  run.origin = {run.fine.parameters, run.prescribed, run.displacement, run.fine.settled.lowest};
   if (!model.conditions.measured) {
     run.responses = responses_of(run.fine, run.prescribed, options, progress);
   }
@@ -231,17 +247,18 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
 }
 
 SolveResult update(KeptRun& run, const Conditions& given, const Progress& progress) {
-  Conditions load = given;
+  Conditions load = with_all_rows(given, run.displacement.rows());
+  check_same_opening(run.origin.prescribed, load.displacement);
+  check_is_held(load, run.fine.body);
   std::optional<MeasuredFit> fit;
-  if (given.measured) {
+  if (load.measured) {
     if (!run.thinned) {
       throw std::invalid_argument("it has standard deviations, but the run's load was met exactly");
     }
-    fit = fit_measured(*run.thinned, given);
-    load = weighed_conditions(given, *fit);
+    fit = fit_measured(*run.thinned, load);
+    load = weighed_conditions(std::move(load), *fit);
   }
   const Points& prescribed = load.displacement;
-  check_same_opening(run.origin.prescribed, prescribed);
   SolveMeasures measures = sizes_of(run, prescribed);
   measures.measured = std::move(fit);
   const Stopwatch stepping;
@@ -251,6 +268,7 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
   Course course;
   course.start = told;
   course.settled = run.fine.settled;
+  course.settled->lowest = run.origin.lowest;
   if (tells_all) {
     run.departures.add_expected(run.responses, from_origin, course.start);
   }

@@ -23,11 +23,12 @@ namespace device {
 class KeptOnDevice;
 }
 
-/// Where a body came to rest.
+/// Where a body came to rest under its run's own load.
 struct RestState {
   NodalVectors parameters;  ///< û in the body's order, mm
   Points prescribed;        ///< (n × 3) mm, NaN: free
   Points displacement;      ///< (n × 3) mm
+  double lowest = 0;        ///< A_0 there: what a load is damped by, whatever the last one was
 };
 
 /// A solved run with all that is expensive to make: shape functions, fictitious masses, the state of rest,

@@ -34,4 +34,29 @@ inline Model measured_box(double sigma) {
   return model;
 }
 
+/// With points inside, each measured to have moved sideways.
+inline Model with_inner(Model model, int points) {
+  Measurement& measured = *model.conditions.measured;
+  measured.inner = Points::Constant(points, 3, model_side / 2);
+  measured.inner_displacement = Points::Zero(points, 3);
+  measured.inner_sigma = Points::Constant(points, 3, 0.2);
+  for (int i = 0; i < points; ++i) {
+    measured.inner(i, 0) += 15 * i;
+    measured.inner_displacement(i, 0) = 1 + i;
+  }
+  return model;
+}
+
+/// The same springs whatever was measured: no smooth motion.
+inline Model with_weight(Model model, double weight) {
+  model.conditions.measured->weight = weight;
+  return model;
+}
+
+/// As if it had been measured without noise.
+inline Model without_noise(Model model) {
+  model.conditions.measured.reset();
+  return model;
+}
+
 }  // namespace brainshift::solve

@@ -7,6 +7,7 @@
 #include "solve/update/kept_run.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/device/backends.hpp"
+#include "tests/unit/solve/measured_box.hpp"
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/pressed.hpp"
 
@@ -73,6 +74,20 @@ Points without_an_edge(Points prescribed, const Points& places) {
 }
 
 }  // namespace
+
+/// The springs that noise leaves differ from load to load, at the same nodes.
+TEST_P(UpdateOnDevice, HasNoSpringsOfAnEarlierLoad) {
+  const Model own = measured_box(0.5);
+  KeptRun here = kept(own, with_tolerance(1e-4));
+  KeptRun there = on_device(here, &backend());
+  for (const Model& model : {with_inner(own, 1), with_inner(own, 2), own, with_weight(own, 0.05), with_weight(own, 0.2),
+                             without_noise(own), with_inner(own, 2)}) {
+    const SolveResult expected = update(here, model.conditions), answer = update(there, model.conditions);
+    ASSERT_EQ(answer.failure, "");
+    ASSERT_EQ(expected.failure, "");
+    EXPECT_LT((answer.solution.displacement - expected.solution.displacement).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
 
 TEST_P(UpdateOnDevice, IsThatOfTheHostLoadAfterLoad) {
   const Model own = uniaxial(0.9, 5);
