@@ -102,8 +102,12 @@ LiveRun::Answer LiveRun::answer(const fs::path& file) {
     throw;
   }
   if (!result.failure.empty()) {
+    std::string fault = file.string() + ": " + result.failure;
+    for (const std::string& warning : updated().warnings(load)) {
+      fault += "; " + warning;
+    }
     updated_.reset();
-    throw std::runtime_error(file.string() + ": " + result.failure);
+    throw std::runtime_error(fault);
   }
   const VectorImage forward = field_->forward(updated().parameters());
   const fs::path place = live_ / name_of(number_ + 1);
