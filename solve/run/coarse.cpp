@@ -142,20 +142,22 @@ Points FromCoarse::operator()(const Points& displacement) const {
 
 namespace {
 
-std::optional<Points> solved_on(const std::vector<std::int32_t>& nodes, const Model& model, const SolveOptions& given,
-                                const Progress& progress) {
+std::optional<CoarseSolution> solved_on(const std::vector<std::int32_t>& nodes, const Model& model,
+                                        const SolveOptions& given, const Progress& progress) {
   auto [coarse, options, measures, prepared] = coarse_body(nodes, model, given, progress);
   const SolveResult result = step_to_end(coarse, options, std::move(prepared), measures, {}, progress);
   if (!result.failure.empty()) {
     return std::nullopt;
   }
   const ShapeFunctions shape(coarse.cloud.positions, coarse.cloud.spacing, result.solution.shape);
-  return from_coarse(shape, coarse.cloud, result.solution.displacement, model);
+  return CoarseSolution{from_coarse(shape, coarse.cloud, result.solution.displacement, model),
+                        result.measures.error_bound, result.measures.steps};
 }
 
 }  // namespace
 
-std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress) {
+std::optional<CoarseSolution> coarse_solution(const Model& model, const SolveOptions& options,
+                                              const Progress& progress) {
   const std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
   if (nodes.size() < fewest_coarse_nodes) {
     return std::nullopt;
@@ -169,6 +171,11 @@ std::optional<Points> coarse_displacement(const Model& model, const SolveOptions
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }
+}
+
+std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress) {
+  std::optional<CoarseSolution> solution = coarse_solution(model, options, progress);
+  return solution ? std::optional(std::move(solution->displacement)) : std::nullopt;
 }
 
 }  // namespace brainshift::solve

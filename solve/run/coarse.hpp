@@ -53,9 +53,18 @@ class FromCoarse {
   Eigen::SparseMatrix<double, Eigen::RowMajor> at_coarse_, at_all_;  // shape functions at the nodes
 };
 
-/// The displacement at all nodes (n × 3) mm of the solution on the coarse nodes, their spacing doubled, with linear
-/// shape functions and one point a cell; prescribed components as prescribed. Empty when that cannot be solved: too few
-/// nodes, or refused, or not converged.
+struct CoarseSolution {
+  Points displacement;     ///< at all nodes, (n × 3) mm, prescribed components as prescribed
+  double error_bound = 0;  ///< mm, of the coarse relaxation
+  int steps = 0;           ///< that it took
+};
+
+/// The solution on the coarse nodes, their spacing doubled, with linear shape functions and one point a cell. Empty
+/// when that cannot be solved: too few nodes, or refused, or not converged.
+std::optional<CoarseSolution> coarse_solution(const Model& model, const SolveOptions& options,
+                                              const Progress& progress);
+
+/// The displacement of that alone.
 std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress);
 
 }  // namespace brainshift::solve

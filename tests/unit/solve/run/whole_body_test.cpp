@@ -39,6 +39,28 @@ TEST(CoarseStart, EndsWhereTheStartFromRestEndsInFewerSteps) {
   }
 }
 
+/// A cube turned by half a circle by three of its corners turns so slowly that the fine body's steps do not show it.
+TEST(CoarseStart, SaysWhatItsSlowestMotionsLeftOpen) {
+  constexpr int n = 8;
+  Model model = box_model(test::box_cells(n - 1, model_side), n);
+  Points turned = -2 * model.cloud.positions;
+  turned.leftCols<2>().array() += model_side;
+  turned.col(2).setZero();
+  for (const Eigen::RowVector3d& corner :
+       {Eigen::RowVector3d(0, 0, 0), Eigen::RowVector3d(model_side, 0, 0), Eigen::RowVector3d(0, model_side, 0)}) {
+    Eigen::Index node = 0;
+    (model.cloud.positions.rowwise() - corner).rowwise().norm().minCoeff(&node);
+    model.conditions.displacement.row(node) = turned.row(node);
+  }
+  SolveOptions options;
+  options.start = Start::coarse;
+  const SolveResult result = solve_whole_body(model, options, {});
+  ASSERT_TRUE(result.failure.empty()) << result.failure;
+  EXPECT_LT(result.measures.steps, 1000) << "from rest it takes 19,200";
+  EXPECT_LE((result.solution.displacement - turned).rowwise().norm().maxCoeff(), result.measures.error_bound);
+  EXPECT_LE(result.measures.error_bound, options.tolerance);
+}
+
 /// By how much the first row's strain energy differs from the last one's.
 double way_of(const SolveResult& result) {
   return std::abs(result.history.front().strain_energy - result.history.back().strain_energy);
