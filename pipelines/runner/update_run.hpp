@@ -65,7 +65,7 @@ class UpdatedRun {
   std::filesystem::path run_, file_;
   Scene scene_;
   std::string key_;
-  Load how_;  ///< the run's load was imposed
+  Load how_;  ///< as the run's load was imposed
   solve::KeptRun kept_;
   solve::Conditions answered_;  ///< of the last load
   std::string not_kept_;
