@@ -166,13 +166,13 @@ TEST_F(Load, OfAFieldTakesTheWayThatTheSceneSays) {
 
 TEST_F(Load, OfAFieldGivesWayToItsNoise) {
   double imposed = 0, weighed = 0;
-  for (const unsigned seed : {1, 2, 3}) {
+  for (const unsigned seed : {1, 2}) {
     write_noisy_field(at("noisy.mha"), seed);
     const std::string noisy = field(at("noisy.mha").string(), " moves=\"points\"");
-    imposed += off_95(solved_with(noisy), truth) / 3;
-    weighed += off_95(solved_with(with_noise(noisy, "1")), truth) / 3;
+    imposed += off_95(solved_with(noisy), truth) / 2;
+    weighed += off_95(solved_with(with_noise(noisy, "1")), truth) / 2;
   }
-  std::printf("noise of 1 mm, mean of three draws: brain (95 %%) imposed %.4f, weighed %.4f mm\n", imposed, weighed);
+  std::printf("noise of 1 mm, mean of two draws: brain (95 %%) imposed %.4f, weighed %.4f mm\n", imposed, weighed);
   EXPECT_LT(weighed, 0.85 * imposed);
 }
 

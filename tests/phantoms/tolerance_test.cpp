@@ -45,7 +45,7 @@ class Tolerance : public testing::Test {
 std::unique_ptr<ScratchFolder> Tolerance::scratch;
 
 TEST_F(Tolerance, SweepMeasuresEachChoiceOnceAndCallsFailuresFailures) {
-  const std::string lists = "--nodes 30,300,600 --precision double,single --reference-nodes 1500";
+  const std::string lists = "--nodes 30,300,600 --precision double,single --reference-nodes 1200";
   const ProgramResult first = sweep(lists);
   ASSERT_EQ(first.code, 0) << first.err;
   const fs::path out = *scratch / "sweep";
@@ -69,7 +69,7 @@ TEST_F(Tolerance, SweepMeasuresEachChoiceOnceAndCallsFailuresFailures) {
   ASSERT_EQ(sweep(lists).code, 0);
   EXPECT_EQ(fs::last_write_time(point), made) << "what is there is not done again";
   EXPECT_TRUE(fs::exists(out / "points/600-auto-0-linear-full-double-0.1.json"));
-  ASSERT_EQ(sweep("--nodes 300 --precision double --reference-nodes 1500 --set tissues.1.youngs_modulus=2000").code, 0);
+  ASSERT_EQ(sweep("--nodes 300 --precision double --reference-nodes 600 --set tissues.1.youngs_modulus=2000").code, 0);
   EXPECT_NE(fs::last_write_time(point), made) << "of another scene";
   EXPECT_TRUE(half_written(out).empty());
 }

@@ -138,6 +138,9 @@ TEST_F(Update, TakesARunWhoseSceneWasNamedFromItsOwnPlace) {
   const ProgramResult ran =
       run_shell(there + "brainshift run head/scene.xml --until solve --out from_here" + std::string(small));
   ASSERT_EQ(ran.code, 0) << ran.err;
+  if (fs::exists(run() / "update")) {  // of the same files and scene: it has the same key
+    fs::copy(run() / "update", *scratch / "from_here/update", fs::copy_options::recursive);
+  }
   const ProgramResult updated = update(*scratch / "from_here", "");
   EXPECT_EQ(updated.code, 0) << updated.err;
 }
@@ -182,8 +185,8 @@ TEST_F(Update, WeighsNoiseAsARunFromTheBeginning) {
   EXPECT_EQ(told.code, 0) << told.err;
   EXPECT_NE(told.err.find("standard deviations from what the other points say"), std::string::npos) << told.err;
 
-  run_with(" --set load.noise=1 --set load.robust=yes", "robust");
-  expect_refused(update(*scratch / "robust", "--load " + quoted(new_load())), "robust weights");
+  expect_refused(update(copy_with("robust", "run.json", "\"robust\": \"no\"", "\"robust\": \"yes\""), ""),
+                 "robust weights");
 }
 
 }  // namespace brainshift::update_test
