@@ -9,6 +9,7 @@
 #include "discretise/interface/option_table.hpp"
 #include "pipelines/phantom/phantom.hpp"
 #include "pipelines/python/convert.hpp"
+#include "pipelines/runner/impose.hpp"
 #include "pipelines/runner/libraries.hpp"
 #include "pipelines/runner/run.hpp"
 #include "pipelines/runner/stage_folder.hpp"
@@ -25,7 +26,6 @@
 #include "solve/interface/option_table.hpp"
 #include "solve/load/contradictions.hpp"
 #include "solve/load/craniotomy_load.hpp"
-#include "solve/load/noisy_load.hpp"
 #include "solve/material/material_options.hpp"
 #include "solve/material/named_materials.hpp"
 #include "solve/run/measured.hpp"
@@ -124,11 +124,7 @@ solve::Model model_of(const discretise::Discretisation& body, const solve::Crani
   model.labels = copy_if(labels);
   model.skull = copy_if(skull);
   model.boundary = copy_if(boundary);
-  if (load.sigma.rows() > 0) {
-    model.conditions = solve::noisy_conditions(model.cloud, load);
-  } else {
-    model.conditions.displacement = solve::prescribed_on_surface_nodes(model.cloud, load);
-  }
+  model.conditions = pipelines::imposed(load, {}, model.cloud);
   return model;
 }
 
@@ -136,15 +132,12 @@ solve::Model model_of(const discretise::Discretisation& body, const solve::Crani
 pipelines::Warnings warnings_on(const solve::CraniotomyLoad& load, const solve::Model& model,
                                 const solve::SolveOptions& options, const solve::SolveResult& result) {
   using pipelines::warnings_of;
-  std::vector<pipelines::Warnings> parts = {warnings_of(result.measures),
-                                            warnings_of(load, model, result.solution.displacement)};
+  pipelines::Warnings all = warnings_of(result.measures);
+  pipelines::append(warnings_of(load, model, result.solution.displacement), all);
   if (result.measures.measured) {
-    parts.push_back(warnings_of(solve::worst_of_joined(load)));
-    parts.push_back(warnings_of(solve::worst_outlier(solve::thinned_body(model, options.shape), model.conditions)));
-  }
-  pipelines::Warnings all;
-  for (const pipelines::Warnings& part : parts) {
-    all.insert(all.end(), part.begin(), part.end());
+    pipelines::append(warnings_of(solve::worst_of_joined(load)), all);
+    pipelines::append(warnings_of(solve::worst_outlier(solve::thinned_body(model, options.shape), model.conditions)),
+                      all);
   }
   return all;
 }

@@ -90,7 +90,7 @@ UpdatedRun& LiveRun::updated() {
 }
 
 LiveRun::Answer LiveRun::answer(const fs::path& file) {
-  solve::CraniotomyLoad load = updated().read(file);
+  const solve::CraniotomyLoad load = updated().read(file);
   const std::string fault_before = updated().device_fault();
   solve::SolveResult result;
   try {
@@ -103,7 +103,7 @@ LiveRun::Answer LiveRun::answer(const fs::path& file) {
   }
   if (!result.failure.empty()) {
     std::string fault = file.string() + ": " + result.failure;
-    for (const std::string& warning : updated().warnings(load)) {
+    for (const std::string& warning : updated().warnings()) {
       fault += "; " + warning;
     }
     updated_.reset();
@@ -123,7 +123,6 @@ LiveRun::Answer LiveRun::answer(const fs::path& file) {
   solve::write_craniotomy_csv(folder.path() / "load.csv", load);
   folder.replace();
   ++number_;
-  load_ = std::move(load);
   return {place, result.measures.largest_displacement, result.measures.error_bound,
           fault_before.empty() ? updated().device_fault() : std::string()};
 }

@@ -38,7 +38,7 @@ class LiveRun {
   const std::string& not_kept() const { return not_kept_; }
 
   /// What is wrong with the load of the last answer, UpdatedRun::warnings(). Only after an answer.
-  Warnings warnings() const { return updated_->warnings(load_); }
+  Warnings warnings() const { return updated_->warnings(); }
 
   /// Adds warped.nii.gz to the last answer. Only with an image.
   void warp_image();
@@ -56,9 +56,8 @@ class LiveRun {
   std::optional<ScalarImage> t1_;
   registration::RegisterOptions options_;
   std::string not_kept_;
-  int number_ = 0;              ///< of the last answer
-  solve::CraniotomyLoad load_;  ///< of the last answer
-  VectorImage resampling_;      ///< of the last answer
+  int number_ = 0;          ///< of the last answer
+  VectorImage resampling_;  ///< of the last answer
 };
 
 }  // namespace brainshift::pipelines

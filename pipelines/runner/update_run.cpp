@@ -179,7 +179,7 @@ solve::SolveResult UpdatedRun::solve(const solve::CraniotomyLoad& load, const fs
   return naming(file.string(), [&] {
     solve::Conditions conditions = imposed(load, how_, cloud());
     solve::SolveResult result = solve::update(kept_, conditions, progress);
-    answered_ = std::move(conditions);
+    answered_ = {load, std::move(conditions)};
     return result;
   });
 }
@@ -192,18 +192,15 @@ solve::SolveResult UpdatedRun::answer_own_load(const Progress& progress) {
   return solve::update(kept_, kept_.origin.prescribed, progress);
 }
 
-Warnings UpdatedRun::warnings(const solve::CraniotomyLoad& load) const {
-  std::vector<Warnings> parts;
-  if (answered_.measured) {
-    parts.push_back(warnings_of(solve::worst_of_joined(load)));
-    parts.push_back(warnings_of(solve::worst_outlier(*kept_.thinned, answered_)));
-  }
-  if (!answered_.measured || answered_.measured->inner.rows() == 0) {
-    parts.push_back(warnings_of(load, cloud(), kept_.prescribed));
-  }
+Warnings UpdatedRun::warnings() const {
+  const auto& [load, conditions] = answered_;
   Warnings all;
-  for (const Warnings& part : parts) {
-    all.insert(all.end(), part.begin(), part.end());
+  if (conditions.measured) {
+    append(warnings_of(solve::worst_of_joined(load)), all);
+    append(warnings_of(solve::worst_outlier(*kept_.thinned, conditions)), all);
+  }
+  if (!conditions.measured || conditions.measured->inner.rows() == 0) {
+    append(warnings_of(load, cloud(), kept_.prescribed), all);
   }
   return all;
 }
@@ -218,7 +215,7 @@ StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const 
     said.notes.push_back("warning: the next update prepares the run again: " + not_kept_);
   }
   warn(warnings_of(result.measures), said);
-  warn(warnings(load), said);
+  warn(warnings(), said);
   return said;
 }
 

@@ -40,7 +40,7 @@ class UpdatedRun {
   bool is_whole() const { return kept_.fine.body.nodes() > 0; }
 
   /// What is wrong with the load that was answered last, as a run's notes say it of the load.
-  Warnings warnings(const solve::CraniotomyLoad& load) const;
+  Warnings warnings() const;
 
   /// û of the last answer, in the order of the cloud, (n × 3) mm.
   Points parameters() const;
@@ -58,6 +58,11 @@ class UpdatedRun {
   StageReport answer(const std::filesystem::path& load, const std::filesystem::path& out, const Progress& progress);
 
  private:
+  struct Answered {
+    solve::CraniotomyLoad load;
+    solve::Conditions conditions;
+  };
+
   void make_kept(const SolveJob& job, const Progress& progress);
 
   NodeCloud cloud() const;
@@ -67,7 +72,7 @@ class UpdatedRun {
   std::string key_;
   Load how_;  ///< as the run's load was imposed
   solve::KeptRun kept_;
-  solve::Conditions answered_;  ///< of the last load
+  Answered answered_;  ///< last
   std::string not_kept_;
 };
 

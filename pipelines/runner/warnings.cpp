@@ -110,13 +110,16 @@ Warnings warnings_of(const solve::Model& model, const Points& displacement) {
           " mm); in a patient the skull holds it: add <contact/>, unless that is meant"};
 }
 
+void append(const Warnings& more, Warnings& warnings) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& model, const Points& displacement) {
   if (model.conditions.measured && model.conditions.measured->inner.rows() > 0) {
     return {};
   }
   Warnings warnings = warnings_of(load, model.cloud, model.conditions.displacement);
-  const Warnings more = warnings_of(model, displacement);
-  warnings.insert(warnings.end(), more.begin(), more.end());
+  append(warnings_of(model, displacement), warnings);
   return warnings;
 }
 
@@ -221,7 +224,7 @@ Warnings warnings_of(const solve::SolveMeasures& measures) {
   Warnings warnings = warnings_of_points(measures);
   for (const Warnings& more :
        {warnings_of_pressure(measures), warnings_of_cavity(measures), warnings_of_few_nodes(measures)}) {
-    warnings.insert(warnings.end(), more.begin(), more.end());
+    append(more, warnings);
   }
   return warnings;
 }

@@ -29,6 +29,8 @@ Warnings warnings_of(const ScalarImage& t1, const LabelMap& labels, std::span<co
 /// (n × 3) mm.
 Warnings warnings_of(const solve::Model& model, const Points& displacement);
 
+void append(const Warnings& more, Warnings& warnings);
+
 /// Both, where the load has points of the cortex alone: of points inside the brain neither holds.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& model, const Points& displacement);
 

@@ -158,6 +158,9 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
 }
 
 bool EssentialConditions::prescribe(const Points& prescribed) {
+  if (give_way()) {
+    return false;
+  }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (nodes_of_component(prescribed, static_cast<int>(axis), names_) != component_[axis].node) {
       return false;

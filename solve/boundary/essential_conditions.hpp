@@ -66,11 +66,11 @@ class EssentialConditions {
   EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names,
                       const Measurement& measured, const ShapeRows& inner_rows, const PatchRim& rim = {});
 
-  /// Prescribes other values where nothing gives way, (n × 3) mm, and forgets all multipliers. Returns false, and does
-  /// nothing, where they are prescribed at other nodes. Throws as the constructor does.
+  /// Prescribes other values, (n × 3) mm, and forgets all multipliers. Returns false, and does nothing, where they are
+  /// prescribed at other nodes, or these give way. Throws as the constructor does.
   bool prescribe(const Points& prescribed);
 
-  /// Whether any of them are springs, which no `prescribe()` changes.
+  /// Whether any of them are springs.
   bool give_way() const;
 
   /// Nodes whose parameters are in any of the conditions, ascending.

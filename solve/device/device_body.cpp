@@ -129,7 +129,8 @@ void DeviceBody<Scalar>::load(const Body& body) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     nodes[axis] = body.essential.components()[axis].node;
   }
-  if (held_ == nodes && !body.essential.give_way()) {
+  const bool exactly = !body.essential.give_way();
+  if (exactly && held_ == nodes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const EssentialConditions::Component& from = body.essential.components()[axis];
       memory_.replace(view_.condition[axis].prescribed, values_of(from.prescribed));
@@ -144,7 +145,7 @@ void DeviceBody<Scalar>::load(const Body& body) {
     put_contact(*body.contact);
   }
   put_conditions(body.essential);
-  if (!body.essential.give_way()) {
+  if (exactly) {
     held_ = std::move(nodes);
   }
 }

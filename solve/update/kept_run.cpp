@@ -92,7 +92,7 @@ void set_fine_load(const Conditions& load, KeptRun& run) {
   if (body.contact) {
     free_to_touch(load.displacement, run);
   }
-  run.ready = !ordered.measured;
+  run.ready = true;
 }
 
 /// Takes over where a body has come to rest.
@@ -210,12 +210,14 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
   if (!why.empty()) {
     throw std::invalid_argument("the run cannot be updated: " + why);
   }
-  Model model = solved;
   std::optional<ThinnedBody> thinned;
-  if (model.conditions.measured) {
-    thinned = thinned_body(model, given.shape);
-    model.conditions = weighed_conditions(model.conditions, fit_measured(*thinned, model.conditions));
+  std::optional<Model> weighed;
+  if (solved.conditions.measured) {
+    thinned = thinned_body(solved, given.shape);
+    weighed = solved;
+    weighed->conditions = weighed_conditions(solved.conditions, fit_measured(*thinned, solved.conditions));
   }
+  const Model& model = weighed ? *weighed : solved;
   const SolveOptions options = completed(given, model);
   SolveMeasures measures;
   Prepared prepared = prepare(model, options, {}, measures, progress);
@@ -228,10 +230,9 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
   if (!stepped.failure.empty()) {
     throw std::invalid_argument("the run does not come to rest once more: " + stepped.failure);
   }
-  model.conditions = with_all_rows(std::move(model.conditions), displacement.rows());
   KeptRun run{.options = options,
               .on_surface = model.cloud.on_surface,
-              .prescribed = model.conditions.displacement,
+              .prescribed = with_all_rows(model.conditions, displacement.rows()).displacement,
               .displacement = nodal_displacement(stepped.body.nodal_rows, stepped.parameters, stepped.body.original),
               .fine = {},
               .origin = {},

@@ -43,7 +43,7 @@ struct KeptRun {
   Responses responses;    ///< none where noise leaves springs: of what is prescribed exactly alone
   Departures departures;  ///< from the first order; not kept on disk
   std::optional<ThinnedBody> thinned = {};  ///< of a load with noise, which chooses each load's weight; else absent
-  bool ready = false;  ///< conditions and contact of `fine` are as an update makes them, and hold exactly
+  bool ready = false;                       ///< conditions and contact of `fine` are as an update makes them
   std::shared_ptr<device::KeptOnDevice> on_device = nullptr;  ///< from the first update on that options.device wants
 };
 
