@@ -257,8 +257,7 @@ class Relaxation {
     }
     farthest_ = std::max(farthest_, of[LookSums::farthest]);
     estimate_lowest_eigenvalue(moved());
-    bound_.add(moved(), std::sqrt(critical_beta(lowest_)), time_ >= 1,
-               rounding_of_step(farthest_, Precision::double_precision));
+    bound_.add(moved(), std::sqrt(critical_beta(lowest_)), time_ >= 1, rounding_of_step(farthest_, precision()));
     find_error_bound();
     if (order_.glance) {
       return;

@@ -15,6 +15,11 @@ double lasting(double rate) {
   return rate < 1 ? 1 / (1 - rate) : std::numeric_limits<double>::infinity();
 }
 
+/// What is left of a critically damped motion after so many steps, at most 1.
+double left_of_motion(double rate, double steps) {
+  return rate < 1 ? (1 + steps * (1 - rate)) * std::pow(rate, steps) : 1;
+}
+
 double largest_recent(const std::vector<double>& values) {
   return *std::max_element(values.end() - recent_windows, values.end());
 }
@@ -33,13 +38,16 @@ double ErrorBound::slowest_rate() const {
 }
 
 double ErrorBound::largest_bound(double rate) const {
-  constexpr double soon = 80;  // steps, as four windows of a run from rest have
-  double largest = largest_recent(bounds_);
-  const double steps = lasting(rate);
-  const auto windows = static_cast<std::ptrdiff_t>(std::min(steps / window_, static_cast<double>(bounds_.size())));
-  if (steps > soon) {
-    for (auto bound = bounds_.end() - windows; bound < bounds_.end() - recent_windows; ++bound) {
-      largest = std::isfinite(*bound) ? std::max(largest, *bound) : largest;
+  if (std::isinf(largest_recent(bounds_))) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double most = static_cast<double>(bounds_.size());
+  const double windows = std::clamp(std::ceil(lasting(rate) / window_), double{recent_windows}, most);
+  double largest = 0;
+  for (std::ptrdiff_t ago = 0; ago < static_cast<std::ptrdiff_t>(windows); ++ago) {
+    const double bound = *(bounds_.end() - 1 - ago);
+    if (std::isfinite(bound)) {
+      largest = std::max(largest, bound * left_of_motion(rate, static_cast<double>(ago * window_)));
     }
   }
   return largest;

@@ -9,8 +9,9 @@ namespace brainshift::solve {
 
 /// The bound of the error that relaxation leaves open, ρ/(1 − ρ) max |û⁺ − û| of a node, with ρ the slower of the
 /// measured rate a step and of the rate that the damping stands for. A passing low, as when the body swings through a
-/// turning point, is no rest: the largest of the last windows counts, for the rate and for the bound. Where motions are
-/// slow these windows are as many as such motions take to die down.
+/// turning point, is no rest: the slowest rate of the last windows counts, and the largest of their bounds, each less
+/// what a critically damped motion of that rate has lost since. Where motions are slow these windows are as many as
+/// such motions take to die down.
 class ErrorBound {
  public:
   /// window: steps between two calls of add().
@@ -41,7 +42,8 @@ class ErrorBound {
   /// Of the damping, in the last four windows or in as many as three times what the slowest motion in them lasts.
   double slowest_rate() const;
 
-  /// In the last four windows, or, of finite bounds, while a motion of this rate lasts.
+  /// What is left of the largest in the last four windows, which all must be finite, or while a motion of this rate
+  /// lasts.
   double largest_bound(double rate) const;
 
   /// Windows of half a standstill.

@@ -181,7 +181,7 @@ class Relaxation {
     look_at_stiff_parts();
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     estimate_lowest_eigenvalue(moved);
-    bound_.add(moved, std::sqrt(critical_beta(lowest_)), motion_.time >= 1, rounding_of_places());
+    bound_.add(moved, std::sqrt(critical_beta(lowest_)), motion_.time >= 1, rounding());
     spans_.add(motion_.now);
     find_error_bound();
     if (only_glances()) {
@@ -269,10 +269,6 @@ class Relaxation {
 
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
   double rounding() const { return rounding_of_step(farthest_, points().precision()); }
-
-  /// The same of the places alone, which are double in any case: a body that moves no more may be one of which every
-  /// node is held.
-  double rounding_of_places() const { return rounding_of_step(farthest_, Precision::double_precision); }
 
   void fail_at_standstill() {
     motion_.result.rounded = points().precision() == Precision::single_precision;

@@ -122,7 +122,7 @@ class Ensemble {
                               .smallest_jacobian = smallest[i],
                               .lowest = lowest[i],
                               .motion_over_work = too_lively[i]};
-      if (way_[m].look(seen, motion_.time >= 1)) {
+      if (way_[m].look(seen, motion_.time >= 1, body_.points.precision())) {
         spans_[m].add(member_of(motion_.now, m));
       } else {
         end(m, MemberResult::End::left);

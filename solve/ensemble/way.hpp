@@ -35,7 +35,7 @@ struct Way {
   double farthest_with(double seen) const { return std::max(farthest, seen); }
 
   /// Once a window. loaded: the whole load is on. Returns whether it may go on; else it is unstable.
-  bool look(const SeenOfMember& seen, bool loaded) {
+  bool look(const SeenOfMember& seen, bool loaded, Precision precision) {
     if (!std::isfinite(seen.moved) || !(seen.smallest_jacobian > 0) || seen.motion_over_work > 1) {
       return false;
     }
@@ -44,7 +44,7 @@ struct Way {
       lowest = bounded_eigenvalue(seen.lowest);
     }
     farthest = farthest_with(seen.farthest);
-    bound.add(seen.moved, std::sqrt(beta()), loaded, rounding_of_step(farthest, Precision::double_precision));
+    bound.add(seen.moved, std::sqrt(beta()), loaded, rounding_of_step(farthest, precision));
     return true;
   }
 

@@ -308,7 +308,7 @@ class Ensemble {
                               .motion_over_work = work_[m].over(kinetic)};
       const bool loaded = load_[m].whole();
       load_[m].looked_at = loaded;
-      if (!ways_[m].look(seen, loaded)) {
+      if (!ways_[m].look(seen, loaded, precision())) {
         end(m, MemberResult::End::left);
       } else if (steps_ / usual_window % windows_to_stiffness(loaded) == 0) {
         asked |= bit_of(m);
