@@ -273,11 +273,11 @@ class Relaxation {
     error_bound_ = bound_.value();
     if (error_bound_ <= tolerance()) {
       const bool spans_are_known = order_.states > 2 * order_.span;
-      error_bound_ = spans_are_known
-                         ? std::max({error_bound_, of[LookSums::span_of_nodes],
-                                     SpanBound::of_all(of[LookSums::span_longest], of[LookSums::span_product],
-                                                       of[LookSums::span_squares])})
-                         : std::numeric_limits<double>::infinity();
+      const double of_spans = std::max(
+          of[LookSums::span_of_nodes],
+          SpanBound::of_all(of[LookSums::span_longest], of[LookSums::span_product], of[LookSums::span_squares]));
+      error_bound_ = spans_are_known ? bound_of_both(error_bound_, of_spans, window_ == settled_window)
+                                     : std::numeric_limits<double>::infinity();
     }
   }
 

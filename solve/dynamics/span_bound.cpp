@@ -39,7 +39,7 @@ double SpanBound::value() const {
 double SpanBound::of_all(double longest, double product, double squares) {
   constexpr double slowest = 0.98, of_mixed_rates = 4.0 / 3;
   const double rate = squares > 0 ? std::clamp(product / squares, 0.0, slowest) : 0;
-  return margin * of_mixed_rates * still_to_go(rate) * longest;
+  return of_mixed_rates * still_to_go(rate) * longest;
 }
 
 }  // namespace brainshift::solve

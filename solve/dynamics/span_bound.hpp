@@ -30,10 +30,10 @@ class SpanBound {
   void add(const NodalVectors& now);
 
   /// The larger of two, mm; 0 until two spans are known.
-  /// Of a node that went d in the last span and d' in the one before: 1.5 d q/(1 − q) with q = d/d', at most `slowest`,
-  /// as nothing can be read off a node that hardly moves. Of all nodes: 2 max d q/(1 − q) with q = Σ d·d' / Σ d'·d', at
-  /// most 0.98. A third is for motions of several rates together, of which the slowest has more to go than their mean
-  /// tells; half is what three hundred random problems need to be within it where they stop.
+  /// Of a node that went d in the last span and d' in the one before: d q/(1 − q) with q = d/d', at most `slowest`, as
+  /// nothing can be read off a node that hardly moves. Of all nodes: a third more than max d q/(1 − q) with q = Σ d·d'
+  /// / Σ d'·d', at most 0.98. The third is for motions of several rates together, of which the slowest has more to go
+  /// than their mean tells.
   double value() const;
 
   /// Whether two spans are known.
@@ -44,14 +44,12 @@ class SpanBound {
 
   /// Of value(), what one node says that went so far in the last span, and in the one before, mm.
   BRAINSHIFT_ON_DEVICE static double of_node(double went, double before, double slowest = usual_rate) {
-    return margin * still_to_go(went < slowest * before ? went / before : slowest) * went;
+    return still_to_go(went < slowest * before ? went / before : slowest) * went;
   }
   /// What all nodes say together: the most that one went, Σ d·d', Σ d'·d'.
   static double of_all(double longest, double product, double squares);
 
  private:
-  static constexpr double margin = 1.5;
-
   /// Σ rate^k, k from 1: of what was gone last, how much there is still to go.
   BRAINSHIFT_ON_DEVICE static double still_to_go(double rate) { return rate / (1 - rate); }
 

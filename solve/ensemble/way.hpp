@@ -56,7 +56,7 @@ struct Way {
     if (!patient && loaded && bound.value() > far_from_rest * wanted && Quickening::wanted(lowest)) {
       return End::left;
     }
-    if (loaded && bound.value() <= wanted && spans.value() <= wanted) {
+    if (loaded && bound_of_both(bound.value(), spans.value()) <= wanted) {
       return End::rest;
     }
     if (!bound.stands_still(rounding_of_step(farthest, precision))) {

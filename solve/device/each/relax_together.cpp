@@ -341,7 +341,7 @@ class Ensemble {
 
   void end(std::size_t m, MemberResult::End how) {
     results_[m] = {
-        .end = how, .parameters = {}, .error_bound = std::max(ways_[m].bound.value(), spans_[m]), .steps = steps_};
+        .end = how, .parameters = {}, .error_bound = bound_of_both(ways_[m].bound.value(), spans_[m]), .steps = steps_};
     ended_at_[m] = order_.first;
     active_ &= ~bit_of(m);
   }
