@@ -241,6 +241,24 @@ TEST_P(Surrounded, FollowsAnAffineDisplacementOfTheSurfaceAtFortyPercent) {
   expect_affine(GetParam().model(), oblique({0.6, 1.4, 0.98 / (0.6 * 1.4)}), to_the_end(), {1e-4, 1e-4});
 }
 
+/// The start is the answer already: what still moves in single precision is rounding, and no slow motion.
+TEST(SurroundedBody, IsAtRestAsSoonInSinglePrecision) {
+  for (const double stretch : {0.8, 0.9, 1.2}) {
+    Model model = box_model({}, 5);
+    model.cells = test::box_tetrahedra(model.cloud, 5);
+    move_surface(oblique({stretch, 1.1, 1 / (stretch * 1.1)}), model);
+    SolveOptions options;
+    options.start = Start::coarse;
+    options.shape.basis = Basis::linear;
+    options.precision = Precision::double_precision;
+    const int steps = solve(model, options).measures.steps;
+    options.precision = Precision::single_precision;
+    const SolveMeasures single = solve(model, options).measures;
+    EXPECT_EQ(single.steps, steps) << stretch;
+    EXPECT_LE(single.error_bound, 1e-4) << stretch;
+  }
+}
+
 struct Squeezed : testing::TestWithParam<Filled> {};
 
 INSTANTIATE_TEST_SUITE_P(Bodies, Squeezed,
