@@ -101,8 +101,9 @@ TEST(ErrorBound, MeasuresNoRateOfRounding) {
 TEST(ErrorBound, TakesTheSlowerOfTheMeasuredRateAndThatOfTheDamping) {
   const auto before_last = [](int looks) { return std::pow(0.9, (11 - looks) * window); };
   const double left = (1 + 30 / 30.0) * std::pow(29 / 30.0, 30);
-  EXPECT_NEAR(after(12, 0.9, 29 / 30.0).value(), 29 * before_last(3) * left, 1e-9) << "the earliest of the last four";
-  EXPECT_NEAR(after(12, 0.9, 0.5).value(), 9 * before_last(0), 1e-9);
+  const double earliest = 29 * before_last(3) * left, latest = 9 * before_last(0);
+  EXPECT_NEAR(after(12, 0.9, 29 / 30.0).value(), earliest, 1e-9 * earliest) << "of the last four";
+  EXPECT_NEAR(after(12, 0.9, 0.5).value(), latest, 1e-9 * latest);
 }
 
 TEST(ErrorBound, IsNotTakenInByAPassingLow) {
