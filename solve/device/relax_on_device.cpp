@@ -276,7 +276,7 @@ class Relaxation {
       const double of_spans = std::max(
           of[LookSums::span_of_nodes],
           SpanBound::of_all(of[LookSums::span_longest], of[LookSums::span_product], of[LookSums::span_squares]));
-      error_bound_ = spans_are_known ? bound_of_both(error_bound_, of_spans, window_ == settled_window)
+      error_bound_ = spans_are_known ? bound_.with_spans(of_spans, window_ == settled_window)
                                      : std::numeric_limits<double>::infinity();
     }
   }

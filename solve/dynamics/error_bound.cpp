@@ -37,6 +37,16 @@ double ErrorBound::slowest_rate() const {
   return slowest;
 }
 
+double ErrorBound::fall_of_eigenvalue() const {
+  constexpr double chance = 1.5;
+  if (std::ssize(rates_) <= recent_windows || !(rates_.back() < 1)) {
+    return 1;
+  }
+  const double quickest = *std::min_element(rates_.end() - 1 - recent_windows, rates_.end());
+  const double fall = std::pow((1 - quickest) / (1 - rates_.back()), 2);  // √β is 1 − √(αA_0)
+  return fall > chance ? fall : 1;
+}
+
 double ErrorBound::largest_bound(double rate) const {
   if (std::isinf(largest_recent(bounds_))) {
     return std::numeric_limits<double>::infinity();
@@ -63,8 +73,13 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded, double roun
     const double measured = moved > rounding ? std::pow(moved / earlier, 1.0 / (recent_windows * window_)) : 0.0;
     const double slowest = slowest_rate(), rate = std::max(measured, slowest);
     bounds_.back() = rate < 1 ? rate / (1 - rate) * moved : bounds_.back();
-    value_ = largest_bound(slowest);
+    value_ = fall_of_eigenvalue() * largest_bound(slowest);
   }
+}
+
+double ErrorBound::with_spans(double of_spans, bool near_the_end) const {
+  constexpr double more = 1.5;
+  return std::max(value_, (near_the_end ? 1 : more) * fall_of_eigenvalue() * of_spans);
 }
 
 bool ErrorBound::stands_still(double rounding) const {

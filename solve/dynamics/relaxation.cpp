@@ -262,7 +262,7 @@ class Relaxation {
   void find_error_bound() {
     error_bound_ = bound_.value();
     if (error_bound_ <= tolerance()) {
-      error_bound_ = spans_.is_known() ? bound_of_both(error_bound_, spans_.value(), course_.settled.has_value())
+      error_bound_ = spans_.is_known() ? bound_.with_spans(spans_.value(), course_.settled.has_value())
                                        : std::numeric_limits<double>::infinity();
     }
   }

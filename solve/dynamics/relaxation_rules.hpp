@@ -30,13 +30,6 @@ inline double critical_beta(double lowest_eigenvalue) {
 
 inline constexpr double smallest_eigenvalue = 1e-8;
 
-/// What ErrorBound and SpanBound say together, mm. 13 of 300 random problems stopped farther from their end than the
-/// spans alone say, up to 2.7 times; 72 updates, which start near the end, 0.64 times at most.
-inline double bound_of_both(double of_steps, double of_spans, bool near_the_end = false) {
-  constexpr double more = 1.5;
-  return std::max(of_steps, near_the_end ? of_spans : more * of_spans);
-}
-
 /// A_0 within what β allows: above the upper bound it is too small for α.
 inline double bounded_eigenvalue(double eigenvalue) {
   return std::clamp(eigenvalue, smallest_eigenvalue, 0.028);

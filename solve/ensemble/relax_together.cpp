@@ -168,7 +168,7 @@ class Ensemble {
   void end(std::size_t m, MemberResult::End how) {
     results_[m] = {.end = how,
                    .parameters = how == MemberResult::End::rest ? member_of(motion_.now, m) : NodalVectors(),
-                   .error_bound = way_[m].error_bound(spans_[m].value()),
+                   .error_bound = way_[m].bound.with_spans(spans_[m].value()),
                    .steps = motion_.steps};
     active_[m] = false;
     motion_.let_go(m);

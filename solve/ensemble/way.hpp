@@ -34,9 +34,6 @@ struct Way {
   /// The farthest that it has been, with what is seen now.
   double farthest_with(double seen) const { return std::max(farthest, seen); }
 
-  /// Of the error, with what its SpanBound says, mm.
-  double error_bound(double of_spans) const { return bound_of_both(bound.value(), of_spans); }
-
   /// Once a window. loaded: the whole load is on. Returns whether it may go on; else it is unstable.
   bool look(const SeenOfMember& seen, bool loaded, Precision precision) {
     if (!std::isfinite(seen.moved) || !(seen.smallest_jacobian > 0) || seen.motion_over_work > 1) {
@@ -59,7 +56,7 @@ struct Way {
     if (!patient && loaded && bound.value() > far_from_rest * wanted && Quickening::wanted(lowest)) {
       return End::left;
     }
-    if (loaded && error_bound(spans.value()) <= wanted) {
+    if (loaded && bound.with_spans(spans.value()) <= wanted) {
       return End::rest;
     }
     if (!bound.stands_still(rounding_of_step(farthest, precision))) {

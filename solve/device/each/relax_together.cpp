@@ -340,7 +340,7 @@ class Ensemble {
   }
 
   void end(std::size_t m, MemberResult::End how) {
-    results_[m] = {.end = how, .parameters = {}, .error_bound = ways_[m].error_bound(spans_[m]), .steps = steps_};
+    results_[m] = {.end = how, .parameters = {}, .error_bound = ways_[m].bound.with_spans(spans_[m]), .steps = steps_};
     ended_at_[m] = order_.first;
     active_ &= ~bit_of(m);
   }

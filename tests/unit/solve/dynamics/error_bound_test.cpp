@@ -127,6 +127,26 @@ TEST(ErrorBound, RemembersASlowMotionAsLongAsItLasts) {
   EXPECT_LT(bound.value(), 1e-12);
 }
 
+/// As in an ellipsoid pressed in by a disc (tests/random, small, seed 312), which rocks behind quicker motions.
+TEST(ErrorBound, IsAsManyTimesLargerAsTheLowestEigenvalueHasBecomeLess) {
+  const auto spans_count = [](double fall) {
+    constexpr double root = 0.05;  // √(αA_0) before
+    ErrorBound bound = after(20, 0.8, 1 - root);
+    bound.add(1e-20, 1 - root / std::sqrt(fall), true);
+    return bound.with_spans(1);
+  };
+  EXPECT_NEAR(spans_count(2.5), 2.5 * spans_count(1), 1e-9);
+  EXPECT_NEAR(spans_count(1.4), spans_count(1), 1e-9) << "that may be chance";
+  EXPECT_NEAR(spans_count(0.1), spans_count(1), 1e-9) << "it rises";
+}
+
+TEST(ErrorBound, CountsSpansHalfAsMuchAgainButNearTheEnd) {
+  const ErrorBound bound = after(20, 0.8, 0.9);
+  EXPECT_EQ(bound.with_spans(0), bound.value());
+  EXPECT_EQ(bound.with_spans(1), 1.5);
+  EXPECT_EQ(bound.with_spans(1, true), 1);
+}
+
 TEST(ErrorBound, IsInfiniteWhereStepsDoNotShrink) {
   EXPECT_TRUE(std::isinf(after(30, 1.0).value()));
   EXPECT_TRUE(std::isinf(after(30, 1.01).value()));
