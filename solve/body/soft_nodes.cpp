@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/body/soft_nodes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -14,37 +13,14 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double least_share = 0.2;   // of a node, for it to move with a tissue
-constexpr double least_spread = 0.3;  // of nodes about their middle, in spacings, in any direction
-constexpr std::size_t enough_in_space = 8, enough_in_plane = 6;
+constexpr double least_share = 0.2;     // of a node, for it to move with a tissue
+constexpr double largest_growth = 1.7;  // of supports without hidden nodes; from 1.6 on MMLS uses its penalty
 
 std::vector<double> distinct(std::span<const double> values) {
   std::vector<double> sorted(values.begin(), values.end());
   std::ranges::sort(sorted);
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   return sorted;
-}
-
-/// Whether shape functions of these nodes need no others. The quadratic basis needs too many.
-bool can_support(const MixedCloud& cloud, std::span<const std::int32_t> nodes) {
-  const bool planar = cloud.options.planar;
-  if (cloud.options.basis == Basis::quadratic || nodes.size() < (planar ? enough_in_plane : enough_in_space)) {
-    return false;
-  }
-  Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
-  double spacing = 0;
-  for (const std::int32_t a : nodes) {
-    middle += cloud.positions.row(a) / static_cast<double>(nodes.size());
-    spacing += cloud.spacing[static_cast<std::size_t>(a)] / static_cast<double>(nodes.size());
-  }
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (const std::int32_t a : nodes) {
-    const Eigen::RowVector3d away = cloud.positions.row(a) - middle;
-    moments += away.transpose() * away / static_cast<double>(nodes.size());
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moments, Eigen::EigenvaluesOnly);
-  const double least = least_spread * spacing;
-  return eigen.eigenvalues()[planar ? 1 : 0] >= least * least;
 }
 
 /// The nodes that tissue of a modulus sees.
@@ -61,41 +37,50 @@ struct SeenNodes {
     }
   }
 
-  std::vector<std::int32_t> of(std::span<const std::int32_t> support) const {
-    std::vector<std::int32_t> seen;
-    std::ranges::copy_if(support, std::back_inserter(seen),
-                         [&](std::int32_t a) { return is_seen[static_cast<std::size_t>(a)] != 0; });
-    return seen;
+  bool all_of(std::span<const std::int32_t> support) const {
+    return std::ranges::all_of(support, [&](std::int32_t a) { return is_seen[static_cast<std::size_t>(a)] != 0; });
   }
 };
 
-/// The places of a modulus whose support has hidden nodes and can do without.
-std::vector<std::int32_t> places_to_change(const MixedCloud& cloud, const SeenNodes& seen,
-                                           std::span<const double> modulus, double of, const ShapeRows& rows) {
+/// The places of a modulus whose support has hidden nodes.
+std::vector<std::int32_t> places_to_change(const SeenNodes& seen, std::span<const double> modulus, double of,
+                                           const ShapeRows& rows) {
   std::vector<std::int32_t> places;
   for (std::size_t p = 0; p < rows.size(); ++p) {
-    if (modulus[p] == of) {
-      const std::vector<std::int32_t> left = seen.of(rows[p].node);
-      if (left.size() < rows[p].size() && can_support(cloud, left)) {
-        places.push_back(static_cast<std::int32_t>(p));
-      }
+    if (modulus[p] == of && !seen.all_of(rows[p].node)) {
+      places.push_back(static_cast<std::int32_t>(p));
     }
   }
   return places;
 }
 
-/// The rows of these places anew, from the nodes seen alone.
+/// The rows of these places anew, from the nodes seen alone; empty where these do not suffice.
 ShapeRows rows_of_seen(const MixedCloud& cloud, const SeenNodes& seen, const Points& places, bool with_derivatives) {
   std::vector<double> spacing;
   for (const std::int32_t a : seen.nodes) {
     spacing.push_back(cloud.spacing[static_cast<std::size_t>(a)]);
   }
   const ShapeFunctions shape(cloud.positions(seen.nodes, Eigen::all), spacing, cloud.options, cloud.visibility);
-  ShapeRows rows = shape.evaluate(places, with_derivatives);
+  ShapeRows rows = shape.evaluate_where_admissible(places, with_derivatives, largest_growth);
   for (std::int32_t& node : rows.node) {
     node = seen.nodes[static_cast<std::size_t>(node)];
   }
   return rows;
+}
+
+/// Replaces these rows by those that are not empty. Returns how many.
+std::size_t replace(std::span<const std::int32_t> which, const ShapeRows& made, ShapeRows& rows) {
+  std::vector<std::int32_t> replaced, made_there;
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    if (made[k].size() > 0) {
+      replaced.push_back(which[k]);
+      made_there.push_back(static_cast<std::int32_t>(k));
+    }
+  }
+  const std::size_t grown = std::max(rows.grown, made.grown);  // the rows that go may have grown, too
+  rows = with_rows(rows, replaced, rows_at(made, made_there));
+  rows.grown = grown;
+  return replaced.size();
 }
 
 /// Of the stiffest that, with all that is stiffer, has its share. share: of each modulus, ascending.
@@ -131,16 +116,16 @@ std::vector<double> moduli_at_nodes(std::span<const double> volume, std::span<co
 
 std::size_t hide_soft_nodes(const MixedCloud& cloud, const Points& places, std::span<const double> modulus,
                             ShapeRows& rows) {
+  if (cloud.options.basis == Basis::quadratic) {
+    return 0;
+  }
+  const std::size_t least = cloud.options.planar ? 3 : 4;  // nodes that can determine linear terms
   std::size_t changed = 0;
   for (const double of : distinct(modulus)) {
     const SeenNodes seen(cloud.modulus, of);
-    const std::vector<std::int32_t> which = places_to_change(cloud, seen, modulus, of, rows);
-    if (!which.empty()) {
-      const ShapeRows made = rows_of_seen(cloud, seen, places(which, Eigen::all), !rows.derivative.empty());
-      const std::size_t grown = std::max(rows.grown, made.grown);  // the rows that go may have grown, too
-      rows = with_rows(rows, which, made);
-      rows.grown = grown;
-      changed += which.size();
+    const std::vector<std::int32_t> which = places_to_change(seen, modulus, of, rows);
+    if (!which.empty() && seen.nodes.size() >= least) {
+      changed += replace(which, rows_of_seen(cloud, seen, places(which, Eigen::all), !rows.derivative.empty()), rows);
     }
   }
   return changed;

@@ -32,9 +32,10 @@ struct MixedCloud {
 /// Hides nodes of soft tissue from places in tissue that is much stiffer (much_stiffer()): the rows of these places
 /// become shape functions of the nodes that are left. Of a node of soft tissue stiff tissue sees a scrap of the shape
 /// function alone, which then moves it by what is wrong with the stiff tissue's strain, and the soft one hardly
-/// resists. Where the nodes that are left are few or lie in one plane, as in a layer thinner than a spacing, the place
-/// sees all as before. modulus: µ at the places, Pa. rows: at the places, with derivatives or without. Returns how many
-/// rows changed. After the visibility criterion for discontinuities of the material (Cordes & Moran 1996), one way.
+/// resists. Supports grow to at most 1.7 times their radii for it. Where the nodes that are left are then still too few
+/// or lie in one plane, as in a flat layer thinner than a spacing, the place sees all as before. modulus: µ at the
+/// places, Pa. rows: at the places, with derivatives or without. Returns how many rows changed. After the visibility
+/// criterion for discontinuities of the material (Cordes & Moran 1996), one way.
 std::size_t hide_soft_nodes(const MixedCloud& cloud, const Points& places, std::span<const double> modulus,
                             ShapeRows& rows);
 

@@ -39,8 +39,9 @@ Candidates candidates_near(const NodeSupports& supports, const Ball& ball, doubl
   return near;
 }
 
-Evaluator::Evaluator(const NodeSupports& supports)
+Evaluator::Evaluator(const NodeSupports& supports, double largest_growth)
     : supports_(supports),
+      largest_growth_(largest_growth),
       options_{supports.options.planar ? 2 : 3, supports.options.basis == Basis::linear ? 1 : 2,
                supports.options.basis == Basis::modified_quadratic ? supports.options.penalty : 0, false} {}
 

@@ -26,7 +26,8 @@ Candidates candidates_near(const NodeSupports& supports, const Ball& ball, doubl
 /// Evaluates the shape functions at some neighbouring points, a lane each; owned by one thread.
 class Evaluator {
  public:
-  explicit Evaluator(const NodeSupports& supports);
+  /// largest_growth: of the radii of supports.
+  Evaluator(const NodeSupports& supports, double largest_growth);
 
   /// Finds admissible supports of the points, at most as many as there are lanes, growing them where needed: calls
   /// use(found) with the lanes where that was enough, as long as neighbours and gradients are theirs. near: all nodes
@@ -36,7 +37,7 @@ class Evaluator {
     PointLanes places{};
     Mask wanted{};
     place(points, places, wanted);
-    for (scale_ = 1; scale_ < largest_growth && any(wanted); scale_ *= growth) {
+    for (scale_ = 1; scale_ <= largest_growth_ && any(wanted); scale_ *= growth) {
       for (int l = 0; l < lanes; ++l) {
         places.unwanted[l] = wanted[l] != 0 ? 0 : std::numeric_limits<double>::infinity();
       }
@@ -60,8 +61,7 @@ class Evaluator {
   std::span<const ShapeGradient> gradients();
 
  private:
-  static constexpr double growth = 1.1;        // of a support that is not admissible, each try
-  static constexpr double largest_growth = 8;  // beyond it the cloud is degenerate
+  static constexpr double growth = 1.1;  // of a support that is not admissible, each try
 
   static void place(std::span<const EvaluationPoint> points, PointLanes& places, Mask& wanted);
   static int first_of(const Mask& mask);
@@ -70,6 +70,7 @@ class Evaluator {
   void apply_visibility(int lane, const Eigen::Vector3d& x);
 
   const NodeSupports& supports_;
+  double largest_growth_;
   FitOptions options_;
   Fit fit_;
   double scale_ = 1;

@@ -81,30 +81,37 @@ template <class Use>
 Eigen::Index take(std::span<const EvaluationPoint> points, const NodeSupports& supports, Evaluator& evaluator,
                   const Use& use) {
   const Candidates near = candidates_near(supports, ball_about(points), 1);
+  Eigen::Index fault = none;
   for (std::size_t i = 0; i < points.size(); i += lanes) {
     const std::span eight = points.subspan(i, std::min<std::size_t>(lanes, points.size() - i));
     const int bad =
         evaluator.move_to(eight, near, [&](const Mask& found) { use(evaluator, found_points(found, eight)); });
-    if (bad >= 0) {
-      return eight[static_cast<std::size_t>(bad)].point;
-    }
+    fault = bad < 0 ? fault : eight[static_cast<std::size_t>(bad)].point;
   }
-  return none;
+  return fault;
 }
 
-/// Calls use(evaluator, found points) for all gathered points; groups of them go to whichever thread is free.
+/// How far supports may grow, and whether each point must have one.
+struct Reach {
+  double largest_growth = 8;  // of the radii; beyond it the cloud is degenerate
+  bool everywhere = true;
+};
+
+/// Calls use(evaluator, found points) for all gathered points that have a support; groups of them go to whichever
+/// thread is free.
 template <class Use>
-void for_each_point(const NodeSupports& supports, std::span<const EvaluationPoint> points, const Use& use) {
+void for_each_point(const NodeSupports& supports, std::span<const EvaluationPoint> points, const Reach& reach,
+                    const Use& use) {
   std::atomic<Eigen::Index> bad = none;
 #pragma omp parallel
   {
-    Evaluator evaluator(supports);
+    Evaluator evaluator(supports, reach.largest_growth);
 #pragma omp for schedule(dynamic)
     for (std::size_t i = 0; i < points.size(); i += group) {
       if (bad == none) {
         const Eigen::Index fault =
             take(points.subspan(i, std::min<std::size_t>(group, points.size() - i)), supports, evaluator, use);
-        if (fault != none) {
+        if (fault != none && reach.everywhere) {
           bad = fault;
         }
       }
@@ -119,11 +126,12 @@ void for_each_point(const NodeSupports& supports, std::span<const EvaluationPoin
 
 /// Rows with room for the support of each point, and nothing in it. Counting first costs less than rows that grow, in
 /// time and in memory.
-ShapeRows empty_rows(const NodeSupports& supports, std::span<const EvaluationPoint> points, bool with_derivatives) {
+ShapeRows empty_rows(const NodeSupports& supports, std::span<const EvaluationPoint> points, const Reach& reach,
+                     bool with_derivatives) {
   ShapeRows rows;
   rows.begin.assign(points.size() + 1, 0);
   std::atomic<std::size_t> grown = 0;
-  for_each_point(supports, points, [&](const Evaluator& at, std::span<const Found> found) {
+  for_each_point(supports, points, reach, [&](const Evaluator& at, std::span<const Found> found) {
     for (const auto& [lane, point] : found) {
       rows.begin[static_cast<std::size_t>(point) + 1] = at.support_size(lane);
     }
@@ -160,6 +168,15 @@ void fill_rows(std::span<const Neighbour> neighbours, std::span<const ShapeGradi
   }
 }
 
+ShapeRows rows_of(const NodeSupports& supports, const Points& points, const Reach& reach, bool with_derivatives) {
+  const std::vector<EvaluationPoint> places = gathered(points);
+  ShapeRows rows = empty_rows(supports, places, reach, with_derivatives);
+  for_each_point(supports, places, reach, [&](Evaluator& at, std::span<const Found> found) {
+    fill_rows(at.neighbours(), with_derivatives ? at.gradients() : std::span<const ShapeGradient>(), found, rows);
+  });
+  return rows;
+}
+
 void check_plane(const Points& points, const ShapeOptions& options, const char* what) {
   if (!options.planar) {
     return;
@@ -188,18 +205,19 @@ std::size_t ShapeFunctions::nodes() const {
 
 ShapeRows ShapeFunctions::evaluate(const Points& points, bool with_derivatives) const {
   check_plane(points, supports_->options, "point");
-  const std::vector<EvaluationPoint> places = gathered(points);
-  ShapeRows rows = empty_rows(*supports_, places, with_derivatives);
-  for_each_point(*supports_, places, [&](Evaluator& at, std::span<const Found> found) {
-    fill_rows(at.neighbours(), with_derivatives ? at.gradients() : std::span<const ShapeGradient>(), found, rows);
-  });
-  return rows;
+  return rows_of(*supports_, points, {}, with_derivatives);
+}
+
+ShapeRows ShapeFunctions::evaluate_where_admissible(const Points& points, bool with_derivatives,
+                                                    double largest_growth) const {
+  check_plane(points, supports_->options, "point");
+  return rows_of(*supports_, points, {largest_growth, false}, with_derivatives);
 }
 
 Points ShapeFunctions::interpolate(const Points& points, const Points& values) const {
   check_plane(points, supports_->options, "point");
   Points result(points.rows(), 3);
-  for_each_point(*supports_, gathered(points), [&](const Evaluator& at, std::span<const Found> found) {
+  for_each_point(*supports_, gathered(points), {}, [&](const Evaluator& at, std::span<const Found> found) {
     Lane sum[3];
     blend(at.neighbours(), values, sum);
     for (const auto& [lane, point] : found) {

@@ -32,6 +32,10 @@ class ShapeFunctions {
   /// support is admissible (all nodes in one plane; planar: on one line) or, planar, where z is not 0.
   ShapeRows evaluate(const Points& points, bool with_derivatives) const;
 
+  /// The same where a support is admissible of which radii have grown to at most so many times; the rows of other
+  /// points are empty.
+  ShapeRows evaluate_where_admissible(const Points& points, bool with_derivatives, double largest_growth) const;
+
   /// The field Σφ_a(x) values_a at points (m × 3); values (n × 3). What evaluate() and a product would give, without
   /// the rows in memory.
   Points interpolate(const Points& points, const Points& values) const;

@@ -110,14 +110,26 @@ TEST(SoftNodes, AreNotHiddenWhereStiffnessChangesLittle) {
   EXPECT_EQ(hide_soft_nodes(filled.mixed(), filled.places, filled.modulus, filled.rows), 0U);
 }
 
-/// A stiff sheet of a third of a spacing about the middle layer of nodes: its points cannot do with nodes of a plane.
-TEST(SoftNodes, AreSeenByALayerThatHasTooFewOfItsOwn) {
+/// A stiff sheet of two fifths of a spacing about the middle layer of nodes, whose creases rise by so many spacings.
+Filled with_a_sheet(double rise) {
   Filled filled;
-  for (std::size_t p = 0; p < filled.modulus.size(); ++p) {
-    const double off = std::abs(filled.places(static_cast<Eigen::Index>(p), 2) - wall);
-    filled.modulus[p] = off < filled.cloud.spacing[0] / 5 ? stiff : soft;
+  const double h = filled.cloud.spacing[0];
+  const auto sheet = [&](double x) { return wall + rise * h * std::sin(2 * x / h); };
+  for (auto x : filled.cloud.positions.rowwise()) {
+    x[2] = x[2] == wall ? sheet(x[0]) : x[2];
   }
+  for (std::size_t p = 0; p < filled.modulus.size(); ++p) {
+    const Eigen::RowVector3d x = filled.places.row(static_cast<Eigen::Index>(p));
+    filled.modulus[p] = std::abs(x[2] - sheet(x[0])) < h / 5 ? stiff : soft;
+  }
+  filled.rows =
+      ShapeFunctions(filled.cloud.positions, filled.cloud.spacing, filled.options).evaluate(filled.places, true);
   filled.moved_with = moduli_at_nodes(filled.volume, filled.modulus, filled.rows, filled.cloud.size());
+  return filled;
+}
+
+TEST(SoftNodes, AreSeenByASheetWhoseNodesLieInAPlane) {
+  Filled filled = with_a_sheet(0);
   const ShapeRows before = filled.rows;
   hide_soft_nodes(filled.mixed(), filled.places, filled.modulus, filled.rows);
   for (std::size_t p = 0; p < filled.rows.size(); ++p) {
@@ -125,6 +137,34 @@ TEST(SoftNodes, AreSeenByALayerThatHasTooFewOfItsOwn) {
       EXPECT_TRUE(std::ranges::equal(filled.rows[p].node, before[p].node));
     }
   }
+}
+
+/// As the septum between a brain's ventricles, which else moves single nodes of the fluid at will.
+TEST(SoftNodes, AreHiddenFromACreasedSheetOfOneLayerOfNodes) {
+  Filled filled = with_a_sheet(0.4);
+  EXPECT_GT(hide_soft_nodes(filled.mixed(), filled.places, filled.modulus, filled.rows), 0U);
+  std::size_t hides = 0, all = 0;
+  for (std::size_t p = 0; p < filled.rows.size(); ++p) {
+    if (filled.modulus[p] == stiff) {
+      const ShapeRow row = filled.rows[p];
+      Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        gradient += row.gradient(k) * filled.cloud.positions.row(row.node[k]);
+      }
+      EXPECT_LT((gradient - Eigen::Matrix3d::Identity()).norm(), 1e-8);
+      const auto is_stiff = [&](std::int32_t a) { return filled.moved_with[static_cast<std::size_t>(a)] == stiff; };
+      hides += std::ranges::all_of(row.node, is_stiff) ? 1 : 0;
+      ++all;
+    }
+  }
+  EXPECT_EQ(hides, all);
+}
+
+TEST(SoftNodes, AreSeenWhereTooFewOthersAreLeft) {
+  Filled filled;
+  std::ranges::fill(filled.moved_with, soft);
+  std::ranges::fill_n(filled.moved_with.begin(), 3, stiff);
+  EXPECT_EQ(hide_soft_nodes(filled.mixed(), filled.places, filled.modulus, filled.rows), 0U);
 }
 
 }  // namespace brainshift::solve::soft_nodes_test

@@ -59,7 +59,7 @@ TEST(Evaluator, FindsTheShapeFunctionsOfFewerPointsThanLanes) {
   const NodeCloud cloud = test::irregular_box(9, side);
   const NodeSupports supports = supports_of(cloud, {.basis = Basis::linear, .dilatation = 2});
   const std::vector<EvaluationPoint> points = some_points(5);
-  Evaluator evaluator(supports);
+  Evaluator evaluator(supports, 8);
   int calls = 0;
   const int bad = evaluator.move_to(points, candidates_near(supports, ball_about(points), 1), [&](const Mask& found) {
     ++calls;
@@ -89,7 +89,7 @@ TEST(Evaluator, GrowsSupportsThatAreTooSmallUntilEachPointHasOne) {
   const NodeCloud cloud = test::irregular_box(9, side);
   const NodeSupports supports = supports_of(cloud, {.basis = Basis::linear, .dilatation = 0.8});
   const std::vector<EvaluationPoint> points = some_points(lanes);
-  Evaluator evaluator(supports);
+  Evaluator evaluator(supports, 8);
   int times_found[lanes] = {}, grown = 0;
   const int bad = evaluator.move_to(points, candidates_near(supports, ball_about(points), 1), [&](const Mask& found) {
     grown += evaluator.grown() ? 1 : 0;
@@ -107,7 +107,7 @@ TEST(Evaluator, NamesALaneForWhichThereIsNoSupport) {
   flat.positions.col(2).setConstant(side / 3);
   const NodeSupports supports = supports_of(flat, {.basis = Basis::linear});
   const std::vector<EvaluationPoint> points = some_points(3);
-  Evaluator evaluator(supports);
+  Evaluator evaluator(supports, 8);
   const int bad = evaluator.move_to(points, candidates_near(supports, ball_about(points), 1),
                                     [](const Mask&) { FAIL() << "a basis of space from nodes in a plane"; });
   EXPECT_EQ(bad, 0);
@@ -121,7 +121,7 @@ TEST(Evaluator, DoesNotSeeThroughACut) {
   for (int i = 0; i < lanes; ++i) {
     points.push_back({Eigen::Vector3d(10 + i, i % 2 == 0 ? 16 : 18, 0), i});
   }
-  Evaluator evaluator(supports);
+  Evaluator evaluator(supports, 8);
   const int bad = evaluator.move_to(points, candidates_near(supports, ball_about(points), 1), [&](const Mask& found) {
     for (int l = 0; l < lanes; ++l) {
       for (const Neighbour& s : evaluator.neighbours()) {

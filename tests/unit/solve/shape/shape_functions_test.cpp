@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
+
 #include "segmentation/geometry/neighbour_distance.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/unit/solve/completeness.hpp"
@@ -94,6 +96,23 @@ TEST_P(EveryBasis, IsCompleteAtTheCornerOfACloudWithoutAStatedSpacing) {
   cloud.spacing = mean_neighbour_distance(nearest_neighbours(cloud.positions, 6));
   const Points at = random_points(500, side / 16);
   EXPECT_LE(completeness_error(cloud, at, options()), 1e-10);
+}
+
+TEST_P(EveryBasis, LeaveRowsEmptyWhereNoSupportIsAdmissible) {
+  const NodeCloud cloud = irregular_box(8, side);
+  const ShapeFunctions shape(cloud.positions, cloud.spacing, options());
+  Points at = random_points(40, side);
+  const ShapeRows all = shape.evaluate(at, true);
+  at.row(7) << 3 * side, 0, 0;
+  const ShapeRows rows = shape.evaluate_where_admissible(at, true, 1.7);
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    if (p == 7) {
+      EXPECT_EQ(rows[p].size(), 0U);
+    } else {
+      EXPECT_TRUE(std::ranges::equal(rows[p].node, all[p].node));
+      EXPECT_TRUE(std::ranges::equal(rows[p].derivative, all[p].derivative));
+    }
+  }
 }
 
 TEST(ShapeFunctions, RefuseACloudInOnePlane) {
