@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "solve/material/material.hpp"
+#include "solve/shape/moving_least_squares.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::solve {
@@ -77,6 +78,9 @@ std::size_t replace(std::span<const std::int32_t> which, const ShapeRows& made, 
       made_there.push_back(static_cast<std::int32_t>(k));
     }
   }
+  if (replaced.empty()) {
+    return 0;
+  }
   const std::size_t grown = std::max(rows.grown, made.grown);  // the rows that go may have grown, too
   rows = with_rows(rows, replaced, rows_at(made, made_there));
   rows.grown = grown;
@@ -119,7 +123,7 @@ std::size_t hide_soft_nodes(const MixedCloud& cloud, const Points& places, std::
   if (cloud.options.basis == Basis::quadratic) {
     return 0;
   }
-  const std::size_t least = cloud.options.planar ? 3 : 4;  // nodes that can determine linear terms
+  const auto least = static_cast<std::size_t>(monomial_count(cloud.options.planar ? 2 : 3, 1));
   std::size_t changed = 0;
   for (const double of : distinct(modulus)) {
     const SeenNodes seen(cloud.modulus, of);
