@@ -207,9 +207,11 @@ void note_body(Segmentation& result, const BrainBody& body, const Mask& tissue, 
     result.notes.push_back(text.str());
   }
   constexpr double worth_saying = 1000;  // mm³
+  constexpr double much = 0.02;          // of the tissue
   if (body.loose_volume > worth_saying) {
     std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << "dropped " << body.loose_volume / 1000 << " ml of tissue ("
+    text << (body.loose_volume > much * result.body->tissue_volume ? "warning: " : "") << std::fixed
+         << std::setprecision(1) << "dropped " << body.loose_volume / 1000 << " ml of tissue ("
          << 100 * body.loose_volume / result.body->tissue_volume << " %) in " << body.loose_pieces
          << " piece(s) that hang together with no part of the brain; if they belong to it, join them in the image";
     result.notes.push_back(text.str());

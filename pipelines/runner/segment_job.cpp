@@ -57,7 +57,8 @@ void take_to_grid(std::optional<LabelMap>& map, const fs::path& file, const Imag
 }
 
 void note_frames(const ImageInputs& image, std::vector<std::string>& notes) {
-  for (const fs::path& file : std::set<fs::path>{image.t1, image.labels, image.brain_mask}) {
+  for (const fs::path& file :
+       std::set<fs::path>{image.t1, image.labels, image.brain_mask, image.tumour, image.tumour_mask}) {
     if (const std::string note = frame_note(file); !note.empty()) {
       notes.push_back("warning: " + file.string() + ": " + note);
     }

@@ -84,10 +84,17 @@ void check_parts(const Scene& scene) {
   check_cuts(scene);
   check_septa(scene);
   check_resection(scene);
-  if (scene.load && scene.load->robust && !has_noise(*scene.load)) {
-    fail(scene, "load.robust",
-         "robust=\"yes\" needs to know how well the points were measured; give <load> a noise, or the file a column "
-         "sigma");
+  if (scene.load) {
+    const auto need_noise = [&](bool asked, const std::string& option, const std::string& text) {
+      if (asked && !has_noise(*scene.load)) {
+        fail(
+            scene, "load." + option,
+            text + " needs to know how well the points were measured; give <load> a noise, or the file a column sigma");
+      }
+    };
+    need_noise(scene.load->robust, "robust", "robust=\"yes\"");
+    need_noise(scene.load->registration_unknown, "registration", "an unknown registration");
+    need_noise(scene.load->weight > 0, "weight", "a weight");
   }
   if (scene.uncertainty) {
     check_at(scene, "uncertainty", [&] { check_uncertainty(scene); });

@@ -22,6 +22,26 @@ std::set<std::uint16_t> labels_in(const LabelMap& map) {
   return labels;
 }
 
+/// A tumour of its own file gets this number, which another tissue must not have.
+void check_is_free(std::uint16_t tumour, const std::set<std::uint16_t>& labels, const Scene& scene) {
+  const auto& others = scene.image.other_labels;
+  const std::string place = scene.image.tumour.empty() ? "image.tumour_mask" : "image.tumour";
+  const std::string number = std::to_string(tumour);
+  if (std::find(others.begin(), others.end(), tumour) != others.end()) {
+    fail(scene, place,
+         "the tumour becomes label " + number + ", which other_labels says is not of the brain; take it out there");
+  }
+  const bool is_one = std::any_of(scene.tissues.begin(), scene.tissues.end(), [&](const Tissue& tissue) {
+    return tissue.label == tumour &&
+           (tissue.named_material == "tumour" || segmentation::class_of_name(tissue.name) == tumour);
+  });
+  if (labels.contains(tumour) && !is_one) {
+    fail(scene, place,
+         "the tumour becomes label " + number + ", which " + scene.image.labels.string() +
+             " has already; give that tissue another number, or name it \"tumour\" if it is one");
+  }
+}
+
 /// The labels that the segment stage will give: of the map, with the numbers that tissues join, of the classes, or
 /// tissue 1 of a bare surface.
 std::set<std::uint16_t> labels_to_come(const Scene& scene) {
@@ -33,6 +53,7 @@ std::set<std::uint16_t> labels_to_come(const Scene& scene) {
     labels.insert({label::ventricles, label::csf});
   }
   if (!scene.image.tumour_mask.empty() || !scene.image.tumour.empty()) {
+    check_is_free(label::tumour, labels, scene);
     labels.insert(label::tumour);
   }
   return labels;

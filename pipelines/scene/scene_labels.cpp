@@ -2,6 +2,7 @@
 #include "pipelines/scene/scene_labels.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/labels/segmentation_file.hpp"
@@ -55,6 +56,26 @@ sg::LabelTable with_outer_labels(sg::LabelTable table, const sg::LabelVolumes& v
     }
   }
   return table;
+}
+
+// What a table's file makes of the map's numbers: "parenchyma 1 7, ventricles 4".
+std::string classes_of(const sg::LabelVolumes& volumes, const sg::LabelTable& table) {
+  namespace label = sg::default_label;
+  std::string text;
+  for (const auto& [tissue, name] : std::map<std::uint16_t, std::string>{{label::parenchyma, "parenchyma"},
+                                                                         {label::ventricles, "ventricles"},
+                                                                         {label::tumour, "tumour"},
+                                                                         {label::csf, "fluid"},
+                                                                         {label::skull, "skull"}}) {
+    sg::LabelVolumes of_class;
+    for (const auto& [number, volume] : volumes) {
+      if (const auto found = table.classes.find(number); found != table.classes.end() && found->second == tissue) {
+        of_class.emplace(number, volume);
+      }
+    }
+    text += of_class.empty() ? "" : (text.empty() ? "" : ", ") + name + " " + numbers_of(of_class);
+  }
+  return text;
 }
 
 // Of FreeSurfer's numbers: a hemisphere that is missing.
@@ -146,6 +167,9 @@ ReadLabels read_labels(const ImageInputs& image, const LabelReading& reading) {
   }
   if (table.name == sg::freesurfer_table().name) {
     note_one_sided(image, volumes, result.notes);
+  } else if (table.name != sg::brats_table().name) {
+    result.notes.push_back(image.labels.string() + ": its numbers are " + classes_of(volumes, table) +
+                           ", by the names in " + image.labels_are);
   }
   sg::renumber(result.map, with_outer_labels(table, volumes).classes, sg::Unnamed::become_background);
   check_classes(image, "numbers are " + table.name + "; correct labels_are", result.map, result.notes);

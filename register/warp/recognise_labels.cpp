@@ -30,7 +30,8 @@ std::unordered_map<float, std::size_t> count_labels(const ScalarImage& image) {
   constexpr std::size_t most_labels = 4096;  // atlases have up to some 1000
   std::unordered_map<float, std::size_t> counts;
   for (const float value : image.voxels) {
-    if (!(value >= 0) || value != std::floor(value) || (++counts[value], counts.size() > most_labels)) {
+    constexpr float outside = -1;  // as some maps have it
+    if (!(value >= outside) || value != std::floor(value) || (++counts[value], counts.size() > most_labels)) {
       return {};
     }
   }

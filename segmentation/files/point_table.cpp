@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
 
@@ -75,7 +77,7 @@ const std::string& field_in(const PointTable& table, const std::vector<std::stri
 /// theirs.
 void check_width(std::string_view text, std::size_t line, const PointTable& table) {
   const std::size_t fields = split_fields(text).size();
-  if (table.file.extension() == ".csv" && fields != table.columns.size()) {
+  if (ending_of(table.file) == ".csv" && fields != table.columns.size()) {
     fail_at_line(table.file, line,
                  std::to_string(table.columns.size()) + " columns are expected as in the header, found \"" +
                      std::string(text) + "\"");
@@ -113,7 +115,7 @@ std::optional<std::size_t> PointTable::find_column(std::string_view name) const 
 
 PointTable read_point_table(const std::filesystem::path& file) {
   PointTable table{.file = file, .lines = read_lines(file), .frame = {}, .columns = {}, .rows = {}};
-  const bool is_csv = file.extension() == ".csv";
+  const bool is_csv = ending_of(file) == ".csv";
   if (!is_csv) {
     table.columns = fcsv_columns;
   }
@@ -164,7 +166,7 @@ std::vector<std::string> texts_in(const PointTable& table, const std::string& na
 
 void write_point_table(const std::filesystem::path& out, const PointTable& table, const Points& places,
                        const std::vector<PointValues>& values) {
-  const bool is_csv = table.file.extension() == ".csv";
+  const bool is_csv = ending_of(table.file) == ".csv";
   const std::size_t description = is_csv ? std::string::npos : table.find_column("desc").value_or(std::string::npos);
   Points in_frame = places;
   to_lps(in_frame, *table.frame);  // the way there and back is the same
@@ -182,17 +184,16 @@ void write_point_table(const std::filesystem::path& out, const PointTable& table
       described = with_words(fields[description], in_words(values, row));
       fields[description] = described;
     }
-    std::string joined;
-    for (const std::string_view field : fields) {
-      joined += joined.empty() ? "" : ",";
-      joined += field;
+    std::string joined(fields.front());
+    for (std::size_t f = 1; f < fields.size(); ++f) {
+      joined.append(",").append(fields[f]);
     }
     line = std::move(joined);
   }
   for (const PointValues& each : is_csv ? values : std::vector<PointValues>{}) {
     append_field(lines[table.header], (table.find_column(each.name) ? "warp_" : "") + each.name);
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
-      append_field(lines[table.rows[row]], decimal(each.values[row]));
+      append_field(lines[table.rows[row]], std::isnan(each.values[row]) ? "" : decimal(each.values[row]));
     }
   }
   std::ofstream stream(out);

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "segmentation/files/frame.hpp"
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/point_table.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
@@ -21,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 bool ends_with(const std::filesystem::path& file, std::string_view ending) {
-  return file.filename().string().ends_with(ending);
+  return in_lower_case(file.filename().string()).ends_with(ending);
 }
 
 /// A placed control point of a markups document.
@@ -222,8 +223,8 @@ void PointsFile::write_moved(const std::filesystem::path& out, const Points& pla
     to_lps(place, markups.points[i].frame);  // the way there and back is the same
     const Json::json_pointer position(markups.points[i].position);
     markups.document[position] = {place(0, 0), place(0, 1), place(0, 2)};
-    if (!values.empty()) {
-      add_words(markups.document[position.parent_pointer()], in_words(values, i));
+    if (const std::string words = in_words(values, i); !words.empty()) {
+      add_words(markups.document[position.parent_pointer()], words);
     }
   }
   write_json(out, markups.document);

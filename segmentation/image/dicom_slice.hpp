@@ -18,13 +18,14 @@ struct DicomSlice {
   std::vector<double> spacing;      ///< PixelSpacing: between rows, between columns, mm
   std::vector<double> orientation;  ///< ImageOrientationPatient: along a row, along a column
   std::vector<double> position;     ///< ImagePositionPatient, mm, LPS
+  bool in_groups = false;           ///< it has functional groups, which may tell these of each frame
 };
 
 /// Whether the file is a regular one with DICM at byte 128, and no directory of others (DICOMDIR).
 bool is_dicom_slice(const std::filesystem::path& file);
 
 /// Throws std::invalid_argument, naming the file, when it is cut short, in its header or its pixels, or a field cannot
-/// be. A slice of more than one frame need not have spacing, orientation and position.
+/// be. A slice of more than one frame may have spacing, orientation and position in functional groups.
 DicomSlice read_dicom_slice(const std::filesystem::path& file);
 
 }  // namespace brainshift

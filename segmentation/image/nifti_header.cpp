@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t nifti_header_size = 348;
 constexpr std::size_t first_voxel = 352;
+constexpr int scanners = 1;  // the code of a form that the scanner told
 
 /// The 348 bytes of a NIfTI-1 header, in either byte order.
 struct NiftiFields {
@@ -116,7 +117,7 @@ void read_qform(const fs::path& file, const NiftiFields& fields, ImageHeader& he
   check_finite_form(file, "qform", largest_of(header.origin));
 }
 
-// ITK takes the spacing from pixdim, and the sform's directions where there is no other form or it is the scanner's.
+// ITK takes the spacing from pixdim, and the sform where there is no other form or it is the scanner's.
 void read_sform(const fs::path& file, const NiftiFields& fields, ImageHeader& header) {
   const auto form = sform(fields);
   check_finite_form(file, "sform", largest_of(form));
@@ -124,6 +125,9 @@ void read_sform(const fs::path& file, const NiftiFields& fields, ImageHeader& he
       1e-30;  // below it ITK's decomposition of single numbers fails, and says so on the terminal
   if ((form.array() != 0 && form.array().abs() < smallest).any()) {
     refuse(file, "the header's sform holds a number that is next to nothing but not 0; repair the header");
+  }
+  if (fields.qform_code() > 0 && fields.sform_code() != scanners) {
+    return;
   }
   ImageHeader by_sform;
   set_axes(by_sform, form.leftCols<3>());
@@ -137,7 +141,7 @@ void read_sform(const fs::path& file, const NiftiFields& fields, ImageHeader& he
   }
   const Eigen::Vector3d off = (by_sform.spacing - header.spacing).cwiseAbs();
   const bool same_size = (off.array() <= 0.01 * header.spacing.array()).all();
-  if (!same_size && (fields.qform_code() <= 0 || fields.sform_code() == 1)) {
+  if (!same_size) {
     refuse(file, "the header's sform and pixdim differ on the size of a voxel; repair the header");
   }
   header.direction = by_sform.direction;
@@ -158,8 +162,14 @@ std::string note_forms(const NiftiFields& fields, const ImageHeader& by_qform, c
   const auto form = sform(fields);
   set_axes(by_sform, form.leftCols<3>());
   by_sform.origin = form.col(3);
-  const Eigen::Vector3d last(fields.dimension(1) - 1, fields.dimension(2) - 1, fields.dimension(3) - 1);
-  const double most = std::max(apart(by_qform, by_sform, Eigen::Vector3d::Zero()), apart(by_qform, by_sform, last));
+  double most = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3d index = Eigen::Vector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+      index[axis] = (corner >> axis & 1) != 0 ? std::max(0, fields.dimension(axis + 1) - 1) : 0;
+    }
+    most = std::max(most, apart(by_qform, by_sform, index));
+  }
   constexpr double worth_saying = 0.5;  // mm
   if (!(most > worth_saying)) {
     return {};
@@ -169,7 +179,17 @@ std::string note_forms(const NiftiFields& fields, const ImageHeader& by_qform, c
          (took_sform ? "sform" : "qform") + " was taken";
 }
 
+// ITK takes the voxels' size to mm, but not their place.
+void check_unit(const fs::path& file, int unit) {
+  constexpr int unknown = 0, millimetres = 2;
+  if (unit != unknown && unit != millimetres) {
+    refuse(file, "the header's unit of length is not the millimetre; save the image in mm");
+  }
+}
+
 void read_nifti_geometry(const fs::path& file, const NiftiFields& fields, ImageHeader& header) {
+  constexpr int of_length = 7;  // of the bits of xyzt_units
+  check_unit(file, fields.bytes[123] & of_length);
   header.spacing = Eigen::Vector3d(fields.step(1), fields.step(2), fields.step(3)).cwiseAbs();
   if (fields.qform_code() > 0) {
     read_qform(file, fields, header);

@@ -76,20 +76,33 @@ Row row_of(const std::string& line, const std::optional<Columns>& columns) {
     return last < fields.size() ? Row{fields[columns->index], fields[columns->name]} : Row{};
   }
   Row row;
-  std::istringstream(line) >> row.number >> row.name;
+  std::istringstream words(line);
+  words >> row.number;
+  if (const std::size_t quote = line.find('"'); quote != std::string::npos) {  // the last column of ITK-SNAP's
+    row.name = line.substr(quote + 1, line.find('"', quote + 1) - quote - 1);
+    return row;
+  }
+  for (std::string word; words >> word && !read_number<double>(word);) {  // numbers behind the name are its colour
+    row.name += (row.name.empty() ? "" : " ") + word;
+  }
   return row;
+}
+
+bool has_letter(const std::string& name) {
+  return std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; });
 }
 
 void add_row(LabelTable& table, const Row& row, const fs::path& file, std::size_t line) {
   const auto number = read_number<int>(trimmed(row.number));
-  if (!number || row.name.empty()) {
+  if (!number || !has_letter(row.name)) {
     fail_at_line(file, line,
-                 "a label's number and its name are expected, as '10 Left-Thalamus', or columns 'index' and 'name'");
+                 "a label's number and its name are expected, as '10 Left-Thalamus', ITK-SNAP's form with the name "
+                 "in quotes at the end, or columns 'index' and 'name'");
   }
   if (*number < 0 || *number > static_cast<int>(label_numbers.high)) {
     return;  // a list of colours names numbers that no label map of ours holds
   }
-  table.classes[static_cast<std::uint16_t>(*number)] = class_of_name(row.name);
+  table.classes[static_cast<std::uint16_t>(*number)] = *number == 0 ? std::uint16_t{0} : class_of_name(row.name);
 }
 
 LabelTable table_of_segments(const fs::path& file) {

@@ -29,6 +29,19 @@ TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
   expect_parts(fault(scene("<image labels=\"labels.nii.gz\" tumour=\"labels.nii.gz\" tumour_mask=\"labels.nii.gz\"/>" +
                            two + load)),
                {"give one of them"});
+  for (const std::string asked : {"robust=\"yes\"", "registration=\"unknown\"", "weight=\"0.1\""}) {
+    std::string without = load;
+    without.replace(0, 5, "<load " + asked);
+    expect_parts(fault(scene(image + two + without)), {"how well the points were measured", "a noise"});
+  }
+  const std::string tumour = "<image labels=\"labels.nii.gz\" other_labels=\"6";
+  expect_parts(fault(scene(tumour + "\" tumour=\"labels.nii.gz\"/>" + two + load)),
+               {"label 3", "labels.nii.gz has already", "another number"});
+  EXPECT_EQ(fault(scene(tumour + "\" tumour=\"labels.nii.gz\"/>" + load +
+                        "<tissues><tissue label=\"1\"/><tissue label=\"3\" material=\"tumour\"/></tissues>")),
+            "");
+  expect_parts(fault(scene(tumour + " 3\" tumour=\"labels.nii.gz\"/><tissues><tissue label=\"1\"/></tissues>" + load)),
+               {"label 3", "other_labels"});
   const std::string mixed = "<tissues><tissue label=\"1\"/><tissue class=\"tumour\"/></tissues>";
   expect_parts(fault(scene(image + mixed + load)), {"by class, others by label"});
   EXPECT_EQ(fault(scene(image + "<tissues><tissue labels=\"1-4\"/></tissues>" + load)), "");

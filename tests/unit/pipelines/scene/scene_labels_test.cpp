@@ -58,7 +58,8 @@ TEST_F(SceneLabels, OtherNumbersNeedATable) {
   EXPECT_EQ(own.map.at(1, 1, 1), 1);
   EXPECT_EQ(own.map.at(2, 1, 1), 2);
   EXPECT_EQ(own.map.at(1, 2, 1), 6) << "no number is fluid or skull, so the skin stays";
-  EXPECT_TRUE(own.notes.empty());
+  ASSERT_EQ(own.notes.size(), 1U);
+  expect_parts(own.notes.front(), {"parenchyma 1, ventricles 3", "own.txt"});
 }
 
 TEST(LabelNames, AreThoseOfTheTissuesElseTheUsualOnes) {

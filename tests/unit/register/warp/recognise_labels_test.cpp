@@ -13,6 +13,7 @@ const ImageGeometry g = grid({24, 22, 20});
 
 TEST(RecogniseLabels, ByFewWholeNumbersInPatches) {
   EXPECT_TRUE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) { return x.x() > 3 ? 1 : 0; })));
+  EXPECT_TRUE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) { return x.x() > 3 ? 1 : -1; })));
   EXPECT_TRUE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) {
     return 1000 + std::floor(x.x() / 6) + 10 * std::floor(x.y() / 6) + 100 * std::floor(x.z() / 6);
   })));

@@ -100,6 +100,14 @@ TEST(PointTable, ACsvGetsTheValuesAsItsLastColumnsAndAnFcsvAsWords) {
             "0.000000,0.000000,0.000000,b,0.500000,2.000000\n");
   EXPECT_NE(written("u.csv", "# frame: LPS\nx,y,z,estimated_error\n1,2,3,9\n4,5,6,9\n").find(",warp_estimated_error,"),
             std::string::npos);
+  const std::vector<PointValues> unknown = {{"estimated_error", {std::nan(""), 0.5}}};
+  write_point_table(folder / "v.csv",
+                    read_point_table(folder.write("nameless.csv", "# frame: LPS\nname,x,y,z\n,1,2,3\nb,4,5,6\n")),
+                    places, unknown);
+  EXPECT_EQ(bytes_of(folder / "v.csv"),
+            "# frame: LPS\nname,x,y,z,estimated_error\n,0.000000,0.000000,0.000000,\n"
+            "b,0.000000,0.000000,0.000000,0.500000\n");
+  EXPECT_EQ(in_words(unknown, 0), "");
   // 3D Slicer's columns are its own, and a row may end before its description.
   const std::string fcsv =
       written("t.fcsv", "# CoordinateSystem = LPS\n1,1,2,3,0,0,0,1,1,1,0,F-1,\"old, words\",\n2,4,5,6\n");

@@ -115,6 +115,15 @@ TEST(DicomSeries, NoneOrTwoInAFolderAreRefused) {
   EXPECT_TRUE(says(two.fault(), {"exactly one DICOM series", "2"}));
 }
 
+TEST(DicomSeries, FramesWithoutPlacesAreRefused) {
+  const ScratchFolder folder;
+  DrawnSlice drawn;
+  drawn.position = "";
+  drawn.sequence = element(0x28, 8, "IS", "2");
+  folder.write("frames.dcm", drawn.bytes());
+  EXPECT_TRUE(says(refusal([&] { read_image(folder.path()); }), {"frames.dcm", "ImagePositionPatient"}));
+}
+
 TEST(DicomSeries, NestedSequencesArePassedOverAndCutOnesRefused) {
   const std::string unbounded("\xff\xff\xff\xff", 4);
   const std::string begin = little_endian(8, 2) + little_endian(0x1140, 2) + "SQ" + std::string(2, '\0') + unbounded +

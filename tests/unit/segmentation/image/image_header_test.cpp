@@ -110,10 +110,32 @@ TEST(ImageHeader, FormsThatDisagreeAreTold) {
   const std::string note = frame_note(folder.write("a.nii", shifted));
   EXPECT_NE(note.find("7 mm apart; the sform was taken"), std::string::npos) << note;
   EXPECT_EQ(read_nifti_header(folder / "a.nii").origin.x(), 7);
+  for (const auto code : {std::int16_t{2}, std::int16_t{4}}) {  // not the scanner's
+    put<std::int16_t>(shifted, 254, code);
+    const auto file = folder.write("a.nii", shifted);
+    EXPECT_NE(frame_note(file).find("the qform was taken"), std::string::npos);
+    EXPECT_EQ(read_nifti_header(file).origin.x(), 0);
+    EXPECT_EQ(read_image(file).geometry.origin.x(), 0) << "LPS of 0 is 0, too";
+  }
+  std::string turned = nifti_bytes();
+  put<float>(turned, 280, 0);  // x and y change places, which moves two corners of a cube alone
+  put<float>(turned, 284, 2);
+  put<float>(turned, 296, 2);
+  put<float>(turned, 300, 0);
+  EXPECT_NE(frame_note(folder.write("a.nii", turned)), "");
   put<std::int16_t>(shifted, 252, 0);
   EXPECT_EQ(frame_note(folder.write("a.nii", shifted)), "") << "there is one form alone";
   EXPECT_EQ(frame_note("image.mgz"), "");
   EXPECT_EQ(frame_note(""), "");
+}
+
+TEST(ImageHeader, ANiftiInMetresIsRefused) {
+  const ScratchFolder folder;
+  std::string bytes = nifti_bytes();
+  for (const auto& [unit, taken] : {std::pair<char, bool>(0, true), {2, true}, {10, true}, {1, false}, {3, false}}) {
+    bytes[123] = unit;  // with seconds, 8, in 10
+    EXPECT_EQ(fault_of(folder.write("a.nii", bytes)).find("not the millimetre") == std::string::npos, taken);
+  }
 }
 
 TEST(ImageHeader, ANiftiFieldThatCannotBeIsRefused) {

@@ -30,6 +30,19 @@ TEST_F(TableFile, ColourTablesOfFreeSurferAndSlicerAreRead) {
   EXPECT_EQ(table.classes, (std::map<std::uint16_t, std::uint16_t>{{0, 0}, {4, 2}, {24, 4}, {28, 1}, {165, 5}}));
 }
 
+TEST_F(TableFile, DescriptionsOfItkSnapAreReadAndZeroIsBackground) {
+  const auto table = read_label_table(write("snap.txt",
+                                            "    0     0    0    0        0  0  0    \"Clear Label\"\n"
+                                            "    1   255    0    0        1  1  1    \"Brain\"\n"
+                                            "    2     0  255    0        1  1  1    \"Left lateral ventricle\"\n"));
+  EXPECT_EQ(table.classes, (std::map<std::uint16_t, std::uint16_t>{{0, 0}, {1, 1}, {2, 2}}));
+}
+
+TEST_F(TableFile, ANameMayHaveWordsBetweenItsNumberAndItsColour) {
+  const auto table = read_label_table(write("a.txt", "0 None\n1 Left lateral ventricle 1 2 3 0\n2 Outer skull\n"));
+  EXPECT_EQ(table.classes, (std::map<std::uint16_t, std::uint16_t>{{0, 0}, {1, 2}, {2, 5}}));
+}
+
 TEST_F(TableFile, ColumnsOfBidsAreReadInAnyOrder) {
   const auto table = read_label_table(write(
       "a_dseg.tsv", "name\tindex\tcolor\nGrey matter\t1\t#fff\nThird ventricle\t7\t#000\nWhole tumour\t9\t#0f0\n"));
@@ -54,6 +67,7 @@ TEST_F(TableFile, WhatIsNoTableIsRefusedWithItsLine) {
   };
   EXPECT_TRUE(refused(write("a.txt", "# nothing\n"), {"a.txt", "names no label"}));
   EXPECT_TRUE(refused(write("b.txt", "1 Brain\nbrain 2\n"), {"b.txt:2", "number and its name"}));
+  EXPECT_TRUE(refused(write("d.txt", "1 255 0 0 1 1 1\n"), {"d.txt:1", "ITK-SNAP"}));
   EXPECT_TRUE(refused(write("c.tsv", "index\tname\n1\n"), {"c.tsv:2"}));
   EXPECT_TRUE(refused(scratch_.path() / "none.txt", {"no such file"}));
 }
