@@ -120,6 +120,23 @@ class FinderTest(Folder):
         self.session("b", "T1w", "dseg")
         self.assertEqual(sorted(self.find()[1]), ["sub-01_ses-a", "sub-01_ses-b"])
 
+    def test_labels_without_a_session_are_not_given_to_two_images(self):
+        self.session("a", "T1w", "points")
+        freesurfer, plain = "derivatives/freesurfer/sub-01/mri/aseg.mgz", "derivatives/plan/sub-01/sub-01_dseg.nii.gz"
+        self.make(freesurfer)
+        self.assertEqual(self.relative(self.one().labels), freesurfer)
+        self.session("b", "T1w", "points")
+        self.make(plain)
+        for fault in self.find()[1].values():
+            self.assertIn("no labels", fault)
+        self.assertEqual([self.relative(case.labels) for case in self.find(preop_session="a")[0]], [plain])
+
+    def test_an_image_without_a_session_has_the_labels_without_one(self):
+        self.session("a", "points")
+        self.session("b", "points")
+        self.make("sub-01/anat/sub-01_T1w.nii.gz", "derivatives/freesurfer/sub-01/mri/aseg.mgz")
+        self.assertEqual([case.labels_are for case in self.find()[0]], ["freesurfer", "freesurfer"])
+
     def test_the_image_may_be_of_another_session_than_the_load(self):
         self.session("preop", "T1w", "dseg")
         self.session("intraop", "points")

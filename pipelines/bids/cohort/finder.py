@@ -73,20 +73,24 @@ class Finder:
 
     def _case(self, name, participant, session):
         preop = self.preop_session or session
-        raw = self._raw(participant, preop) or self._raw(participant, "")
-        derived = self._derived(participant, preop) + (self._derived(participant, "") if preop else [])
+        raw = self._raw(participant, preop)
+        of_the_image = [preop] if raw and not self._is_the_only_one(participant, preop) else dict.fromkeys([preop, ""])
+        raw = raw or self._raw(participant, "")
+        derived = [file for each in of_the_image for file in self._derived(participant, each)]
         loads = self._derived(participant, session)
-        if session and (self.preop_session or not self._other_sessions(participant, session)):
+        if session and self._is_the_only_one(participant, session):
             loads += self._derived(participant, "")
         case = Case(name, participant, session, t1=self._t1(raw, participant))
-        self._find_labels(case, derived, participant, preop)
+        self._find_labels(case, derived, [names.case_name(participant, each) for each in of_the_image])
         case.tumour = self._one([f for f in self._matching(derived, "mask", IMAGE) if own_space(f)
                                  and names.parse(f.name).entities.get("label") in ("tumor", "tumour")], "mask")
         case.points = self._points(loads, name)
         return case
 
-    def _other_sessions(self, participant, session):
-        return [f for f in (self.bids / f"sub-{participant}").glob("ses-*") if f.name != f"ses-{session}"]
+    def _is_the_only_one(self, participant, session):
+        """Whether what names no session is of this one: with others beside it, it may be of any."""
+        others = [f for f in (self.bids / f"sub-{participant}").glob("ses-*") if f.name != f"ses-{session}"]
+        return not session or bool(self.preop_session) or not others
 
     def _t1(self, files, participant):
         found = self._one(self._matching(files, "T1w", IMAGE), "T1w")
@@ -94,7 +98,7 @@ class Finder:
             raise Missing(f"no T1w image: no sub-{participant}_..._T1w.nii.gz under {self.bids}/sub-{participant}")
         return found
 
-    def _find_labels(self, case, files, participant, session):
+    def _find_labels(self, case, files, subjects):
         maps = [f for f in self._matching(files, "dseg", IMAGE) if own_space(f)]
         for best in BEST_LABELS:
             maps = [f for f in maps if names.parse(f.name).entities.get("desc") == best] or maps
@@ -102,7 +106,7 @@ class Finder:
         if case.labels:
             case.labels_are = table_of(pathlib.Path(case.labels), self.derivatives)
             return
-        case.labels = self._freesurfer(participant, session)
+        case.labels = self._freesurfer(subjects)
         if case.labels:
             case.labels_are = "freesurfer"
             return
@@ -112,10 +116,9 @@ class Finder:
             raise Missing(f"no labels: put {case.name}_dseg.nii.gz with its .tsv, FreeSurfer's mri/aparc+aseg.mgz or "
                           f"{case.name}_desc-brain_mask.nii.gz into a folder of derivatives")
 
-    def _freesurfer(self, participant, session):
-        subjects = [names.case_name(participant, session), f"sub-{participant}"]
+    def _freesurfer(self, subjects):
         for root in (*self.derivatives, self.bids / "sourcedata" / "freesurfer"):
-            for subject in dict.fromkeys(subjects):
+            for subject in subjects:
                 for file in FREESURFER:
                     if there(root / subject / "mri" / file):
                         return str(root / subject / "mri" / file)
