@@ -14,6 +14,7 @@
 #include "register/field/resampling_field.hpp"
 #include "register/interface/option_table.hpp"
 #include "register/warp/cavity_voxels.hpp"
+#include "register/warp/point_mover.hpp"
 #include "register/warp/warp.hpp"
 #include "segmentation/progress/stopwatch.hpp"
 
@@ -120,7 +121,8 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   }
   const double seconds = stopwatch.seconds();
   result.preop_landmarks = input.landmarks;
-  result.landmarks = move_points(result.forward, input.landmarks);
+  PointMover mover(result.forward);
+  result.landmarks = move_points(mover, input.landmarks);
   if (!input.solution.estimated_error.empty()) {
     result.landmark_error = estimated_error_at(input.solution, false, input.landmarks);
   }
@@ -129,6 +131,7 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   const std::size_t not_inverted = result.measures.not_inverted;
   result.measures = measure_fields(result.forward, result.resampling, result.jacobian, zones.zone, input.solution);
   result.measures.cavity_voxels = cavity_voxels;
+  result.measures.landmarks_outside = mover.moved().outside;
   result.measures.cavity_landmarks = landmarks_in_cavity(zones, input.landmarks);
   result.measures.not_inverted = not_inverted;
   result.measures.seconds = seconds;

@@ -2,10 +2,13 @@
 #include "pipelines/runner/warp_files.hpp"
 
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "register/files/warped_name.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/image/frame_note.hpp"
 #include "segmentation/image/image_series.hpp"
 #include "segmentation/options/values.hpp"
 
@@ -15,12 +18,13 @@ namespace {
 
 /// What became of a file, as a sentence.
 std::string told(const fs::path& file, const registration::WarpedFile& warped) {
-  const std::string name = file.filename().string() + ": ";
+  const std::string name = file.filename().string() + ": ", frame = frame_note(file);
+  const std::string noted = frame.empty() ? "" : "; warning: " + frame;
   if (warped.is_label_map) {
-    return name + "a label map, each voxel took the nearest label";
+    return name + "a label map, each voxel took the nearest label" + noted;
   }
   if (warped.is_image) {
-    return name + "an image, interpolated" +
+    return name + "an image, interpolated" + noted +
            (warped.no_series.empty() ? "" : "; no DICOM series was written: " + warped.no_series);
   }
   const registration::MovedPoints& moved = warped.moved;
@@ -52,6 +56,16 @@ void check_names(const std::vector<fs::path>& files, const fs::path& out) {
   }
 }
 
+/// A later run that did not get so far leaves the fields of an earlier one.
+void check_up_to_date(const fs::path& fields) {
+  std::ifstream stream(fields / "../run.json");
+  const auto record = nlohmann::json::parse(stream, nullptr, false);
+  const nlohmann::json::json_pointer status("/stages/register/status");
+  if (record.contains(status) && record[status] == "outdated") {
+    refuse(fields, "its fields are of an earlier run: the scene has changed since; run it again to the end");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> warp_files(const std::vector<fs::path>& files, registration::RegisterFields& fields,
@@ -67,6 +81,7 @@ std::vector<std::string> warp_files(const std::vector<fs::path>& files, registra
 std::vector<std::string> warp_files(const WarpJob& job, const fs::path& out) {
   const fs::path stage = job.run / "register";
   const fs::path folder = fs::is_directory(stage) ? stage : job.run;
+  check_up_to_date(folder);
   registration::RegisterFields fields(folder, job.towards, folder / "../solve/solution.vtu");
   registration::WarpAnyOptions options = job.options;
   if (!job.like.empty()) {

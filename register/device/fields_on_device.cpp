@@ -45,7 +45,7 @@ FieldsOnDevice::FieldsOnDevice(const Backend& backend, const Solution& solution,
   if (zones.wall) {
     view_.wall = put(*zones.wall, memory_);
   }
-  view_.reach = reach_of(zones.shell, mean_spacing(solution.spacing));
+  view_.reach = reach_of(zones.shell, least_spacing(solution.spacing));
   view_.fade = fade;
   view_.tolerance = tolerance;
   view_.zone = memory_.put(zones.zone);

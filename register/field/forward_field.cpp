@@ -216,7 +216,7 @@ VectorImage forward_field(const Solution& solution, const BrainZones& zones, con
   const solve::ShapeFunctions shape = shape_functions(solution);
   const Points parameters = solve::parameters_from_displacement(shape, solution.positions, solution.displacement);
   return forward_field([&](const Points& places) { return shape.interpolate(places, parameters); },
-                       mean_spacing(solution.spacing), zones, geometry, fade, progress);
+                       least_spacing(solution.spacing), zones, geometry, fade, progress);
 }
 
 VectorImage forward_field(const DisplacementAt& displacement_at, double spacing, const BrainZones& zones,

@@ -13,11 +13,11 @@
 namespace brainshift::registration {
 
 /// The displacement of every voxel of a grid, mm, LPS. In the brain u(x) = Σφ_a(x) û_a with the solver's own shape
-/// functions, and a little farther (by a voxel's diagonal or 0.3 of the nodes' spacing), so that places on the surface
-/// between voxels move as they did in the solver. Beyond, the displacement at the end of that way out from the surface,
-/// times a ramp of the distance with a continuous slope, from 1 there to 0 at the fade. In a cavity, farther from its
-/// wall than that way, the displacement is spanned from wall to wall, span_cavity(). Throws std::invalid_argument
-/// when the solution's shape functions do not reach a voxel of the brain.
+/// functions, and a little farther (by a voxel's diagonal or 0.3 of the nodes' least spacing), so that places on the
+/// surface between voxels move as they did in the solver. Beyond, the displacement at the end of that way out from the
+/// surface, times a ramp of the distance with a continuous slope, from 1 there to 0 at the fade. In a cavity, farther
+/// from its wall than that way, the displacement is spanned from wall to wall, span_cavity(). Throws
+/// std::invalid_argument when the solution's shape functions do not reach a voxel of the brain.
 VectorImage forward_field(const Solution& solution, const BrainZones& zones, const ImageGeometry& geometry, double fade,
                           const Progress& progress);
 
@@ -47,7 +47,7 @@ struct FieldPlan {
 };
 
 /// The same of a displacement that is asked for at all places in the brain and near it, part by part: for the same
-/// zones and grid at the same places in the same order. spacing: mean of the nodes', mm. plan: of an earlier field of
+/// zones and grid at the same places in the same order. spacing: least of the nodes', mm. plan: of an earlier field of
 /// the same zones, grid and spacing, for which the places are not told again, but a row each; or empty, then it is
 /// noted; null: not kept.
 VectorImage forward_field(const DisplacementAt& displacement_at, double spacing, const BrainZones& zones,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/field/nodal_values.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "segmentation/geometry/point_tree.hpp"
@@ -31,8 +33,13 @@ struct KnownNodes {
   PointTree tree{places};
 };
 
-/// outside: the values of a point farther than the spacing from every node.
-Eigen::MatrixXd look_up(const KnownNodes& nodes, const Points& points, double outside = 0) {
+/// The values of a point from which every node is farther away than its spacing and than `reach`, mm.
+struct Outside {
+  double value;
+  double reach = 0;
+};
+
+Eigen::MatrixXd look_up(const KnownNodes& nodes, const Points& points, const Outside& outside) {
   constexpr std::size_t neighbours = 8;
   constexpr Eigen::Index many = 1000;  // threads for fewer cost more than they bring
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), nodes.values.cols());
@@ -41,8 +48,8 @@ Eigen::MatrixXd look_up(const KnownNodes& nodes, const Points& points, double ou
     std::array<std::size_t, neighbours> index{};
     std::array<double, neighbours> squared{};
     const auto found = nodes.tree.nearest(points.row(i).data(), neighbours, index.data(), squared.data());
-    if (std::sqrt(squared[0]) > nodes.spacing[index[0]]) {
-      result.row(i).setConstant(outside);
+    if (std::sqrt(squared[0]) > std::max(nodes.spacing[index[0]], outside.reach)) {
+      result.row(i).setConstant(outside.value);
       continue;
     }
     double weights = 0;
@@ -58,15 +65,15 @@ Eigen::MatrixXd look_up(const KnownNodes& nodes, const Points& points, double ou
 
 }  // namespace
 
-NodalLookUp nodal_look_up(const Solution& solution, Eigen::MatrixXd values, bool moved) {
+NodalLookUp nodal_look_up(const Solution& solution, Eigen::MatrixXd values, bool moved, double outside) {
   const std::shared_ptr<const KnownNodes> nodes(
       new KnownNodes{places_of_nodes(solution, moved), solution.spacing, std::move(values)});
-  return [nodes](const Points& points) { return look_up(*nodes, points); };
+  return [nodes, outside](const Points& points) { return look_up(*nodes, points, {outside}); };
 }
 
 Eigen::MatrixXd nodal_values_at(const Solution& solution, const Eigen::MatrixXd& values, bool moved,
-                                const Points& points) {
-  return nodal_look_up(solution, values, moved)(points);
+                                const Points& points, double outside) {
+  return nodal_look_up(solution, values, moved, outside)(points);
 }
 
 ScalarImage nodal_values_on(const Solution& solution, const std::vector<double>& values, bool moved,
@@ -80,13 +87,15 @@ ScalarImage nodal_values_on(const Solution& solution, const std::vector<double>&
       }
     }
   }
-  const Eigen::VectorXd at_voxels = nodal_values_at(solution, as_vector(values), moved, places);
+  const KnownNodes nodes{places_of_nodes(solution, moved), solution.spacing, as_vector(values)};
+  constexpr double diagonal = coarse_voxel * std::numbers::sqrt3;
+  const Eigen::VectorXd at_voxels = look_up(nodes, places, {.value = 0, .reach = diagonal});
   return {grid, std::vector<float>(at_voxels.begin(), at_voxels.end())};
 }
 
 std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points) {
-  const KnownNodes nodes{places_of_nodes(solution, moved), solution.spacing, as_vector(solution.estimated_error)};
-  const Eigen::VectorXd values = look_up(nodes, points, std::numeric_limits<double>::quiet_NaN());
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::VectorXd values = nodal_values_at(solution, as_vector(solution.estimated_error), moved, points, unknown);
   return {values.begin(), values.end()};
 }
 

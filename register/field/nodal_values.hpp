@@ -12,20 +12,21 @@ namespace brainshift::registration {
 
 /// Looks values that are known at nodes (n × k) up at points (m × 3): m × k, as nodal_values_at().
 using NodalLookUp = std::function<Eigen::MatrixXd(const Points& points)>;
-NodalLookUp nodal_look_up(const Solution& solution, Eigen::MatrixXd values, bool moved);
+NodalLookUp nodal_look_up(const Solution& solution, Eigen::MatrixXd values, bool moved, double outside = 0);
 
 /// Values that are known at the solution's nodes (n × k), at points (m × 3, mm, LPS) of the preop or, with `moved`, the
-/// intraop brain: m × k, weights 1 / distance² over the eight nearest nodes. 0 at a point farther than the spacing from
-/// every node.
+/// intraop brain: m × k, weights 1 / distance² over the eight nearest nodes. `outside` at a point farther than the
+/// spacing from every node, as nothing is known there.
 Eigen::MatrixXd nodal_values_at(const Solution& solution, const Eigen::MatrixXd& values, bool moved,
-                                const Points& points);
+                                const Points& points, double outside = 0);
 
-/// The same of one value a node, at the voxels of a grid.
+/// The same of one value a node, at the voxels of a grid; 0 where nothing is known: farther from every node than the
+/// spacing, and than the diagonal of a voxel of grid_around_nodes(), so that hardly any 0 counts in the brain where
+/// such voxels are interpolated.
 ScalarImage nodal_values_on(const Solution& solution, const std::vector<double>& values, bool moved,
                             const ImageGeometry& grid);
 
-/// The same of the solution's estimated error, mm, at points; NaN where the others are 0, as nothing is known there.
-/// The solution must have an estimate.
+/// The same of the solution's estimated error, mm, at points; NaN outside. The solution must have an estimate.
 std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points);
 
 /// A grid around the nodes of the preop or, with `moved`, the intraop brain: voxels of 4 mm along the axes of LPS.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "register/field/brain_zones.hpp"
@@ -18,11 +17,12 @@ namespace brainshift::registration {
 // How a voxel outside the brain gets its displacement, place by place: forward_field.hpp says why.
 
 /// Of the nodes, mm.
-inline double mean_spacing(const std::vector<double>& spacing) {
-  return std::accumulate(spacing.begin(), spacing.end(), 0.0) / static_cast<double>(spacing.size());
+inline double least_spacing(const std::vector<double>& spacing) {
+  return *std::min_element(spacing.begin(), spacing.end());
 }
 
-/// How far outside the brain shape functions are trusted, mm; spacing: mean_spacing() of their nodes.
+/// How far outside the brain shape functions are trusted, mm; spacing: least_spacing() of their nodes, as nodes are
+/// closest where displacements change most, under an opening.
 inline double reach_of(double shell, double spacing) {
   constexpr double in_spacings = 0.3;
   return std::min(shell / 2, in_spacings * spacing);

@@ -2,9 +2,9 @@
 #include "register/field/repeated_field.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "register/field/forward_field.hpp"
+#include "register/field/outside.hpp"
 #include "solve/output/solution_file.hpp"
 #include "solve/shape/shape_functions.hpp"
 
@@ -29,11 +29,7 @@ Points product(const solve::ShapeRows& rows, const Points& values) {
 }  // namespace
 
 RepeatedField::RepeatedField(const Solution& solution, const Surface& brain, const ImageGeometry& grid, double fade)
-    : grid_(grid),
-      fade_(fade),
-      spacing_(std::accumulate(solution.spacing.begin(), solution.spacing.end(), 0.0) /
-               static_cast<double>(solution.spacing.size())),
-      zones_(brain_zones(brain, grid, fade)) {
+    : grid_(grid), fade_(fade), spacing_(least_spacing(solution.spacing)), zones_(brain_zones(brain, grid, fade)) {
   const solve::ShapeFunctions shape = shape_functions(solution);
   const auto keep_rows = [&](const Points& places) -> Points {
     rows_.push_back(shape.evaluate(places, false));

@@ -3,6 +3,8 @@
 
 #include <vtkPointData.h>
 
+#include <limits>
+
 #include "register/warp/warp.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtu_file.hpp"
@@ -58,7 +60,8 @@ void RegisterFields::read_nodes() {
     }
     columns.col(static_cast<Eigen::Index>(c)) = Eigen::VectorXd::Map(values.data(), columns.rows());
   }
-  look_up_ = nodal_look_up(*solution_, std::move(columns), towards_ == Towards::preop);
+  look_up_ = nodal_look_up(*solution_, std::move(columns), towards_ == Towards::preop,
+                           std::numeric_limits<double>::quiet_NaN());
 }
 
 std::vector<PointValues> RegisterFields::values_of_points(const Points& points) {

@@ -32,10 +32,11 @@ class RegisterFields {
   const VectorImage& of_images() { return read(towards_ == Towards::preop); }
 
   /// How far the displacement may be off, mm, at points (n × 3, LPS) before they are moved: what the run has of
-  /// "estimated_error", for want of nodes, and "uncertainty", the standard deviation of its uncertainty.vtu. Throws
-  /// std::invalid_argument, naming the file, when one of both cannot be read.
+  /// "estimated_error", for want of nodes, and "uncertainty", the standard deviation of its uncertainty.vtu; NaN
+  /// outside the brain, where nothing is known. Throws std::invalid_argument, naming the file, when one of both cannot
+  /// be read.
   std::vector<PointValues> values_of_points(const Points& points);
-  /// The same at the voxels of a warped image's grid.
+  /// The same at the voxels of a warped image's grid; 0 outside.
   std::vector<std::pair<std::string, ScalarImage>> values_on(const ImageGeometry& grid);
 
  private:

@@ -33,7 +33,7 @@ std::string scalar_header(const std::string& of_tracts) {
 TrackScalars::TrackScalars(const std::filesystem::path& tck, const std::string& header, const PointMover& mover)
     : mover_(mover) {
   const std::string text = scalar_header(header);
-  for (const PointValues& each : mover.values(Points(0, 3))) {
+  for (const PointValues& each : mover.finite_values(Points(0, 3))) {
     files_.push_back(std::make_unique<OutStream>(values_name(each.name, tck)));
     files_.back()->write(text.data(), text.size());
   }
@@ -56,7 +56,7 @@ void TrackScalars::end_tract() {
     places.row(static_cast<Eigen::Index>(p)) = places_[p];
   }
   places_.clear();
-  const std::vector<PointValues> values = files_.empty() ? std::vector<PointValues>{} : mover_.values(places);
+  const std::vector<PointValues> values = files_.empty() ? std::vector<PointValues>{} : mover_.finite_values(places);
   for (std::size_t file = 0; file < files_.size(); ++file) {
     for (const double value : values[file].values) {
       write(file, static_cast<float>(value));

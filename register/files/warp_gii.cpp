@@ -163,7 +163,7 @@ void warp_gii(const fs::path& in, PointMover& mover, const fs::path& out) {
   }
   const Points places = move_arrays(in, *surface, mover);
   write_gifti(out, *surface);
-  for (const PointValues& each : mover.values(places)) {
+  for (const PointValues& each : mover.finite_values(places)) {
     write_shape(values_name(each.name, out), each);
   }
 }

@@ -6,6 +6,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/model_file.hpp"
 #include "segmentation/files/vtu_file.hpp"
 
@@ -40,7 +41,8 @@ void warp_model(const std::filesystem::path& in, PointMover& mover, const std::f
     points.SetPoint(p, place.data());
   }
   arrays.AddArray(displacement);
-  for (const PointValues& each : mover.values(places)) {
+  const bool may_be_text = ending_of(in) == ".vtk";  // of which readers take no NaN
+  for (const PointValues& each : may_be_text ? mover.finite_values(places) : mover.values(places)) {
     vtu::add_array(arrays, free_name(arrays, each.name).c_str(), each.values);
   }
   write_model(out, *model, in);

@@ -101,7 +101,7 @@ void move_text(const fs::path& file, const PlyVertices& vertices, const std::arr
   for (std::size_t row = 0; row < vertices.rows && std::getline(in, line); ++row) {
     Eigen::Vector3d place;
     std::string moved = with_moved_words(line, places, to_lps, mover, file, vertices.header_lines + row + 1, &place);
-    for (const PointValues& each : mover.values(place.transpose())) {
+    for (const PointValues& each : mover.finite_values(place.transpose())) {
       moved.insert(moved.size() - (moved.ends_with('\r') ? 1 : 0),
                    std::string(" ").append(write_number(each.values[0])));
     }
@@ -134,7 +134,7 @@ void move_bytes(const fs::path& file, const PlyVertices& vertices, const std::ar
       std::memcpy(bytes.data() + vertices.properties[places[axis]].offset, &x[axis], sizeof(Number));
     }
     out.write(bytes.data(), bytes.size());
-    for (const PointValues& each : mover.values(place.transpose())) {
+    for (const PointValues& each : mover.finite_values(place.transpose())) {
       std::array<float, 1> value = {static_cast<float>(each.values[0])};
       swap_if(swapped, value);
       out.write(value.data(), sizeof(value));
@@ -157,7 +157,7 @@ void warp_ply(const fs::path& in, PointMover& mover, const fs::path& out) {
   const Eigen::Vector3d to_lps = axes_to_lps(frame_in_header(in));
   std::ifstream stream(in, std::ios::binary);
   OutStream moved(out);
-  const PlyVertices vertices = take_header(in, stream, mover.values(Points(0, 3)), moved);
+  const PlyVertices vertices = take_header(in, stream, mover.finite_values(Points(0, 3)), moved);
   const std::array<std::size_t, 3> places = {vertices.place_of(in, "x"), vertices.place_of(in, "y"),
                                              vertices.place_of(in, "z")};
   const auto all_are = [&](const char* a, const char* b) {

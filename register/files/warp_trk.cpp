@@ -80,7 +80,7 @@ void warp_trk(const fs::path& in, PointMover& mover, const fs::path& out) {
   }
   const TrkHeader header = read_trk_header(in, bytes);
   const Eigen::Affine3d from_lps = header.to_lps.inverse();
-  const int added = add_scalars(bytes, header, mover.values(Points(0, 3)));
+  const int added = add_scalars(bytes, header, mover.finite_values(Points(0, 3)));
   OutStream moved(out);
   moved.write(bytes.data(), bytes.size());
   std::int64_t tracts = 0;
@@ -99,7 +99,7 @@ void warp_trk(const fs::path& in, PointMover& mover, const fs::path& out) {
     swap_if(header.swapped, values);
     const Points places = move_tract(in, header, from_lps, count, values, mover);
     if (added > 0) {
-      values = with_scalars(values, header, count, mover.values(places), added);
+      values = with_scalars(values, header, count, mover.finite_values(places), added);
     }
     swap_if(header.swapped, values);
     moved.write(values.data(), 4 * values.size());

@@ -24,10 +24,14 @@ std::filesystem::path values_name(const std::string& values, const std::filesyst
 std::filesystem::path warped_name(const std::filesystem::path& in) {
   const std::filesystem::path file = in.has_filename() ? in.filename() : in.parent_path().filename();
   std::string name = "warped_" + file.string();
-  if (ending_of(file) == ".mgz" || ending_of(file) == ".mgh") {
-    name = std::filesystem::path(name).replace_extension(".nii.gz").string();
-  } else if (std::filesystem::is_directory(in)) {
-    name += ".nii.gz";
+  if (std::filesystem::is_directory(in)) {
+    return name + ".nii.gz";
+  }
+  for (const std::string_view ending : {".mgz", ".mgh", ".mgh.gz", ".nii", ".nii.gz"}) {
+    if (in_lower_case(name).ends_with(ending)) {  // images are written by lower-case endings alone
+      name.resize(name.size() - ending.size());
+      return name + (ending == ".nii" ? ".nii" : ".nii.gz");
+    }
   }
   return name;
 }

@@ -12,20 +12,21 @@ namespace brainshift::registration {
 
 struct RegisterMeasures {
   std::size_t brain_voxels = 0;
-  std::size_t cavity_voxels = 0;     ///< of the brain's, before they move, those that a resection has taken out
-  std::size_t cavity_landmarks = 0;  ///< landmarks in what it has taken out
-  std::size_t moved_voxels = 0;      ///< of the forward field: not zero
-  double inverse_mean = 0;           ///< over the brain's voxels x: |forward(x) + resampling(x + forward(x))|, mm
-  double inverse_999 = 0;            ///< 99.9th percentile, mm
-  double inverse_max = 0;            ///< mm
-  std::size_t not_inverted = 0;      ///< voxels where the inversion missed its tolerance
-  double jacobian_min = 0;           ///< over the brain, of the forward map
-  double jacobian_max = 0;           ///< over the brain
-  double field_jacobian_min = 0;     ///< over all voxels, the faded field outside the brain too
-  std::size_t folded_voxels = 0;     ///< where the Jacobian is not positive
-  double largest_displacement = 0;   ///< over the voxels, mm
-  double fit_error = 0;              ///< largest over nodes of |field at the node - solution's displacement|, mm
-  double seconds = 0;                ///< that fields and warped images took
+  std::size_t cavity_voxels = 0;      ///< of the brain's, before they move, those that a resection has taken out
+  std::size_t cavity_landmarks = 0;   ///< landmarks in what it has taken out
+  std::size_t landmarks_outside = 0;  ///< of the grid: they stay where they were
+  std::size_t moved_voxels = 0;       ///< of the forward field: not zero
+  double inverse_mean = 0;            ///< over the brain's voxels x: |forward(x) + resampling(x + forward(x))|, mm
+  double inverse_999 = 0;             ///< 99.9th percentile, mm
+  double inverse_max = 0;             ///< mm
+  std::size_t not_inverted = 0;       ///< voxels where the inversion missed its tolerance
+  double jacobian_min = 0;            ///< over the brain, of the forward map
+  double jacobian_max = 0;            ///< over the brain
+  double field_jacobian_min = 0;      ///< over all voxels, the faded field outside the brain too
+  std::size_t folded_voxels = 0;      ///< where the Jacobian is not positive
+  double largest_displacement = 0;    ///< over the voxels, mm
+  double fit_error = 0;               ///< largest over nodes of |field at the node - solution's displacement|, mm
+  double seconds = 0;                 ///< that fields and warped images took
 };
 
 struct Registration {

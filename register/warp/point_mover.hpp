@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -39,10 +40,20 @@ class PointMover {
     return u;
   }
 
-  /// What goes along with points, at their places before they move: how far the displacement may be off, where that is
-  /// known.
+  /// What goes along with points, at their places before they move: how far the displacement may be off; NaN where that
+  /// is not known.
   std::vector<PointValues> values(const Points& places) const {
     return values_ ? values_(places) : std::vector<PointValues>{};
+  }
+
+  /// The same for formats of whose readers some know no NaN: 0 there.
+  std::vector<PointValues> finite_values(const Points& places) const {
+    std::vector<PointValues> all = values(places);
+    for (PointValues& each : all) {
+      std::ranges::replace_if(
+          each.values, [](double value) { return std::isnan(value); }, 0.0);
+    }
+    return all;
   }
 
   const MovedPoints& moved() const { return moved_; }

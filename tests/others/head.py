@@ -60,7 +60,7 @@ class Head:
         self.warp("points.csv")
         with open(self.folder / "warped_points.csv") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-            self.errors = np.array([float(row["estimated_error"]) for row in rows])
+            self.errors = np.array([float(row["estimated_error"] or 0) for row in rows])
             return np.array([[float(row[axis]) for axis in "xyz"] for row in rows])
 
     def warp(self, *names):

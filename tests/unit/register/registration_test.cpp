@@ -91,7 +91,9 @@ TEST_F(RegisterImages, TellsOfLandmarksHowFarOffTheSolutionIsThere) {
   input.landmarks = Points{{0, 0, 0}, {5, 0, -10}, {0, 300, 0}};
   EXPECT_TRUE(register_images(input, {}).landmark_error.empty());
   input.solution.estimated_error.assign(static_cast<std::size_t>(input.solution.positions.rows()), 0.3);
-  const std::vector<double> error = register_images(input, {}).landmark_error;
+  const Registration result = register_images(input, {});
+  EXPECT_EQ(result.measures.landmarks_outside, 1U);
+  const std::vector<double>& error = result.landmark_error;
   ASSERT_EQ(error.size(), static_cast<std::size_t>(input.landmarks.rows()));
   EXPECT_NEAR(error[0], 0.3, 1e-9);
   EXPECT_NEAR(error[1], 0.3, 1e-9);

@@ -77,6 +77,23 @@ TEST_F(WarpFiles, WhatLiesOutsideTheImageIsTold) {
   expect_parts(warp({file}, Towards::intraop, "out").front(), {"2 points", "1 lie outside the run's image"});
 }
 
+TEST_F(WarpFiles, FieldsOfAnEarlierRunAreRefused) {
+  const fs::path file = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n"), later = folder_ / "later";
+  fs::copy(run_->path(), later, fs::copy_options::recursive);
+  for (const auto& [status, taken] : {std::pair("done", true), {"kept", true}, {"outdated", false}}) {
+    write("later/run.json", std::string(R"({"stages": {"register": {"status": ")") + status + "\"}}}");
+    for (const fs::path& run : {later, later / "register"}) {
+      const std::string said = refusal([&] {
+        warp_files({.run = run, .files = {file}, .like = {}, .towards = Towards::intraop, .options = {.grid = {}}},
+                   folder_ / "out");
+      });
+      EXPECT_EQ(said.empty(), taken) << status << said;
+      EXPECT_EQ(said.find("run it again to the end") == std::string::npos, taken);
+      fs::remove(folder_ / "out/warped_points.csv");
+    }
+  }
+}
+
 TEST_F(WarpFiles, FilesThatDifferInTheirEndingsAloneGoTogether) {
   const fs::path table = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n"),
                  model = write("points.obj", "v 3 -5 8\n");

@@ -76,7 +76,7 @@ TEST_F(ShownFields, TheErrorIsAnImageOfTheIntraoperativeBrain) {
   };
   EXPECT_NEAR(at(0, 3, 4), 0.5, 0.05);
   EXPECT_NEAR(at(0, 3, 4 + 18), 0.68, 0.05);
-  EXPECT_FLOAT_EQ(at(15, 3 + 15, 4 + 15), 0) << "outside the ball";
+  EXPECT_FLOAT_EQ(at(18, 3 + 18, 4 + 18), 0) << "11 mm outside the ball";
 }
 
 TEST_F(ShownFields, WithoutAnEstimateThereIsNone) {
