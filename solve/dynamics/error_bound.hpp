@@ -7,9 +7,9 @@
 
 namespace brainshift::solve {
 
-/// The bound of the error that relaxation leaves open, ρ/(1 − ρ) max |û⁺ − û| of a node, with ρ the slower of the
-/// measured rate a step and of the rate that the damping stands for. A passing low, as when the body swings through a
-/// turning point, is no rest: the slowest rate of the last windows counts, and the largest of their bounds, each less
+/// The bound of the error that relaxation leaves open, ρ/(1 − ρ) times the longest step of a node, with ρ the slower of
+/// the measured rate a step and of the rate that the damping stands for. A passing low, as when the body swings through
+/// a turning point, is no rest: the slowest rate of the last windows counts, and the largest of their bounds, each less
 /// what a critically damped motion of that rate has lost since. Where motions are slow these windows are as many as
 /// such motions take to die down. While A_0 falls, a slower motion than it tells of comes to light: what that has to go
 /// is as much more as A_0 has become less, and the bound is that many times as large.
@@ -18,8 +18,8 @@ class ErrorBound {
   /// window: steps between two calls of add().
   explicit ErrorBound(int window) : window_(window) {}
 
-  /// moved: the longest |û⁺ − û| of a node in the last step, mm; damping_rate: √β; loaded: the whole load is on;
-  /// rounding: what no longer moves than this, mm, has no rate that could be measured.
+  /// moved: the longest way of a node, |u⁺ − u| or |û⁺ − û|, in the last step, mm; damping_rate: √β; loaded: the whole
+  /// load is on; rounding: what no longer moves than this, mm, has no rate that could be measured.
   void add(double moved, double damping_rate, bool loaded, double rounding = 0);
 
   /// mm; infinite until there are enough windows under the whole load.

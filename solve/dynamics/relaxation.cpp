@@ -15,6 +15,7 @@
 #include "solve/dynamics/span_bound.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/force/stiffness_bound.hpp"
+#include "solve/shape/nodal_displacement.hpp"
 
 namespace brainshift::solve {
 
@@ -177,12 +178,13 @@ class Relaxation {
     if (!only_glances() && !is_sound()) {
       return;
     }
-    const double moved = longest_difference(motion_.now, motion_.before);
+    const NodalVectors seen = seen_of(motion_.now);
+    const double moved = longest_difference(seen, seen_of(motion_.before));
     look_at_stiff_parts();
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     estimate_lowest_eigenvalue(moved);
     bound_.add(moved, std::sqrt(critical_beta(lowest_)), motion_.time >= 1, rounding());
-    spans_.add(motion_.now);
+    spans_.add(seen);
     find_error_bound();
     if (only_glances()) {
       return;
@@ -195,6 +197,10 @@ class Relaxation {
     if (motion_.time >= 1 && !cautious_ && (motion_.rigid_modes || bound_.value() > far_from_rest * tolerance())) {
       quickening_.look(motion_, mass_, critical_beta(lowest_), lowest_);
     }
+  }
+
+  NodalVectors seen_of(const NodalVectors& parameters) const {
+    return course_.bound == BoundOf::parameters ? parameters : displacement_of(motion_.body.nodal_rows, parameters);
   }
 
   /// What rigid motions of stiff parts would tell of A_0, if they were not hidden behind quicker ones.

@@ -26,7 +26,7 @@ class SpanBound {
   /// window: steps between two calls of add(). slowest: the largest q of a node.
   explicit SpanBound(int window, double slowest = usual_rate);
 
-  /// now: û, mm; of as many nodes as before.
+  /// now: u or û, mm; of as many nodes as before.
   void add(const NodalVectors& now);
 
   /// The larger of two, mm; 0 until two spans are known.

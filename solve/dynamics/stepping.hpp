@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ struct Settled {
   double smallest_jacobian = 1;  ///< of the state that the masses follow
 };
 
+/// What of the nodes the bound of the error is read off. û of a node that hardly counts anywhere, as at a rim, may move
+/// forty times as far as u. û costs no sums: a GPU and a start near the end, where looks are many, go by it.
+enum class BoundOf : std::uint8_t { displacement, parameters };
+
 /// What happens to a body while it is stepped.
 struct Course {
   LoadCurve curve;          ///< of the prescribed displacements and of the forces
@@ -30,6 +35,7 @@ struct Course {
   BodyChange change = {};   ///< empty: the body stays whole
   /// Of the same body at rest under another load: the start is then near the end. Absent: not known yet.
   std::optional<Settled> settled = {};
+  BoundOf bound = BoundOf::displacement;
 };
 
 /// What time stepping leaves behind.

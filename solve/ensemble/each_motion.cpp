@@ -151,15 +151,6 @@ void EachMotion::step(const EachNumbers& mass, const NumberOfEach<double>& beta,
   ++steps;
 }
 
-Numbers EachMotion::longest_step() const {
-  Numbers squared = Numbers::Zero();
-  for (std::size_t a = 0; a < now.size(); ++a) {
-    const VectorOfEach<double> moved = difference(now[a], before[a]);
-    squared = -lesser_of_each(-squared, -dot(moved, moved));
-  }
-  return squared.sqrt();
-}
-
 Numbers EachMotion::farthest() const {
   Numbers largest = Numbers::Zero();
   for (const VectorOfEach<double>& node : now) {

@@ -32,9 +32,7 @@ class EachMotion {
   /// As Motion::start_from(), each its own.
   void start_from(std::span<const Member> loads);
 
-  /// Of each member, mm: the longest |û⁺ − û| of a node in the last step, and the largest |component| of û; NaN where
-  /// one is.
-  Numbers longest_step() const;
+  /// Largest |component| of û of each member, mm; NaN where one is.
   Numbers farthest() const;
 
   /// Rayleigh's quotient of the change from a place and its force to `before` and its force; not above 0: it does not

@@ -13,6 +13,7 @@
 #include "solve/dynamics/span_bound.hpp"
 #include "solve/ensemble/each_conditions.hpp"
 #include "solve/ensemble/each_contact.hpp"
+#include "solve/ensemble/each_displacement.hpp"
 #include "solve/ensemble/each_eigenvalue.hpp"
 #include "solve/ensemble/each_force.hpp"
 #include "solve/ensemble/each_motion.hpp"
@@ -25,11 +26,12 @@ namespace {
 class Ensemble {
  public:
   Ensemble(const Body& body, std::span<const Member> loads, const LoadCurve& curve, const SolveOptions& options,
-           bool patient)
+           bool patient, BoundOf bound)
       : body_(body),
         curve_(curve),
         options_(options),
         patient_(patient),
+        bound_(bound),
         motion_(body, loads),
         pace_(steps_of_load(options.load_steps, loads.front().laws), false),
         results_(loads.size()) {
@@ -108,7 +110,9 @@ class Ensemble {
 
   /// Once a window: as Relaxation does it.
   void look() {
-    const Numbers smallest = motion_.force_law.smallest_jacobian(), moved = motion_.longest_step();
+    const EachVectors at_nodes = seen_of(motion_.now);
+    const Numbers moved = longest_difference_of_each(at_nodes, seen_of(motion_.before));
+    const Numbers smallest = motion_.force_law.smallest_jacobian();
     const Numbers farthest = motion_.farthest(), lowest = lowest_eigenvalue(moved, farthest);
     const Numbers too_lively = motion_.motion_over_work(mass_);
     const int windows = motion_.steps / usual_window;
@@ -123,7 +127,7 @@ class Ensemble {
                               .lowest = lowest[i],
                               .motion_over_work = too_lively[i]};
       if (way_[m].look(seen, motion_.time >= 1, body_.points.precision())) {
-        spans_[m].add(member_of(motion_.now, m));
+        spans_[m].add(member_of(at_nodes, m));
       } else {
         end(m, MemberResult::End::left);
       }
@@ -140,6 +144,10 @@ class Ensemble {
         end(m, *how);
       }
     }
+  }
+
+  EachVectors seen_of(const EachVectors& parameters) const {
+    return bound_ == BoundOf::parameters ? parameters : displacement_of_each(body_.nodal_rows, parameters);
   }
 
   /// A_0 of each member as Relaxation estimates it; not above 0: the increments do not tell.
@@ -203,6 +211,7 @@ class Ensemble {
   const LoadCurve& curve_;
   const SolveOptions& options_;
   bool patient_;
+  BoundOf bound_;
   EachMotion motion_;
   EachNumbers mass_;
   EachVectors place_at_look_, force_at_look_;  // `before` and its force of the last look under the whole load
@@ -226,8 +235,9 @@ bool may_go_together(const Body& body, std::span<const Member> loads, const Solv
 }
 
 std::vector<MemberResult> relax_together(const Body& body, std::span<const Member> loads, const LoadCurve& curve,
-                                         const SolveOptions& options, const Progress& progress, bool patient) {
-  return Ensemble(body, loads, curve, options, patient).run(progress);
+                                         const SolveOptions& options, const Progress& progress, bool patient,
+                                         BoundOf bound) {
+  return Ensemble(body, loads, curve, options, patient, bound).run(progress);
 }
 
 }  // namespace brainshift::solve

@@ -6,6 +6,7 @@
 
 #include "segmentation/progress/progress.hpp"
 #include "solve/body/body.hpp"
+#include "solve/dynamics/stepping.hpp"
 #include "solve/ensemble/member.hpp"
 #include "solve/interface/load_curve.hpp"
 #include "solve/interface/options.hpp"
@@ -13,8 +14,8 @@
 namespace brainshift::solve {
 
 /// Whether these loads of a body can be stepped as an ensemble: at rest it may hold prescribed displacements, exact or
-/// with noise, touch a skull and have forces; it may not be cut, parted, planar or held by the simplified imposition or
-/// have stiff parts, and no member may swell or relax in time.
+/// with noise, touch a skull and have forces; it may not be cut, parted, in plane stress or held by the simplified
+/// imposition or have stiff parts, and no member may swell or relax in time.
 bool may_go_together(const Body& body, std::span<const Member> loads, const SolveOptions& options);
 
 /// relax() of up to `members` loads of one body at once. What a step reads of the body is read once for all of them.
@@ -24,6 +25,7 @@ bool may_go_together(const Body& body, std::span<const Member> loads, const Solv
 /// on the number of threads, nor a member's on the others. patient: a slow one stays.
 /// Throws as EssentialConditions::factorise() does.
 std::vector<MemberResult> relax_together(const Body& body, std::span<const Member> loads, const LoadCurve& curve,
-                                         const SolveOptions& options, const Progress& progress, bool patient = false);
+                                         const SolveOptions& options, const Progress& progress, bool patient = false,
+                                         BoundOf bound = BoundOf::displacement);
 
 }  // namespace brainshift::solve

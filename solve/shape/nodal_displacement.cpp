@@ -5,18 +5,27 @@
 
 namespace brainshift::solve {
 
-Points nodal_displacement(const ShapeRows& rows, const NodalVectors& parameters,
-                          const std::vector<std::int32_t>& original) {
-  Points displacement(static_cast<Eigen::Index>(rows.size()), 3);
+NodalVectors displacement_of(const ShapeRows& rows, const NodalVectors& parameters) {
+  NodalVectors displacement(4 * rows.size());
   share_work(static_cast<std::int64_t>(rows.size()), nodes_a_part, [&](std::int64_t i) {
     const auto a = static_cast<std::size_t>(i);
-    Eigen::Vector3d u = Eigen::Vector3d::Zero();
+    Eigen::Vector4d u = Eigen::Vector4d::Zero();
     const ShapeRow row = rows[a];
     for (std::size_t k = 0; k < row.size(); ++k) {
-      u += row.value[k] * Eigen::Map<const Eigen::Vector3d>(&parameters[4 * static_cast<std::size_t>(row.node[k])]);
+      u += row.value[k] * at(parameters, static_cast<std::size_t>(row.node[k]));
     }
-    displacement.row(original[a]) = u;
+    at(displacement, a) = u;
   });
+  return displacement;
+}
+
+Points nodal_displacement(const ShapeRows& rows, const NodalVectors& parameters,
+                          const std::vector<std::int32_t>& original) {
+  const NodalVectors ordered = displacement_of(rows, parameters);
+  Points displacement(static_cast<Eigen::Index>(rows.size()), 3);
+  for (std::size_t a = 0; a < rows.size(); ++a) {
+    displacement.row(original[a]) = at(ordered, a).head<3>();
+  }
   return displacement;
 }
 

@@ -9,7 +9,10 @@
 
 namespace brainshift::solve {
 
-/// Displacement at the nodes, u = Σφû, in the cloud's order, mm.
+/// Displacement at the nodes, u = Σφû, in the order of the rows, mm.
+NodalVectors displacement_of(const ShapeRows& nodal_rows, const NodalVectors& parameters);
+
+/// The same in the cloud's order.
 Points nodal_displacement(const ShapeRows& nodal_rows, const NodalVectors& parameters,
                           const std::vector<std::int32_t>& original);
 

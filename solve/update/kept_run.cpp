@@ -223,7 +223,8 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
   Prepared prepared = prepare(model, options, {}, measures, progress);
   const ShapeFunctions shape(model.cloud.positions, model.cloud.spacing, options.shape);
   const Points parameters = parameters_from_displacement(shape, model.cloud.positions, displacement);
-  const Course course{.curve = model.curve, .start = in_body_order(parameters, prepared.body.original)};
+  const Course course{
+      .curve = model.curve, .start = in_body_order(parameters, prepared.body.original), .bound = BoundOf::parameters};
   SolveOptions closer = options;
   closer.tolerance *= closer_at_rest;
   SteppingResult stepped = relax(std::move(prepared.body), course, closer, progress);
@@ -270,6 +271,7 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
   course.start = told;
   course.settled = run.fine.settled;
   course.settled->lowest = run.origin.lowest;
+  course.bound = BoundOf::parameters;
   if (tells_all) {
     run.departures.add_expected(run.responses, from_origin, course.start);
   }

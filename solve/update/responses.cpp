@@ -131,7 +131,8 @@ Responses responses_of(const KeptBody& kept, const Points& prescribed, const Sol
     if (!may_go_together(kept.body, loads, options)) {
       return {};
     }
-    const std::vector<MemberResult> moved = relax_together(kept.body, loads, {}, options, {}, true);
+    const std::vector<MemberResult> moved =
+        relax_together(kept.body, loads, {}, options, {}, true, BoundOf::parameters);
     for (std::size_t c = first; c < last; ++c) {
       note_response(moved[c - first].parameters, kept, columns[c], responses);
       whole[columns[c].wave] = whole[columns[c].wave] && !moved[c - first].parameters.empty();

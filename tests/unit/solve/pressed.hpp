@@ -56,15 +56,16 @@ struct Pressed {
     }
     return result;
   }
-  /// Of a member by itself.
+  /// Of a member by itself; by û, as devices do.
   SteppingResult alone(const Member& load, const NodalVectors& start) const {
     Body of_member = body();
     of_member.laws = load.laws;
     of_member.external = load.external;
-    return relax(std::move(of_member), {.curve = model.curve, .start = start}, options, {});
+    return relax(std::move(of_member), {.curve = model.curve, .start = start, .bound = BoundOf::parameters}, options,
+                 {});
   }
   std::vector<MemberResult> together(const std::vector<Member>& loads) const {
-    return relax_together(body(), loads, model.curve, options, {});
+    return relax_together(body(), loads, model.curve, options, {}, false, BoundOf::parameters);
   }
 };
 

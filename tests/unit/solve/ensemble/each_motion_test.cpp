@@ -5,7 +5,9 @@
 
 #include "solve/dynamics/motion.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
+#include "solve/ensemble/each_displacement.hpp"
 #include "solve/run/prepare.hpp"
+#include "solve/shape/nodal_displacement.hpp"
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve::each_motion_test {
@@ -40,7 +42,9 @@ TEST(EachMotion, StepsAsOneMotionDoes) {
   EXPECT_LT(largest_difference(member_of(each.now, 1), alone.now), 1e-12);
   EXPECT_LT(largest_difference(member_of(each.next, 1), alone.next), 1e-12);
   EXPECT_LT(largest_difference(member_of(each.force, 1), alone.force), 1e-9 * largest_component(alone.force));
-  EXPECT_NEAR(each.longest_step()[1], longest_difference(alone.now, alone.before), 1e-12);
+  EXPECT_NEAR(longest_difference_of_each(each.now, each.before)[1], longest_difference(alone.now, alone.before), 1e-12);
+  const EachVectors seen = displacement_of_each(body.nodal_rows, each.now);
+  EXPECT_LT(longest_difference(member_of(seen, 1), displacement_of(body.nodal_rows, alone.now)), 1e-12);
   EXPECT_NEAR(each.farthest()[1], largest_component(alone.now), 1e-12);
   EXPECT_EQ(each.farthest()[2], 0);  // that member is not there
   each.let_go(1);
