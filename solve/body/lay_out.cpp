@@ -108,7 +108,7 @@ PointLaws laws_with(const Body& body, const std::map<std::int32_t, Material>& ma
     }
     table.material[row] = materials.at(body.placed.tissue[static_cast<std::size_t>(patch.first_point)]);
   }
-  return point_laws(table, Plane::none, Dynamics::relaxation);
+  return point_laws(table, body.laws.plane_stress ? Plane::stress : Plane::none, Dynamics::relaxation);
 }
 
 namespace {

@@ -11,7 +11,6 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double much = 30;           // times as stiff
 constexpr std::size_t fewest = 8;     // nodes of a part
 constexpr double most_of_body = 0.9;  // of all nodes
 
@@ -23,7 +22,7 @@ class Levels {
     std::vector<double> sorted(of_point.begin(), of_point.end());
     std::ranges::sort(sorted);
     for (const double modulus : sorted) {
-      if (begin_.empty() || modulus >= much * begin_.back()) {
+      if (begin_.empty() || modulus >= nearly_rigid * begin_.back()) {
         begin_.push_back(modulus);
       }
     }

@@ -9,6 +9,9 @@
 
 namespace brainshift::solve {
 
+/// How many times as stiff as softer tissue one is that moves in it nearly as a rigid body.
+inline constexpr double nearly_rigid = 30;
+
 /// Parts of tissue thirty times as stiff as others and more, that nothing but these hold, as a hard tumour or a stiff
 /// layer in soft tissue: they move nearly as rigid bodies, and slowly. of_point, of_node: µ in Pa of the points and
 /// moduli_at_nodes(); rows: at the points; held: one a node, not 0 where something is prescribed. A part hangs together

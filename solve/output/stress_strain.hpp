@@ -10,9 +10,9 @@
 
 namespace brainshift::solve {
 
-/// The nominal stress-strain curve of a body that is pulled one way: along the mean prescribed displacement of its
-/// loaded nodes. In relaxation of the states at rest (residual_at_rest) and of the last: others hold fictitious
-/// inertia. Throws std::invalid_argument when nothing is pulled.
+/// The nominal stress-strain curve of a body that is pulled one way, at one end: along the mean prescribed displacement
+/// of its loaded nodes; empty of another. In relaxation of the states at rest (residual_at_rest) and of the last:
+/// others hold fictitious inertia.
 std::vector<StressStrainRow> stress_strain(const Model& model, Dynamics dynamics,
                                            const std::vector<HistoryRow>& history);
 

@@ -29,17 +29,17 @@ namespace {
 
 /// The nodes that each integration point stands for: its volume over that of a node there, scaled to their number.
 std::vector<double> nodes_per_point(const IntegrationPoints& points, const ShapeRows& rows,
-                                    std::span<const double> spacing) {
+                                    std::span<const double> spacing, bool planar) {
   std::vector<double> share(points.size());
   double total = 0;
   for (std::size_t p = 0; p < share.size(); ++p) {
-    double cube = 0;
+    double of_node = 0;
     const std::span<const std::int32_t> support = rows[p].node;
     for (const std::int32_t node : support) {
       const double s = spacing[static_cast<std::size_t>(node)];
-      cube += s * s * s / static_cast<double>(support.size());
+      of_node += (planar ? s * s : s * s * s) / static_cast<double>(support.size());
     }
-    share[p] = points.volume[p] / cube;
+    share[p] = points.volume[p] / of_node;
     total += share[p];
   }
   for (double& s : share) {
@@ -113,7 +113,8 @@ PressurePatches patches_of(const Model& model, const SolveOptions& options, cons
                            const Visibility* visibility) {
   const bool shared_pressure = options.volumetric == Volumetric::mean_dilatation && model.plane != Plane::stress;
   PressurePatches patches =
-      pressure_patches(parts.points.positions, nodes_per_point(parts.points, parts.point_rows, parts.cloud.spacing),
+      pressure_patches(parts.points.positions,
+                       nodes_per_point(parts.points, parts.point_rows, parts.cloud.spacing, options.shape.planar),
                        parts.materials.row_of_point, shared_pressure ? options.nodes_per_patch : 0);
   if (visibility != nullptr && shared_pressure) {
     patches = part_patches(*visibility, parts.points.positions, patches);

@@ -59,11 +59,16 @@ TEST(StressStrain, IsAlongThePullWhateverItsDirection) {
   EXPECT_NEAR(curve[0].stress, 0.04 / 20 * 1e6, 1e-9);
 }
 
-TEST(StressStrain, NeedsAPull) {
+TEST(StressStrain, NeedsAPullAtOneEnd) {
   Model model = test::strip(1);
-  EXPECT_THROW(stress_strain(model, Dynamics::relaxation, {state(1, 0)}), std::invalid_argument);
+  EXPECT_TRUE(stress_strain(model, Dynamics::relaxation, {state(1, 0)}).empty());
+  model.conditions.displacement.col(0).array() -= 7;  // one end by −7, the other by 8 mm
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    model.conditions.displacement(a, 0) += model.cloud.positions(a, 0) > 0 ? 15 : 0;
+  }
+  EXPECT_TRUE(stress_strain(model, Dynamics::relaxation, {state(1, 0)}).empty());
   model.conditions.displacement.setConstant(std::nan(""));
-  EXPECT_THROW(stress_strain(model, Dynamics::relaxation, {state(1, 0)}), std::invalid_argument);
+  EXPECT_TRUE(stress_strain(model, Dynamics::relaxation, {state(1, 0)}).empty());
 }
 
 TEST(StressStrain, IsWrittenAsATable) {
