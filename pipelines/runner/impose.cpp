@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/impose.hpp"
 
+#include "solve/load/near_surface.hpp"
 #include "solve/load/noisy_load.hpp"
 
 namespace brainshift::pipelines {
@@ -13,7 +14,9 @@ void add_noise(const Load& how, solve::CraniotomyLoad& load) {
 
 solve::Conditions imposed(const solve::CraniotomyLoad& load, const Load& how, const NodeCloud& cloud) {
   if (load.sigma.rows() == 0) {
-    return {.displacement = solve::prescribed_on_surface_nodes(cloud, load, how.opening)};
+    solve::Conditions exact{.displacement = solve::prescribed_on_surface_nodes(cloud, load, how.opening)};
+    solve::check_taken(load.positions, cloud, exact.displacement);
+    return exact;
   }
   solve::Conditions conditions = solve::noisy_conditions(cloud, load, how.opening);
   conditions.measured->weight = how.weight;

@@ -12,6 +12,7 @@
 #include "segmentation/labels/label_fit.hpp"
 #include "segmentation/options/values.hpp"
 #include "solve/body/ordered_cloud.hpp"
+#include "solve/load/near_surface.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -59,6 +60,15 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
     warnings.push_back("the measured points lie " + with_digits(distance) +
                        " mm off the brain's surface (median); are load and image in the same frame, and were the "
                        "points taken on the cortex?");
+  }
+  if (load.displacement.isZero(0)) {
+    warnings.emplace_back("all measured displacements are 0");
+  }
+  constexpr double hardly_any = 0.1;
+  if (const double share = solve::share_not_taken(load.positions, cloud, prescribed); share > hardly_any) {
+    warnings.push_back(with_digits(100 * share) +
+                       " % of the measured points lie over no node that is loaded, and are lost; do they lie about one "
+                       "opening, and is it flat enough?");
   }
   const bool few = places.rows() <= 3;
   if (few || on_a_line(places)) {
@@ -114,11 +124,26 @@ void append(const Warnings& more, Warnings& warnings) {
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
-Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& model, const Points& displacement) {
-  if (model.conditions.measured && model.conditions.measured->inner.rows() > 0) {
-    return {};
+Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const solve::Conditions& conditions) {
+  if (!conditions.measured || conditions.measured->inner.rows() == 0) {
+    return warnings_of(load, cloud, conditions.displacement);
   }
-  Warnings warnings = warnings_of(load, model.cloud, model.conditions.displacement);
+  const solve::Measurement& measured = *conditions.measured;
+  const Eigen::Index inner = measured.inner.rows(), all = inner + measured.cortex.rows();
+  Warnings warnings;
+  if (2 * inner > all) {
+    warnings.push_back(std::to_string(inner) + " of " + std::to_string(all) +
+                       " measured places lie more than 5 mm below the brain's surface and count as places inside it; "
+                       "were they measured there, and are load and image in the same frame?");
+  }
+  if (measured.cortex.rows() > 0) {
+    append(warnings_of({measured.cortex, measured.cortex_displacement}, cloud, conditions.displacement), warnings);
+  }
+  return warnings;
+}
+
+Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& model, const Points& displacement) {
+  Warnings warnings = warnings_of(load, model.cloud, model.conditions);
   append(warnings_of(model, displacement), warnings);
   return warnings;
 }
@@ -175,6 +200,19 @@ Warnings warnings_of_pressure(const solve::SolveMeasures& measures) {
           "that the tissue does not allow? Take a smaller load, a smaller Poisson ratio, or more nodes"};
 }
 
+/// A cube that swells by a fifth in a skull that leaves it no room folds within, and sheds its pressure by that: 7 % of
+/// it are then pressed so far.
+Warnings warnings_of_compression(const solve::SolveMeasures& measures) {
+  constexpr double much = 0.05;
+  if (measures.compressed_share < much) {
+    return {};
+  }
+  return {
+      with_digits(100 * measures.compressed_share) +
+      " % of the volume are pressed to about half of a length and less, where tissue creases and folds: the answer "
+      "may be all wrong; has all of the body, with what swells, room where it is? Take a smaller load or more nodes"};
+}
+
 /// Of a ball's cavity in soft tissue 8 % of the volume leave a smooth wall and 5 % creases; at 3 % a seventh of the
 /// wall has passed through the rest, by a fifth of a spacing, on clouds of 1,500 to 6,000 nodes.
 Warnings warnings_of_cavity(const solve::SolveMeasures& measures) {
@@ -222,8 +260,8 @@ Warnings warnings_of_few_nodes(const solve::SolveMeasures& measures) {
 
 Warnings warnings_of(const solve::SolveMeasures& measures) {
   Warnings warnings = warnings_of_points(measures);
-  for (const Warnings& more :
-       {warnings_of_pressure(measures), warnings_of_cavity(measures), warnings_of_few_nodes(measures)}) {
+  for (const Warnings& more : {warnings_of_pressure(measures), warnings_of_compression(measures),
+                               warnings_of_cavity(measures), warnings_of_few_nodes(measures)}) {
     append(more, warnings);
   }
   return warnings;
@@ -264,12 +302,17 @@ Warnings warnings_of(const solve::LessenedPoints& lessened) {
 }
 
 Warnings warnings_of(const registration::RegisterMeasures& measures) {
-  if (measures.folded_voxels == 0) {
-    return {};
+  Warnings warnings;
+  if (measures.folded_voxels > 0) {
+    warnings.push_back("the field folds in " + std::to_string(measures.folded_voxels) + " voxels (Jacobian down to " +
+                       with_digits(measures.field_jacobian_min) +
+                       "), where the warped images mean nothing; look at the load, or solve with more nodes");
   }
-  return {"the field folds in " + std::to_string(measures.folded_voxels) + " voxels (Jacobian down to " +
-          with_digits(measures.field_jacobian_min) +
-          "), where the warped images mean nothing; look at the load, or solve with more nodes"};
+  if (measures.landmarks_outside > 0) {
+    warnings.push_back(std::to_string(measures.landmarks_outside) +
+                       " landmarks lie outside the image and stay where they were; are they in its frame?");
+  }
+  return warnings;
 }
 
 void warn(const Warnings& warnings, std::vector<std::string>& notes) {

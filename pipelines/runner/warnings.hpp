@@ -18,8 +18,12 @@ namespace brainshift::pipelines {
 /// What is no fault, but most likely not what the user means: a sentence each.
 using Warnings = std::vector<std::string>;
 
-/// Of points that lie off the brain's surface, or that are too few or lie on a line. prescribed: what became of them.
+/// Of points that lie off the brain's surface, that are too few or lie on a line, do not move, or are lost. prescribed:
+/// what became of them.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed);
+
+/// The same of those on the cortex, and of many that count as inside the brain. conditions: what became of them.
+Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const solve::Conditions& conditions);
 
 /// Of labels that lie where a T1 of the same grid is black, or whose boundary is none in it: it is of another head or
 /// frame.
@@ -31,13 +35,14 @@ Warnings warnings_of(const solve::Model& model, const Points& displacement);
 
 void append(const Warnings& more, Warnings& warnings);
 
-/// Both, where the load has points of the cortex alone: of points inside the brain neither holds.
+/// Both.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& model, const Points& displacement);
 
 /// Of a head that is weighed as if it did not float.
 Warnings warnings_of_weight(const solve::Model& model);
 
-/// Of few integration points, at all or under strong compression, of high pressure, and of what few nodes resolve.
+/// Of few integration points, at all or under strong compression, of high pressure, of much that is pressed together,
+/// and of what few nodes resolve.
 Warnings warnings_of(const solve::SolveMeasures& measures);
 
 /// Of tissues that many nodes hardly resolve, and of an error that nothing estimates.
@@ -49,7 +54,7 @@ Warnings warnings_of(const std::optional<solve::Outlier>& outlier);
 /// Of measured points that count for less than half.
 Warnings warnings_of(const solve::LessenedPoints& lessened);
 
-/// Of a field that folds.
+/// Of a field that folds, and of landmarks outside the image.
 Warnings warnings_of(const registration::RegisterMeasures& measures);
 
 /// Adds them to the notes of a stage, each marked as a warning.

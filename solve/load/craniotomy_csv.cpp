@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/point_table.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
@@ -17,7 +18,20 @@ namespace {
 /// The standard deviations of a table's points, mm; no rows where it has no column for them.
 Points sigma_in(const PointTable& table) {
   const bool one = table.find_column("sigma").has_value();
-  if (!one && !table.find_column("sigma_x") && !table.find_column("sigma_y") && !table.find_column("sigma_z")) {
+  const bool each = table.find_column("sigma_x") || table.find_column("sigma_y") || table.find_column("sigma_z");
+  for (const std::string& column : table.columns) {
+    const std::string name = in_lower_case(column);
+    if (name != column ? name.starts_with("sigma") : name == "sd" || name == "std" || name.starts_with("noise")) {
+      refuse(table.file, "its column '" + column +
+                             "' is not read; name standard deviations sigma, or sigma_x, sigma_y "
+                             "and sigma_z, or take it out");
+    }
+  }
+  if (one && each) {
+    refuse(table.file,
+           "it has a column sigma and one of sigma_x, sigma_y, sigma_z, too; take the one or the others out");
+  }
+  if (!one && !each) {
     return Points(0, 3);
   }
   const std::array<std::string, 3> columns = one ? std::array<std::string, 3>{"sigma", "sigma", "sigma"}

@@ -24,8 +24,8 @@ inline constexpr double smallest_noise = 1e-6;
 /// Reads `x,y,z,ux,uy,uz` (mm). That header line is required; a comment line before it names the frame, "# frame: LPS"
 /// or "# frame: RAS" (converted). A column `sigma`, or three, `sigma_x,sigma_y,sigma_z`, hold standard deviations (mm).
 /// Throws std::invalid_argument with file and line where a standard deviation is less than smallest_noise, and where a
-/// line does not parse or is not finite, or the frame is not named; with the file where it cannot be read or holds no
-/// measurement.
+/// line does not parse or is not finite, or the frame is not named; with the file where it cannot be read, holds no
+/// measurement, or has a column that is most likely a standard deviation under another name.
 CraniotomyLoad read_craniotomy_csv(const std::filesystem::path& file);
 
 /// Writes the same, in LPS; numbers survive unchanged. Throws std::runtime_error when it cannot be written whole.
@@ -43,7 +43,7 @@ Points read_markup_positions(const std::filesystem::path& file);
 /// non-rigid registration (nearest places along normals, the smoothing relaxed step by step; Amberg et al. 2007).
 /// Limits: movement along the surface is not seen, only smoothed; places whose partner lies past the rim of `after`
 /// take their neighbours' movement. Throws std::invalid_argument on an empty or non-finite surface, and where the two
-/// are farther apart than a brain shifts (20 mm in the median).
+/// are farther apart than a brain shifts (20 mm in the median) or less than a fifth of `before` lies over `after`.
 CraniotomyLoad load_from_surfaces(const Surface& before, const Surface& after);
 
 /// An opening in the skull and how far the brain sinks in it: a simulation, for demonstration and tests where nothing

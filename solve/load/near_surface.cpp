@@ -75,6 +75,58 @@ void check_near_surface(const Points& measured, const Points& surface, double fa
   }
 }
 
+void check_frame(const Points& measured, const Points& surface, double farthest_allowed) {
+  constexpr double off = 10.0;  // mm
+  const PointTree tree(surface);
+  Points turned_points = measured;
+  turned_points.leftCols(2) *= -1;
+  const Distances as_given = distances_to(tree, measured), turned = distances_to(tree, turned_points);
+  if (as_given.median > off && 3 * turned.median < as_given.median && turned.farthest <= farthest_allowed) {
+    throw std::invalid_argument("load: the measured points lie " + rounded(as_given.median) +
+                                " mm off the brain's surface (median), and with x and y flipped " +
+                                rounded(turned.median) +
+                                " mm: RAS was most likely taken for LPS, or LPS for RAS; correct the frame that the "
+                                "load's file names");
+  }
+  const double across = (measured.colwise().maxCoeff() - measured.colwise().minCoeff()).maxCoeff();
+  constexpr double in_metres = 1.0;
+  if (measured.rows() >= 3 && across > 0 && across < in_metres) {
+    throw std::invalid_argument("load: all " + std::to_string(measured.rows()) +
+                                " measured points lie within a millimetre; positions in mm are expected");
+  }
+}
+
+double share_not_taken(const Points& measured, const NodeCloud& cloud, const Points& prescribed) {
+  const std::vector<std::int32_t> surface = surface_nodes(cloud);
+  std::vector<std::int32_t> loaded;
+  for (const std::int32_t node : surface) {
+    if (!prescribed.row(node).array().isNaN().all()) {
+      loaded.push_back(node);
+    }
+  }
+  if (loaded.empty()) {
+    return 1;
+  }
+  const Points places = cloud.positions(surface, Eigen::all), taken = cloud.positions(loaded, Eigen::all);
+  const PointTree all(places), of_taken(taken);
+  double lost = 0;
+  for (Eigen::Index p = 0; p < measured.rows(); ++p) {
+    const Eigen::RowVector3d place = measured.row(p);
+    const auto [nearest, squared] = all.nearest(place.data());
+    const double spacing = cloud.spacing[static_cast<std::size_t>(surface[nearest])];
+    lost += std::sqrt(of_taken.nearest(place.data()).second) > std::sqrt(squared) + 2 * spacing ? 1 : 0;
+  }
+  return lost / static_cast<double>(measured.rows());
+}
+
+void check_taken(const Points& measured, const NodeCloud& cloud, const Points& prescribed) {
+  if (const double share = share_not_taken(measured, cloud, prescribed); share > 0.5) {
+    throw std::invalid_argument("load: " + rounded(100 * share) + " % of the " + std::to_string(measured.rows()) +
+                                " measured points lie over no node that is loaded: they do not lie about one opening, "
+                                "as on both sides of the brain or all around it; give those of one opening");
+  }
+}
+
 void check_moved(const Points& displacement, const Points& surface) {
   const double across = (surface.colwise().maxCoeff() - surface.colwise().minCoeff()).maxCoeff();
   Eigen::Index farthest = 0;

@@ -10,6 +10,7 @@
 
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/load/joined_points.hpp"
+#include "solve/load/near_surface.hpp"
 #include "solve/load/spread_out.hpp"
 
 namespace brainshift::solve {
@@ -119,6 +120,11 @@ Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, 
   if (load.sigma.rows() != load.positions.rows() || !(load.sigma.array() >= smallest_noise).all()) {
     throw std::invalid_argument("load: each measured point needs a standard deviation of 0.000001 mm or more");
   }
+  if (const std::vector<std::int32_t> nodes = surface_nodes(cloud); !nodes.empty() && load.positions.allFinite()) {
+    const Points surface = cloud.positions(nodes, Eigen::all);
+    check_frame(load.positions, surface, options.farthest);
+    check_moved(load.displacement, surface);
+  }
   const std::vector<Eigen::Index> inside = inner_points(cloud, load);
   std::vector<Eigen::Index> outside;
   for (Eigen::Index p = 0, next = 0; p < load.positions.rows(); ++p) {
@@ -135,6 +141,7 @@ Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, 
   if (!outside.empty()) {
     const CraniotomyLoad cortex = joined(rows_of(load, outside), most_measured_points);
     conditions.displacement = prescribed_on_surface_nodes(cloud, cortex, options);
+    check_taken(cortex.positions, cloud, conditions.displacement);
     measured.spread = shares(cloud, cortex, options);
     measured.sigma = cortex.sigma;
     measured.cortex = cortex.positions;

@@ -103,6 +103,20 @@ void check_together(const Points& positions, const std::vector<SurfacePlace>& pl
   }
 }
 
+/// Where the nearest place is on the rim of the surface after, nothing tells how a place has moved.
+void check_covered(const std::vector<SurfacePlace>& places, const Eigen::VectorXd& areas) {
+  constexpr double least = 0.2;
+  double covered = 0;
+  for (std::size_t v = 0; v < places.size(); ++v) {
+    covered += places[v].on_rim ? 0 : areas[static_cast<Eigen::Index>(v)];
+  }
+  if (const double share = covered / areas.sum(); !(share > least)) {
+    throw std::invalid_argument("load: only " + std::to_string(std::lround(100 * share)) +
+                                " % of the surface before lies over the surface after; are both of one opening, and "
+                                "in the same frame?");
+  }
+}
+
 /// The pull towards the planes of the nearest places: matrix and right side of the least squares.
 struct Pull {
   Sparse matrix;
@@ -154,6 +168,7 @@ CraniotomyLoad load_from_surfaces(const Surface& given_before, const Surface& af
   if (!load.displacement.allFinite()) {
     throw std::invalid_argument("load: the surface before cannot be laid on the surface after; check both");
   }
+  check_covered(nearest_places(tree, load.positions + load.displacement), areas);
   return load;
 }
 

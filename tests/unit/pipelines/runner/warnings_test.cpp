@@ -22,10 +22,21 @@ NodeCloud ball() {
   return cloud;
 }
 
-Warnings of_points(const Points& points) {
-  Points prescribed = Points::Constant(ball().positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
-  prescribed.topRows(7).setZero();
-  return warnings_of(solve::CraniotomyLoad{points, Points::Zero(points.rows(), 3)}, ball(), prescribed);
+/// Of the nodes under an opening.
+Points prescribed_on_top() {
+  const NodeCloud cloud = ball();
+  Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    if (cloud.positions(a, 2) > 45) {
+      prescribed.row(a).setConstant(1);
+    }
+  }
+  return prescribed;
+}
+
+Warnings of_points(const Points& points, double moved = 1) {
+  return warnings_of(solve::CraniotomyLoad{points, Points::Constant(points.rows(), 3, moved)}, ball(),
+                     prescribed_on_top());
 }
 
 Points opening(double radius) {
@@ -47,10 +58,33 @@ TEST(Warnings, TellOfPointsThatLieOffTheSurface) {
   expect_parts(of_points(opening(75)).front(), {"15 mm off", "same frame"});
 }
 
+TEST(Warnings, TellOfPointsThatAreLostOrDoNotMove) {
+  Points both(2 * opening(60).rows(), 3);
+  both << opening(60), -opening(60);
+  ASSERT_EQ(of_points(both).size(), 1U);
+  expect_parts(of_points(both).front(), {"50 %", "are lost", "one opening"});
+  ASSERT_EQ(of_points(opening(60), 0).size(), 1U);
+  expect_parts(of_points(opening(60), 0).front(), {"displacements are 0"});
+}
+
+TEST(Warnings, OfPointsInsideTheBrainTellHowManyCountAsSuch) {
+  const Points cortex = opening(60), none = Points::Constant(cortex.rows(), 3, 1);
+  solve::Conditions conditions{.displacement = prescribed_on_top()};
+  solve::Measurement& measured = conditions.measured.emplace();
+  measured.cortex = cortex;
+  measured.cortex_displacement = none;
+  measured.inner = Points::Zero(1, 3);
+  EXPECT_TRUE(warnings_of({cortex, none}, ball(), conditions).empty());
+  measured.inner = opening(40).replicate(3, 1);
+  ASSERT_EQ(warnings_of({cortex, none}, ball(), conditions).size(), 1U);
+  expect_parts(warnings_of({cortex, none}, ball(), conditions).front(), {"count as places inside", "same frame"});
+}
+
 TEST(Warnings, TellOfPointsThatAreFewOrOnALine) {
   const Points few = opening(60).topRows(3);
   ASSERT_EQ(of_points(few).size(), 1U);
-  expect_parts(of_points(few).front(), {"at 3 places", "7 nodes"});
+  const auto loaded = (prescribed_on_top().col(0).array() == 1).count();
+  expect_parts(of_points(few).front(), {"at 3 places", std::to_string(loaded) + " nodes"});
   EXPECT_EQ(of_points(few.replicate(20, 1)), of_points(few));
   Points line(10, 3);
   for (int i = 0; i < 10; ++i) {

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "tests/unit/expect_parts.hpp"
+#include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 
 namespace brainshift::solve::near_surface_test {
@@ -55,6 +57,37 @@ TEST(NearSurface, PointsThatLieOffTheSurfaceInBothFramesAreNotToldToBeTurned) {
   const std::string far = refusal(cap({0, 0, 0}, 85), ball({0, 0, 0}));
   expect_parts(far, {"measured point", "20.0 mm are allowed", "same frame"});
   EXPECT_EQ(far.find("RAS"), std::string::npos) << far;
+}
+
+TEST(NearSurface, OfPointsThatMayLieInsideTheFrameAndTheUnitAreTold) {
+  const Eigen::Vector3d centre(6, 4, 30);
+  const auto fault = [&](const Points& measured) {
+    return test::refusal([&] { check_frame(measured, ball(centre), 20); });
+  };
+  Points turned = cap(centre, 60);
+  EXPECT_EQ(fault(turned), "");
+  EXPECT_EQ(fault(cap(centre, 30)), "") << "they lie inside";
+  turned.leftCols(2) *= -1;
+  expect_parts(fault(turned), {"x and y flipped", "RAS"});
+  expect_parts(fault(cap(centre, 60) / 1000), {"within a millimetre", "in mm are expected"});
+}
+
+TEST(NearSurface, PointsThatNoLoadedNodeIsNearAreCounted) {
+  NodeCloud cloud;
+  cloud.positions = ball({0, 0, 0});
+  cloud.spacing.assign(static_cast<std::size_t>(cloud.positions.rows()), 4);
+  cloud.on_surface.assign(static_cast<std::size_t>(cloud.positions.rows()), 1);
+  const Points left = cap({0, 0, 0}, 60);
+  Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::nan(""));
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    if (cloud.positions(a, 0) > 45) {
+      prescribed.row(a).setZero();
+    }
+  }
+  EXPECT_EQ(share_not_taken(left, cloud, prescribed), 0);
+  EXPECT_EQ(share_not_taken(-left, cloud, prescribed), 1);
+  EXPECT_EQ(test::refusal([&] { check_taken(left, cloud, prescribed); }), "");
+  expect_parts(test::refusal([&] { check_taken(cloud.positions, cloud, prescribed); }), {"one opening"});
 }
 
 }  // namespace brainshift::solve::near_surface_test

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 
 namespace brainshift::solve::surface_pair_test {
@@ -102,6 +103,11 @@ TEST(SurfacesBeforeAndAfter, AreRefusedWhenEmptyBrokenOrFarApart) {
   broken.vertices(patch.triangles(0, 0), 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(load_from_surfaces(broken, patch), std::invalid_argument);
   EXPECT_THROW(load_from_surfaces(patch, broken), std::invalid_argument);
+  const Surface small = cap(15, 3, Eigen::Matrix3d::Identity());
+  Surface beside = small;
+  beside.vertices.rowwise() += Eigen::RowVector3d(28, 0, 0);
+  EXPECT_NE(test::refusal([&] { load_from_surfaces(small, beside); }).find(" % of the surface before"),
+            std::string::npos);
   Surface flat = patch;
   flat.vertices.setZero();
   EXPECT_THROW(load_from_surfaces(patch, flat), std::invalid_argument);
