@@ -4,6 +4,7 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <algorithm>
 
 #include "discretise/discretise.hpp"
 #include "discretise/interface/option_table.hpp"
@@ -187,12 +188,18 @@ py::list solve_each(const discretise::Discretisation& body, const std::vector<py
     constants.push_back({.materials = materials_of(of_one)});
   }
   std::vector<std::optional<Points>> moved;
+  pipelines::Warnings warnings;
   if (!constants.empty()) {
     const Free free;
     solve::Model model = model_of(body, load, labels, skull, boundary);
     model.materials = constants.front().materials;
     moved = solve::solve_each(model, options, constants, attentive(progress));
+    const auto at_rest = std::ranges::find_if(moved, [](const auto& u) { return u.has_value(); });
+    if (at_rest != moved.end()) {
+      warnings = pipelines::warnings_of(load, model, **at_rest);
+    }
   }
+  warn(warnings);
   py::list answer;
   for (std::optional<Points>& u : moved) {
     answer.append(u ? py::object(given_away(std::move(*u))) : py::none());
@@ -299,7 +306,8 @@ PYBIND11_MODULE(_core, m) {
       py::arg("skull") = none, py::arg("boundary") = none, py::arg("progress") = none,
       "A study of materials: solve() with each of a list of materials, prepared once and stepped together, sixteen in "
       "about 2.5 times the time of one. Returns (n, 3) displacements, mm, the same as solve()'s to rounding; None "
-      "where it finds no rest. The load has no noise. Options are those of solve().");
+      "where it finds no rest; warns of what is odd about the load alone. The load has no noise. Options are those of "
+      "solve().");
   m.def("register", &register_images, py::arg("solution"), py::arg("brain"), py::arg("t1"), py::arg("labels") = none,
         py::arg("landmarks") = none, py::arg("progress") = none,
         ("A Solution to fields on the t1's grid and warped images. landmarks: (n, 3) preop, mm, LPS." +

@@ -67,7 +67,7 @@ async function unpackedRun(facts) {
       at: [row.x, row.y, row.z], shift: [row.ux, row.uy, row.uz],
       deviation: row.sigma_x && length([row.sigma_x, row.sigma_y, row.sigma_z]),
     })),
-    landmarks: records(facts.uncertainty).map((row) => ({
+    landmarks: records(facts.uncertainty).filter((row) => row.xx > 0).map((row) => ({
       at: [row.x, row.y, row.z], deviation: Math.sqrt(row.xx + row.yy + row.zz),
     })),
   };

@@ -10,7 +10,6 @@
 #include "pipelines/runner/patient_registration.hpp"
 #include "pipelines/runner/warnings.hpp"
 #include "pipelines/scene/field_load.hpp"
-#include "register/field/nodal_values.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/cut/septum.hpp"
 #include "solve/load/near_surface.hpp"
@@ -143,15 +142,8 @@ void add_uncertainty(const SolveJob& job, const SolveInput& input, const solve::
   if (job.landmarks.empty() || (!spread && !result.measures.measured)) {
     return;
   }
-  const Points places = solve::read_markup_positions(job.landmarks);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(places.rows(), 6);
-  if (result.measures.measured) {
-    covariance += result.measures.measured->covariance;
-  }
-  if (spread) {
-    covariance += registration::nodal_values_at(result.solution, spread->constants, false, places);
-  }
-  write_covariance(out / "uncertainty.csv", places, covariance);
+  write_covariance(out / "uncertainty.csv", solve::read_markup_positions(job.landmarks), result,
+                   spread ? spread->constants : Eigen::MatrixXd());
 }
 
 void read_cuts(const SolveJob& job, solve::Model& model) {

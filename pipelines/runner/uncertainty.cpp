@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <span>
 #include <stdexcept>
 
 #include "pipelines/runner/sha256.hpp"
+#include "register/field/nodal_values.hpp"
 #include "segmentation/files/vtu_file.hpp"
 #include "solve/interface/option_table.hpp"
 #include "solve/material/material_options.hpp"
@@ -303,13 +305,24 @@ Spread write_spread(const UncertaintyJob& job, const Solved& solved, const fs::p
   return spread;
 }
 
-void write_covariance(const fs::path& file, const Points& places, const Eigen::MatrixXd& covariance) {
+void write_covariance(const fs::path& file, const Points& places, const solve::SolveResult& result,
+                      const Eigen::MatrixXd& constants) {
+  const bool known = constants.rows() == 0;
+  Eigen::MatrixXd covariance = registration::nodal_values_at(
+      result.solution, known ? Eigen::MatrixXd::Zero(result.solution.positions.rows(), 6) : constants, false, places,
+      std::numeric_limits<double>::quiet_NaN());
+  if (result.measures.measured) {
+    covariance += result.measures.measured->covariance;
+  }
   std::ofstream stream(file);
   stream << "# frame: LPS\nx,y,z,xx,yy,zz,xy,yz,zx\n";
   for (Eigen::Index row = 0; row < places.rows(); ++row) {
     stream << places(row, 0) << ',' << places(row, 1) << ',' << places(row, 2);
     for (const double entry : covariance.row(row)) {
-      stream << ',' << entry;
+      stream << ',';
+      if (std::isfinite(entry)) {
+        stream << entry;
+      }
     }
     stream << '\n';
   }

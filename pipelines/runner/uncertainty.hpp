@@ -41,9 +41,11 @@ struct Spread {
 Spread write_spread(const UncertaintyJob& job, const Solved& solved, const std::filesystem::path& out,
                     StageReport& said, const Progress& progress);
 
-/// uncertainty.csv: places (m × 3) and the covariance (m × 6, mm²) of the displacement there. Throws
-/// std::runtime_error, naming the file, when it cannot be written whole.
-void write_covariance(const std::filesystem::path& file, const Points& places, const Eigen::MatrixXd& covariance);
+/// uncertainty.csv: places (m × 3) and the covariance (mm²) of the displacement there, by what is measured and by
+/// constants (nodes × 6; no rows: they count as known); empty outside the brain. Throws std::runtime_error, naming the
+/// file, when it cannot be written whole.
+void write_covariance(const std::filesystem::path& file, const Points& places, const solve::SolveResult& result,
+                      const Eigen::MatrixXd& constants = {});
 
 /// √(xx + yy + zz) of each row, mm: how far off in space, root mean square.
 std::vector<double> deviations(const Eigen::MatrixXd& covariance);

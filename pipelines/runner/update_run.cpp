@@ -50,7 +50,7 @@ void add_changes(const std::string& path, const nlohmann::ordered_json& now, con
     const std::string place = path.empty() ? name : path + "." + name;
     if (value.is_object()) {
       add_changes(place, there ? now[name] : nlohmann::ordered_json(), value, overrides);
-    } else if (value.is_string() && value != "" && there && now[name] != value) {
+    } else if (value.is_string() && there && now[name] != value) {
       overrides.push_back(place + "=" + value.get<std::string>());
     }
   }
@@ -119,6 +119,7 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
   key_ = sha256_of_text(solved.stamp + sha256_of_file(run_ / "solve" / "solution.vtu"));
   const SolveJob job = solve_job(scene_, run_);
   how_ = *job.load;
+  landmarks_ = job.landmarks.empty() ? Points(0, 3) : solve::read_markup_positions(job.landmarks);
   report(progress, 0, "reading");
   if (auto kept = solve::read_kept(file_, key_, job.materials, job.options)) {
     kept_ = std::move(*kept);
@@ -176,8 +177,16 @@ std::string UpdatedRun::device_fault() const {
 
 solve::SolveResult UpdatedRun::solve(const solve::CraniotomyLoad& load, const fs::path& file,
                                      const Progress& progress) {
+  return solve_and_ask(load, file, Points(0, 3), progress);
+}
+
+solve::SolveResult UpdatedRun::solve_and_ask(const solve::CraniotomyLoad& load, const fs::path& file,
+                                             const Points& places, const Progress& progress) {
   return naming(file.string(), [&] {
     solve::Conditions conditions = imposed(load, how_, cloud());
+    if (conditions.measured) {
+      conditions.measured->asked = places;
+    }
     solve::SolveResult result = solve::update(kept_, conditions, progress);
     answered_ = {load, std::move(conditions)};
     return result;
@@ -199,18 +208,23 @@ Warnings UpdatedRun::warnings() const {
     append(warnings_of(solve::worst_of_joined(load)), all);
     append(warnings_of(solve::worst_outlier(*kept_.thinned, conditions)), all);
   }
-  if (!conditions.measured || conditions.measured->inner.rows() == 0) {
-    append(warnings_of(load, cloud(), kept_.prescribed), all);
-  }
+  append(warnings_of(load, cloud(), conditions), all);
   return all;
 }
 
 StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const Progress& progress) {
   const solve::CraniotomyLoad load = read(file);
-  const solve::SolveResult result = solve(load, file, progress);
+  const solve::SolveResult result = solve_and_ask(load, file, landmarks_, progress);
   solve::write_solve(out, result);
   solve::write_craniotomy_csv(out / "load.csv", load);
+  if (result.measures.measured && landmarks_.rows() > 0) {
+    write_covariance(out / "uncertainty.csv", landmarks_, result);
+  }
   StageReport said = report_of(result, solve::Dynamics::relaxation);
+  if (scene_.uncertainty) {
+    said.notes.emplace_back(
+        "an update draws no samples: what constants that nobody knows add to the uncertainty is that of the run");
+  }
   if (!not_kept_.empty()) {
     said.notes.push_back("warning: the next update prepares the run again: " + not_kept_);
   }

@@ -53,8 +53,9 @@ class UpdatedRun {
   /// How a GPU has failed, so that the processor answers from then on; empty: it has not.
   std::string device_fault() const;
 
-  /// Answers the displacements of a CSV and writes solution.vtu, history.csv and load.csv into an existing folder.
-  /// Throws std::invalid_argument, naming the file, where it is at fault.
+  /// Answers the displacements of a CSV and writes solution.vtu, history.csv and load.csv into an existing folder, and
+  /// uncertainty.csv where the load has noise and the scene landmarks. Throws std::invalid_argument, naming the file,
+  /// where it is at fault.
   StageReport answer(const std::filesystem::path& load, const std::filesystem::path& out, const Progress& progress);
 
  private:
@@ -65,12 +66,17 @@ class UpdatedRun {
 
   void make_kept(const SolveJob& job, const Progress& progress);
 
+  /// The same as solve() with what noise leaves open of the displacement at places (m × 3), mm.
+  solve::SolveResult solve_and_ask(const solve::CraniotomyLoad& load, const std::filesystem::path& file,
+                                   const Points& places, const Progress& progress);
+
   NodeCloud cloud() const;
 
   std::filesystem::path run_, file_;
   Scene scene_;
   std::string key_;
-  Load how_;  ///< as the run's load was imposed
+  Load how_;          ///< as the run's load was imposed
+  Points landmarks_;  ///< (m × 3) mm, whose uncertainty a run writes; none of a load without noise
   solve::KeptRun kept_;
   Answered answered_;  ///< last
   std::string not_kept_;

@@ -23,22 +23,25 @@ XYZ = ("x", "y", "z", "ux", "uy", "uz")
 class Head:
     """A scene whose load is replaced, and what its whole load without noise moves."""
 
-    def __init__(self, program, folder, scene, load, measured):
+    def __init__(self, program, folder, scene, load, measured, places):
         self.program, self.folder, self.scene, self.load = program, folder, scene, load
-        self.measured = measured
-        self.truth = self.moved(measured, None)
+        self.measured, self.places = measured, places
+        self.truth = self.moved(measured)
 
-    def moved(self, given, noise):
-        """Displacement at the landmarks, mm."""
+    def write(self, given, attributes=""):
+        """A scene with this load, of these attributes."""
         write_load(self.folder / "given.csv", given[:, :3], given[:, 3:])
-        load = "<load>" if noise is None else f'<load noise="{noise}">'
-        text = self.scene.replace(self.load, f'{load}<craniotomy file="given.csv"/></load>')
+        text = self.scene.replace(self.load, f'<load {attributes}><craniotomy file="given.csv"/></load>')
         (self.folder / "given.xml").write_text(text)
-        return solved(self.program, self.folder / "given.xml", self.folder / "run")
+        return self.folder / "given.xml"
 
-    def error(self, given, noise):
+    def moved(self, given, attributes=""):
+        """Displacement at the landmarks, mm."""
+        return solved(self.program, self.write(given, attributes), self.folder / "run")
+
+    def error(self, given, attributes=""):
         """Of 95 % of the brain, mm."""
-        return np.quantile(np.linalg.norm(self.moved(given, noise) - self.truth, axis=1), 0.95)
+        return np.quantile(np.linalg.norm(self.moved(given, attributes) - self.truth, axis=1), 0.95)
 
 
 def solved(program, scene, out):
@@ -56,9 +59,10 @@ def phantom(program, folder, random):
     subprocess.run([program, "phantom", "--out", str(folder)], check=True, stdout=subprocess.DEVNULL)
     scene = (folder / "scene.xml").read_text().replace('nodes="12000"', f'nodes="{NODES}"')
     scene = scene.replace("landmarks.mrk.json", "landmarks.fcsv")
-    write_landmarks(folder / "landmarks.fcsv", places_in(folder / "labels.nii.gz", random))
+    places = places_in(folder / "labels.nii.gz", random)
+    write_landmarks(folder / "landmarks.fcsv", places)
     measured = numbers(rows_of(folder / "craniotomy.csv"), XYZ)
-    return Head(program, folder, scene, between(scene, "<load>", "</load>"), measured)
+    return Head(program, folder, scene, between(scene, "<load>", "</load>"), measured, places)
 
 
 def demo(program, folder, random, scene_file):
@@ -67,10 +71,11 @@ def demo(program, folder, random, scene_file):
     (folder / "demo.xml").write_text(scene)
     subprocess.run([program, "run", "-q", str(folder / "demo.xml"), "--out", str(folder / "whole"), "--until", "solve"],
                    check=True, stderr=subprocess.DEVNULL)
-    write_landmarks(folder / "landmarks.fcsv", places_in(folder / "whole" / "segment" / "labels.nii.gz", random))
+    places = places_in(folder / "whole" / "segment" / "labels.nii.gz", random)
+    write_landmarks(folder / "landmarks.fcsv", places)
     scene = scene.replace("<contact/>", '<contact/><landmarks file="landmarks.fcsv"/>')
     measured = numbers(rows_of(folder / "whole" / "solve" / "load.csv"), XYZ)
-    return Head(program, folder, scene, between(scene, "<load>", "</load>"), measured)
+    return Head(program, folder, scene, between(scene, "<load>", "</load>"), measured, places)
 
 
 def chosen(places, points, evenly, random):
@@ -86,7 +91,7 @@ def row(head, points, noise, evenly, random):
     for _ in range(DRAWS):
         given = head.measured[chosen(head.measured[:, :3], points, evenly, random)]
         given[:, 3:] += noise * random.standard_normal((points, 3))
-        errors.append((head.error(given, None), head.error(given, noise)))
+        errors.append((head.error(given), head.error(given, f'noise="{noise}"')))
     return np.mean(errors, axis=0)
 
 

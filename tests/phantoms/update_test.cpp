@@ -3,6 +3,7 @@
 // A finished run under a new load, through the program.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "solve/load/craniotomy_load.hpp"
@@ -87,6 +88,34 @@ TEST_F(Update, IsAsARunFromTheBeginningAndLeavesTheRunAlone) {
   const Points old = read_solution(run() / "solve/solution.vtu").displacement;
   EXPECT_LT((updated - solved).rowwise().norm().maxCoeff(), 0.02);
   EXPECT_GT((updated - old).rowwise().norm().maxCoeff(), 0.5) << "the load has changed something";
+}
+
+TEST_F(Update, TellsHowWellANoisyLoadKnowsTheLandmarks) {
+  const fs::path noisy = *scratch / "noisy";
+  const ProgramResult ran = run_shell("brainshift run " + quoted(*scratch / "head/scene.xml") +
+                                      " --until solve --out " + quoted(noisy) + small + " --set load.noise=0.5");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const ProgramResult updated = update(noisy, "--load " + quoted(*scratch / "head/craniotomy.csv"));
+  ASSERT_EQ(updated.code, 0) << updated.err;
+  const std::string of_run = contents_of(noisy / "solve/uncertainty.csv");
+  EXPECT_GT(std::count(of_run.begin(), of_run.end(), '\n'), 2) << "a frame, names and places";
+  EXPECT_EQ(contents_of(noisy / "update/craniotomy/solve/uncertainty.csv"), of_run) << "of the same load";
+
+  ASSERT_EQ(update(noisy, "--load " + quoted(new_load())).code, 0);
+  EXPECT_NE(contents_of(noisy / "update/new/solve/uncertainty.csv"), of_run);
+}
+
+TEST_F(Update, TakesARunWhoseNoiseWasTakenOut) {
+  const std::string text = contents_of(*scratch / "head/scene.xml");
+  const std::size_t at = text.find("<load>");
+  ASSERT_NE(at, std::string::npos);
+  write_text(*scratch / "head/noisy.xml", text.substr(0, at) + "<load noise=\"0.5\">" + text.substr(at + 6));
+  const ProgramResult ran =
+      run_shell("brainshift run " + quoted(*scratch / "head/noisy.xml") + " --until solve --out " +
+                quoted(*scratch / "exact") + small + " --set load.noise=");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const ProgramResult updated = update(*scratch / "exact", "");
+  EXPECT_EQ(updated.code, 0) << updated.err;
 }
 
 TEST_F(Update, DamagedKeptFileIsMadeAgain) {

@@ -186,6 +186,9 @@ class Chain(WithFolder):
         wrong = brainshift.Load(*twice, np.full_like(twice[0], 0.5))
         with self.assertWarnsRegex(UserWarning, "standard deviations from what the other points say"):
             brainshift.solve(body, {1: "brain", 2: "ventricle", 3: "tumour"}, wrong, labels, head.skull, head.brain)
+        few = brainshift.Load(load.positions[:3], load.displacement[:3])
+        with self.assertWarnsRegex(UserWarning, "measured at 3 places"):
+            brainshift.solve_each(body, [{1: "brain", 2: "ventricle", 3: "tumour"}], few, labels, head.skull)
 
     def test_what_does_not_converge_is_told_with_what_there_is(self):
         with self.assertRaises(brainshift.NotConverged) as caught:

@@ -182,13 +182,15 @@ TEST_F(UncertaintyTest, LeavesTheSolutionAsItIs) {
   EXPECT_FALSE(fs::exists(folder_ / "without/uncertainty.vtu"));
 }
 
-TEST_F(UncertaintyTest, GivesEachLandmarkACovariance) {
+TEST_F(UncertaintyTest, GivesEachLandmarkOfTheBrainACovariance) {
   SolveJob job = solve_job(2);
   job.landmarks = write("landmarks.fcsv",
                         "# CoordinateSystem = LPS\n# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,"
-                        "associatedNodeID\n1,0,0,5,0,0,0,1,1,1,0,a,,\n");
+                        "associatedNodeID\n1,0,0,5,0,0,0,1,1,1,0,a,,\n2,0,0,500,0,0,0,1,1,1,0,b,,\n");
   solved(job, "out");
-  EXPECT_EQ(read(folder_ / "out/uncertainty.csv").find("# frame: LPS\nx,y,z,xx,yy,zz,xy,yz,zx\n0,0,5,"), 0U);
+  const std::string table = read(folder_ / "out/uncertainty.csv");
+  EXPECT_EQ(table.find("# frame: LPS\nx,y,z,xx,yy,zz,xy,yz,zx\n0,0,5,"), 0U);
+  EXPECT_EQ(table.find(",,"), table.find("\n0,0,500,,,,,,\n") + 8) << "nothing is known outside";
 }
 
 TEST_F(UncertaintyTest, RefusesALoadWhosePointsDoNotTellAMotionFromNoise) {
@@ -213,7 +215,7 @@ TEST_F(UncertaintyTest, NamesThePlaceThatWasMeasuredTwiceAndDifferently) {
   std::string text = read(folder_ / "load.csv");
   const std::size_t last = text.find_last_of('\n', text.size() - 2) + 1;
   const std::string row = text.substr(last), place = row.substr(0, row.find(',', row.find(',', row.find(',') + 1) + 1));
-  write("load.csv", text + place + ",30,0,0\n");
+  write("load.csv", text + place + ",18,0,0\n");
   std::string notes;
   for (const std::string& note : solved(job, "out").notes) {
     notes += note + "\n";
