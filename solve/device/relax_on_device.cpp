@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "solve/device/device_body.hpp"
 #include "solve/device/device_fault.hpp"
@@ -15,6 +16,7 @@
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/dynamics/rest_report.hpp"
+#include "solve/dynamics/rigid_part.hpp"
 #include "solve/dynamics/soundness.hpp"
 #include "solve/dynamics/span_bound.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
@@ -51,6 +53,9 @@ class Relaxation {
     order_.alpha = relaxation_alpha;
     order_.span = SpanBound::windows_of(window_);
     if (course.settled) {
+      if (course.settled->of_rigid > 0) {
+        rigid_.emplace(body.positions(body.original, Eigen::all));
+      }
       take_over(*course.settled);
       start();
       return;
@@ -276,9 +281,22 @@ class Relaxation {
       const double of_spans = std::max(
           of[LookSums::span_of_nodes],
           SpanBound::of_all(of[LookSums::span_longest], of[LookSums::span_product], of[LookSums::span_squares]));
-      error_bound_ = spans_are_known ? bound_.with_spans(of_spans, window_ == settled_window)
+      error_bound_ = spans_are_known ? bound_.with_spans(of_spans, window_ == settled_window) + left_of_rigid_motion()
                                      : std::numeric_limits<double>::infinity();
     }
+  }
+
+  /// As relax() has it, of the states that the looks left on the device: asked for near the end alone.
+  double left_of_rigid_motion() const {
+    if (!rigid_) {
+      return 0;
+    }
+    const auto state = [&](int looks_on) {
+      const auto place = static_cast<std::size_t>((order_.states - 1 + looks_on) % (2 * order_.span + 1));
+      return on_.read(on_.view().span_state + 4 * on_.nodes() * place);
+    };
+    return left_of_rigid(rigid_->longest(state(0), state(1 + order_.span)), window_ * order_.span, lowest_,
+                         course_.settled->of_rigid);
   }
 
   PointState point_state() const {
@@ -399,6 +417,7 @@ class Relaxation {
   Record record_;
   LoadPace pace_;
   ErrorBound bound_{window_};
+  std::optional<RigidPart> rigid_;
   Books books_;
   SteppingResult result_;
   bool cautious_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
@@ -11,6 +12,7 @@
 #include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/dynamics/rest_report.hpp"
+#include "solve/dynamics/rigid_part.hpp"
 #include "solve/dynamics/slow_parts.hpp"
 #include "solve/dynamics/span_bound.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
@@ -50,6 +52,9 @@ class Relaxation {
       mass_scale_ = course_.settled->mass_scale;
       lowest_ = course_.settled->lowest;
       mass_jacobian_ = course_.settled->smallest_jacobian;
+      if (course_.settled->of_rigid > 0) {
+        rigid_.emplace(motion_.body.positions(motion_.body.original, Eigen::all));
+      }
       motion_.weigh(mass_, alpha);
       motion_.start_from(course_.start, mass_jacobian_);
       pace_.skip();
@@ -268,9 +273,16 @@ class Relaxation {
   void find_error_bound() {
     error_bound_ = bound_.value();
     if (error_bound_ <= tolerance()) {
-      error_bound_ = spans_.is_known() ? bound_.with_spans(spans_.value(), course_.settled.has_value())
-                                       : std::numeric_limits<double>::infinity();
+      error_bound_ = spans_.is_known()
+                         ? bound_.with_spans(spans_.value(), course_.settled.has_value()) + left_of_rigid_motion()
+                         : std::numeric_limits<double>::infinity();
     }
+  }
+
+  double left_of_rigid_motion() const {
+    return rigid_ ? left_of_rigid(rigid_->longest(spans_.end_of_last(), spans_.begin_of_last()),
+                                  window_ * SpanBound::windows_of(window_), lowest_, course_.settled->of_rigid)
+                  : 0;
   }
 
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
@@ -342,6 +354,7 @@ class Relaxation {
   int next_look_at_parts_ = 0;
   double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow
   ErrorBound bound_{window_};
+  std::optional<RigidPart> rigid_;
   SpanBound spans_{window_, motion_.body.stiff_parts.empty() ? SpanBound::usual_rate : rate_of_stiff_parts};
   double error_bound_ = std::numeric_limits<double>::infinity();  // at the last look, mm
   LoadPace pace_;

@@ -30,9 +30,22 @@ inline double critical_beta(double lowest_eigenvalue) {
 
 inline constexpr double smallest_eigenvalue = 1e-8;
 
+/// Rate a step of a mode of eigenvalue A: the larger root of λ² − (1 + β − αA)λ + β = 0, √β where it swings.
+inline double slowest_rate(double beta, double eigenvalue) {
+  const double half = (1 + beta - relaxation_alpha * eigenvalue) / 2, square = half * half - beta;
+  return square > 0 ? half + std::sqrt(square) : std::sqrt(beta);
+}
+
 /// A_0 within what β allows: above the upper bound it is too small for α.
 inline double bounded_eigenvalue(double eigenvalue) {
   return std::clamp(eigenvalue, smallest_eigenvalue, 0.028);
+}
+
+/// What the slowest rigid motion has still to go where the damping is for quicker ones, by what it went in the last
+/// span of so many steps: at a rate that is known, as spans show it only once all else is at rest. of_rigid: its A_0.
+inline double left_of_rigid(double went, int steps, double lowest, double of_rigid) {
+  const double of_span = std::pow(slowest_rate(critical_beta(lowest), of_rigid), steps);
+  return of_span / (1 - of_span) * went;
 }
 
 /// Windows between looks at the stiffness.

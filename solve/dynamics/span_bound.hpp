@@ -36,6 +36,10 @@ class SpanBound {
   /// than their mean tells.
   double value() const;
 
+  /// States at the begin and the end of the last span, once one is known.
+  const NodalVectors& begin_of_last() const { return states_[states_.size() - 1 - windows_]; }
+  const NodalVectors& end_of_last() const { return states_.back(); }
+
   /// Whether two spans are known.
   bool is_known() const { return states_.size() > 2 * windows_; }
 

@@ -20,7 +20,8 @@ namespace brainshift::solve {
 struct Settled {
   std::vector<double> mass;      ///< fictitious, one a node
   double mass_scale = 1;         ///< of the stiffness bound
-  double lowest = 1e-4;          ///< A_0
+  double lowest = 1e-4;          ///< A_0 that it is damped by
+  double of_rigid = 0;           ///< A_0 of its slowest rigid motion, where it is damped by more; else 0
   double smallest_jacobian = 1;  ///< of the state that the masses follow
 };
 

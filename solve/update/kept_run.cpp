@@ -276,6 +276,7 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
     run.departures.add_expected(run.responses, from_origin, course.start);
   }
   if (run.responses.count() > 0 && !load.measured) {
+    course.settled->of_rigid = course.settled->lowest;
     course.settled->lowest = std::max(course.settled->lowest, tells_all ? local_eigenvalue : farther_eigenvalue);
   }
   set_fine_load(load, run);
