@@ -79,7 +79,7 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded, double roun
 
 double ErrorBound::with_spans(double of_spans, bool near_the_end) const {
   constexpr double more = 1.5;
-  return std::max(value_, (near_the_end ? 1 : more) * fall_of_eigenvalue() * of_spans);
+  return margin_ * std::max(value_, (near_the_end ? 1 : more) * fall_of_eigenvalue() * of_spans);
 }
 
 bool ErrorBound::stands_still(double rounding) const {
@@ -94,11 +94,11 @@ bool ErrorBound::stands_still(double rounding) const {
 
 double ErrorBound::at_standstill(double slowest_rate) {
   value_ = slowest_rate / (1 - slowest_rate) * *std::max_element(moved_.end() - half(), moved_.end());
-  return value_;
+  return value();
 }
 
 void ErrorBound::reset() {
-  *this = ErrorBound(window_);
+  *this = ErrorBound(window_, margin_);
 }
 
 }  // namespace brainshift::solve

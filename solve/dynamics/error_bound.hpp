@@ -15,15 +15,15 @@ namespace brainshift::solve {
 /// is as much more as A_0 has become less, and the bound is that many times as large.
 class ErrorBound {
  public:
-  /// window: steps between two calls of add().
-  explicit ErrorBound(int window) : window_(window) {}
+  /// window: steps between two calls of add(). margin: what the bound is multiplied by.
+  explicit ErrorBound(int window, double margin = 1) : window_(window), margin_(margin) {}
 
   /// moved: the longest way of a node, |u⁺ − u| or |û⁺ − û|, in the last step, mm; damping_rate: √β; loaded: the whole
   /// load is on; rounding: what no longer moves than this, mm, has no rate that could be measured.
   void add(double moved, double damping_rate, bool loaded, double rounding = 0);
 
   /// mm; infinite until there are enough windows under the whole load.
-  double value() const { return value_; }
+  double value() const { return margin_ * value_; }
 
   /// mm; of a state of which SpanBound says of_spans. 13 of 300 random problems stopped farther from their end than
   /// the spans alone say, up to 2.7 times; 72 updates, which start near the end, 0.64 times at most.
@@ -58,6 +58,7 @@ class ErrorBound {
   std::ptrdiff_t half() const { return standstill / 2 / window_; }
 
   int window_;
+  double margin_;
   std::vector<double> moved_, rates_, bounds_;
   std::ptrdiff_t loaded_ = 0;  // windows under the whole load
   double value_ = std::numeric_limits<double>::infinity();

@@ -353,7 +353,7 @@ class Relaxation {
   double of_parts_ = std::numeric_limits<double>::infinity();  // A_0 of stiff parts that conditions see
   int next_look_at_parts_ = 0;
   double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow
-  ErrorBound bound_{window_};
+  ErrorBound bound_{window_, margin_of(course_.bound)};
   std::optional<RigidPart> rigid_;
   SpanBound spans_{window_, motion_.body.stiff_parts.empty() ? SpanBound::usual_rate : rate_of_stiff_parts};
   double error_bound_ = std::numeric_limits<double>::infinity();  // at the last look, mm

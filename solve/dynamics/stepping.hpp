@@ -29,6 +29,12 @@ struct Settled {
 /// forty times as far as u. û costs no sums: a GPU and a start near the end, where looks are many, go by it.
 enum class BoundOf : std::uint8_t { displacement, parameters };
 
+/// What a bound is multiplied by. û shows slow motions sooner than u: without this 3 of 750 random problems stopped
+/// farther off than a bound of u says, up to 1.4 times, and none farther than one of û.
+constexpr double margin_of(BoundOf bound) {
+  return bound == BoundOf::displacement ? 1.5 : 1;
+}
+
 /// What happens to a body while it is stepped.
 struct Course {
   LoadCurve curve;          ///< of the prescribed displacements and of the forces

@@ -40,6 +40,7 @@ class Ensemble {
     mass_ = motion_.force_law.stiffness_bound(all_chosen());
     const Numbers tightness = bound_tightness_of_each(motion_.force_law, mass_);
     for (std::size_t m = 0; m < members; ++m) {
+      way_[m].bound = ErrorBound(usual_window, margin_of(bound));
       way_[m].mass_scale = tightness[static_cast<Eigen::Index>(m)];
     }
     for (NumberOfEach<double>& of_node : mass_) {
