@@ -169,6 +169,20 @@ SolveMeasures sizes_of(const KeptRun& run, const Points& prescribed) {
   return measures;
 }
 
+/// At rest once more, closer than a run comes, from where it lay.
+SteppingResult rest_of(const Model& model, const SolveOptions& options, const Points& displacement,
+                       const Progress& progress) {
+  SolveMeasures measures;
+  Prepared prepared = prepare(model, options, {}, measures, progress);
+  const ShapeFunctions shape(model.cloud.positions, model.cloud.spacing, options.shape);
+  const Points parameters = parameters_from_displacement(shape, model.cloud.positions, displacement);
+  const Course course{
+      .curve = model.curve, .start = in_body_order(parameters, prepared.body.original), .bound = BoundOf::parameters};
+  SolveOptions closer = options;
+  closer.tolerance *= closer_at_rest;
+  return relax(std::move(prepared.body), course, closer, progress);
+}
+
 /// relax(), on the device that the options want.
 SteppingResult come_to_rest(KeptRun& run, const Course& course, const Progress& progress) {
   RelaxElsewhere elsewhere;
@@ -218,16 +232,12 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
     weighed->conditions = weighed_conditions(solved.conditions, fit_measured(*thinned, solved.conditions));
   }
   const Model& model = weighed ? *weighed : solved;
-  const SolveOptions options = completed(given, model);
-  SolveMeasures measures;
-  Prepared prepared = prepare(model, options, {}, measures, progress);
-  const ShapeFunctions shape(model.cloud.positions, model.cloud.spacing, options.shape);
-  const Points parameters = parameters_from_displacement(shape, model.cloud.positions, displacement);
-  const Course course{
-      .curve = model.curve, .start = in_body_order(parameters, prepared.body.original), .bound = BoundOf::parameters};
-  SolveOptions closer = options;
-  closer.tolerance *= closer_at_rest;
-  SteppingResult stepped = relax(std::move(prepared.body), course, closer, progress);
+  SolveOptions options = completed(given, model);
+  SteppingResult stepped = rest_of(model, options, displacement, progress);
+  if (stepped.rounded) {  // a brain in much fluid, which little holds
+    options.precision = Precision::double_precision;
+    stepped = rest_of(model, options, displacement, progress);
+  }
   if (!stepped.failure.empty()) {
     throw std::invalid_argument("the run does not come to rest once more: " + stepped.failure);
   }
