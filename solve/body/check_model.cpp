@@ -12,6 +12,7 @@
 
 #include "solve/body/check_discretisation.hpp"
 #include "solve/body/joined_nodes.hpp"
+#include "solve/body/rigid_motions.hpp"
 #include "solve/boundary/wall_load.hpp"
 #include "solve/interface/option_table.hpp"
 
@@ -76,20 +77,17 @@ void check_held(const OrderedCloud& cloud, Plane plane, bool contact, bool pushe
   const double size = (cloud.positions.rowwise() - centre).cwiseAbs().maxCoeff();
   for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
     const Eigen::Vector3d x = (cloud.positions.row(a) - centre) / size;
-    const Eigen::Matrix3d turn{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
+    const Eigen::Matrix<double, 3, 6> motions = rigid_motions_at(x);
     for (int axis = 0; axis < (plane == Plane::none ? 3 : 2); ++axis) {
       if (cloud.conditions.is_prescribed(a, axis)) {
-        Eigen::Matrix<double, 1, 6> row;
-        row << Eigen::RowVector3d::Unit(axis), turn.row(axis);
-        rows.push_back(row);
+        rows.push_back(motions.row(axis));
       }
     }
   }
   const Points inner = cloud.conditions.measured ? cloud.conditions.measured->inner : Points(0, 3);
   for (Eigen::Index i = 0; i < inner.rows(); ++i) {
     const Eigen::Vector3d x = (inner.row(i) - centre) / size;
-    Eigen::Matrix<double, 3, 6> row;
-    row << Eigen::Matrix3d::Identity(), Eigen::Matrix3d{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
+    const Eigen::Matrix<double, 3, 6> row = rigid_motions_at(x);
     rows.insert(rows.end(), {row.row(0), row.row(1), row.row(2)});
   }
   if (rows.empty() && contact && pushed) {

@@ -3,18 +3,13 @@
 
 #include <algorithm>
 
+#include "solve/body/rigid_motions.hpp"
+
 namespace brainshift::solve {
 
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-/// Moves along the axes, then turns about them.
-Eigen::Matrix<double, 3, 6> motions_at(const Eigen::RowVector3d& x) {
-  Eigen::Matrix<double, 3, 6> motions;
-  motions << Eigen::Matrix3d::Identity(), Eigen::Matrix3d{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
-  return motions;
-}
 
 }  // namespace
 
@@ -22,7 +17,7 @@ RigidPart::RigidPart(const Points& places) : places_(places.rowwise() - places.c
   places_ /= std::max(places_.rowwise().norm().mean(), 1e-9);
   Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
   for (const auto& place : places_.rowwise()) {
-    const Eigen::Matrix<double, 3, 6> motions = motions_at(place);
+    const Eigen::Matrix<double, 3, 6> motions = rigid_motions_at(place);
     squares += motions.transpose() * motions;
   }
   factor_.compute(squares);
@@ -35,13 +30,13 @@ double RigidPart::longest(const NodalVectors& to, const NodalVectors& from) cons
   const Vector6 right = sum_over_nodes(
       nodes,
       [&](std::size_t a) -> Vector6 {
-        return motions_at(places_.row(static_cast<Eigen::Index>(a))).transpose() * moved(a);
+        return rigid_motions_at(places_.row(static_cast<Eigen::Index>(a))).transpose() * moved(a);
       },
       none);
   const Vector6 motion = factor_.solve(right);
   double longest = 0;
   for (const auto& place : places_.rowwise()) {
-    longest = std::max(longest, (motions_at(place) * motion).norm());
+    longest = std::max(longest, (rigid_motions_at(place) * motion).norm());
   }
   return longest;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solve/body/rigid_motions.hpp"
 #include "solve/dynamics/rigid_modes.hpp"
 
 namespace brainshift::solve {
@@ -26,11 +27,7 @@ std::vector<SixMotions> rigid_motions(const Body& body, const std::vector<std::i
   const double radius = std::sqrt(arms.rowwise().squaredNorm().maxCoeff());
   std::vector<SixMotions> motions;
   for (const auto& row : arms.rowwise()) {
-    const Eigen::RowVector3d arm = row / radius;
-    SixMotions m;
-    m.leftCols<3>().setIdentity();
-    m.rightCols<3>() << 0, arm[2], -arm[1], -arm[2], 0, arm[0], arm[1], -arm[0], 0;
-    motions.push_back(m);
+    motions.push_back(rigid_motions_at(row / radius));
   }
   return motions;
 }

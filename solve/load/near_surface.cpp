@@ -34,6 +34,12 @@ Distances distances_to(const PointTree& surface, const Points& measured) {
   return result;
 }
 
+/// Of the points with x and y turned.
+Distances distances_when_turned(const PointTree& surface, Points measured) {
+  measured.leftCols(2) *= -1;
+  return distances_to(surface, measured);
+}
+
 /// Whether the points lie on the surface with x and y turned. Three times as near is more than the brain's symmetry
 /// makes.
 bool on_it_when_turned(const Distances& as_given, const Distances& turned, double farthest_allowed) {
@@ -56,9 +62,7 @@ void check_near_surface(const Points& measured, const Points& surface, double fa
   if (as_given.median <= off && as_given.farthest <= farthest_allowed) {
     return;
   }
-  Points turned_points = measured;
-  turned_points.leftCols(2) *= -1;
-  const Distances turned = distances_to(tree, turned_points);
+  const Distances turned = distances_when_turned(tree, measured);
   if (on_it_when_turned(as_given, turned, farthest_allowed)) {
     throw std::invalid_argument(
         "load: the measured points lie " + rounded(as_given.median) + " mm off the brain's surface (median; farthest " +
@@ -78,9 +82,7 @@ void check_near_surface(const Points& measured, const Points& surface, double fa
 void check_frame(const Points& measured, const Points& surface, double farthest_allowed) {
   constexpr double off = 10.0;  // mm
   const PointTree tree(surface);
-  Points turned_points = measured;
-  turned_points.leftCols(2) *= -1;
-  const Distances as_given = distances_to(tree, measured), turned = distances_to(tree, turned_points);
+  const Distances as_given = distances_to(tree, measured), turned = distances_when_turned(tree, measured);
   if (as_given.median > off && 3 * turned.median < as_given.median && turned.farthest <= farthest_allowed) {
     throw std::invalid_argument("load: the measured points lie " + rounded(as_given.median) +
                                 " mm off the brain's surface (median), and with x and y flipped " +

@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "solve/body/rigid_motions.hpp"
 #include "solve/material/material.hpp"
 
 namespace brainshift::solve {
@@ -139,8 +140,7 @@ Eigen::MatrixXd rigid_motions(const Points& places, const Points& about) {
   Eigen::MatrixXd motions(3 * places.rows(), 6);
   for (Eigen::Index a = 0; a < places.rows(); ++a) {
     const Eigen::Vector3d x = (places.row(a) - centre).transpose() / (size > 0 ? size : 1);
-    motions.middleRows<3>(3 * a) << Eigen::Matrix3d::Identity(),
-        Eigen::Matrix3d{{0, x.z(), -x.y()}, {-x.z(), 0, x.x()}, {x.y(), -x.x(), 0}};
+    motions.middleRows<3>(3 * a) = rigid_motions_at(x);
   }
   return motions;
 }

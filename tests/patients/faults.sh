@@ -6,16 +6,7 @@
 #
 #   bash tests/patients/faults.sh [--out DIR]
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/../../pipelines/setup.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/own_head.sh"
 
-usage="usage: bash tests/patients/faults.sh [--out DIR]"
-out=$root/build/faults
-while [ $# -gt 0 ]; do
-  case $1 in
-    --out) out=${2:?$usage}; shift 2 ;;
-    *) echo "$usage" >&2; exit 2 ;;
-  esac
-done
-install_packages python3 python3-numpy >&2
-program=${BRAINSHIFT:-$(built_program)}
-/usr/bin/python3 "$root/tests/patients/faults.py" "$program" "$out"
+more=()
+on_own_head faults "$root/build/faults" "$@"

@@ -6,16 +6,7 @@
 #
 #   bash tests/patients/noise.sh [--out DIR]
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/../../pipelines/setup.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/own_head.sh"
 
-usage="usage: bash tests/patients/noise.sh [--out DIR]"
-out=$root/build/noise
-while [ $# -gt 0 ]; do
-  case $1 in
-    --out) out=${2:?$usage}; shift 2 ;;
-    *) echo "$usage" >&2; exit 2 ;;
-  esac
-done
-install_packages mricron-data python3 python3-numpy >&2
-program=${BRAINSHIFT:-$(built_program)}
-/usr/bin/python3 "$root/tests/patients/noise.py" "$program" "$out" "$root/pipelines/scenes/colin27.xml"
+more=("$root/pipelines/scenes/colin27.xml")
+on_own_head noise "$root/build/noise" "$@"
