@@ -31,6 +31,7 @@ void warp(const WarpArguments& arguments, const Settings& settings) {
   set_interpolation(arguments.interpolation, job.options);
   StageFolder folder(arguments.out, *settings.interruption);
   const std::vector<std::string> notes = warp_files(job, folder.path());
+  remove_values_of_earlier(job.files, folder.path(), arguments.out);
   folder.merge();
   for (const std::string& note : notes) {
     if (!settings.quiet) {

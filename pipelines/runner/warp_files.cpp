@@ -36,19 +36,24 @@ std::string told(const fs::path& file, const registration::WarpedFile& warped) {
   return sentence;
 }
 
+/// All that a warped file may be written as.
+std::vector<fs::path> names_of(const fs::path& file) {
+  const fs::path warped = registration::warped_name(file);
+  std::vector<fs::path> names = {warped, registration::values_name("estimated_error", warped),
+                                 registration::values_name("uncertainty", warped)};
+  if (fs::is_directory(file)) {
+    names.push_back(registration::series_name(warped));
+  }
+  return names;
+}
+
 void check_names(const std::vector<fs::path>& files, const fs::path& out) {
   std::set<fs::path> names;
   for (const fs::path& file : files) {
-    const fs::path warped = registration::warped_name(file);
     if (!fs::exists(file)) {
       refuse(file, "no such file; check the path");
     }
-    std::vector<fs::path> made = {warped, registration::values_name("estimated_error", warped),
-                                  registration::values_name("uncertainty", warped)};
-    if (fs::is_directory(file)) {
-      made.push_back(registration::series_name(warped));
-    }
-    for (const fs::path& name : made) {
+    for (const fs::path& name : names_of(file)) {
       if (fs::exists(out / name) || !names.insert(name).second) {
         refuse(file, "there is a " + name.string() + " already; rename the file that is to be warped");
       }
@@ -89,6 +94,16 @@ std::vector<std::string> warp_files(const WarpJob& job, const fs::path& out) {
                                              : read_image(job.like).geometry;
   }
   return warp_files(job.files, fields, out, options);
+}
+
+void remove_values_of_earlier(const std::vector<fs::path>& files, const fs::path& made, const fs::path& out) {
+  for (const fs::path& file : files) {
+    for (const fs::path& name : names_of(file)) {
+      if (!fs::exists(made / name) && !fs::is_directory(out / name)) {
+        fs::remove(out / name);
+      }
+    }
+  }
 }
 
 }  // namespace brainshift::pipelines

@@ -27,4 +27,9 @@ std::vector<std::string> warp_files(const std::vector<std::filesystem::path>& fi
 /// The same with a run's fields.
 std::vector<std::string> warp_files(const WarpJob& job, const std::filesystem::path& out);
 
+/// Of the same files warped before, what lies in `out` and has nothing of its name in `made`: a run without an
+/// estimate of the error writes none beside a warped image, and that of another run is not its.
+void remove_values_of_earlier(const std::vector<std::filesystem::path>& files, const std::filesystem::path& made,
+                              const std::filesystem::path& out);
+
 }  // namespace brainshift::pipelines

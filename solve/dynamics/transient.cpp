@@ -50,7 +50,7 @@ class Transient {
   SteppingResult run(const Progress& progress) {
     SteppingResult& result = motion_.result;
     const double end = course_.curve.duration();
-    while (result.failure.empty() && motion_.time < end - step_ / 2) {
+    while (result.failure.empty() && !is_at_the_end()) {
       if (result.steps == options_.max_steps) {
         result.failure = "stopped after " + std::to_string(result.steps) + " steps, at " +
                          std::to_string(motion_.time) + " s of " + std::to_string(end) + " s; allow more steps";
@@ -58,7 +58,7 @@ class Transient {
       }
       change_if_due();
       step();
-      if (result.steps % look_every == 0 || motion_.time >= end - step_ / 2 || motion_.squeezed()) {
+      if (result.steps % look_every == 0 || is_at_the_end() || motion_.squeezed()) {
         look();
         report(progress, motion_.time / end, "step " + std::to_string(result.steps));
       }
@@ -68,6 +68,8 @@ class Transient {
 
  private:
   const std::vector<double>& mass() const { return motion_.body.mass; }
+
+  bool is_at_the_end() const { return motion_.time >= course_.curve.duration() - step_ / 2; }
 
   void change_if_due() {
     const BodyChange& change = course_.change;
@@ -111,7 +113,7 @@ class Transient {
     const double time = motion_.time + step_;
     motion_.step(laws_, mass(), 2 * h * step_ / (2 + ch), (2 - ch) / (2 + ch), time, course_.curve.at(time));
     step_before_ = step_;
-    if (options_.time_step == 0 && jacobian_range(motion_.scratch).least_ratio < least_ratio) {
+    if (options_.time_step == 0 && !is_at_the_end() && jacobian_range(motion_.scratch).least_ratio < least_ratio) {
       set_step(step_ / 2);
     }
   }
@@ -135,7 +137,7 @@ class Transient {
     const std::vector<double> bound = stiffness_bound(motion_.body.points, motion_.body.laws, motion_.scratch);
     const double critical = critical_step(bound, mass());
     const bool given = options_.time_step > 0, softer = 2 * step_ < safety_ * critical;
-    if (motion_.time >= course_.curve.duration() - step_ / 2 || (step_ <= critical && (given || !softer))) {
+    if (is_at_the_end() || (step_ <= critical && (given || !softer))) {
       return;
     }
     if (given) {

@@ -73,6 +73,7 @@ Conditions subset(const Conditions& conditions, const std::vector<std::int32_t>&
   if (conditions.measured) {
     part.measured = conditions.measured;
     part.measured->spread = rows_of(conditions.measured->spread, nodes);
+    part.measured->extend = {};
   }
   return part;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -24,7 +25,10 @@ struct Measurement {
   Points inner_sigma = Points(0, 3);          ///< mm, > 0
   Points cortex = Points(0, 3);               ///< the points of the cortex, undeformed, mm
   Points cortex_displacement = Points(0, 3);  ///< as measured there, before it was extended, mm
-  double weight = 0;                          ///< s, mJ; 0: chosen by choose_weight()
+  /// What other displacements of these points (m × 3) prescribe at the nodes (n × 3), mm, NaN where nothing is. None:
+  /// E carries what is changed.
+  std::function<Points(const Points&)> extend = {};
+  double weight = 0;                  ///< s, mJ; 0: chosen by choose_weight()
   bool registration_unknown = false;  ///< what was measured may hold a rigid motion of the patient against the image
   Points asked = Points(0, 3);        ///< undeformed places whose spread is wanted, mm
 };

@@ -146,6 +146,9 @@ Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, 
     measured.sigma = cortex.sigma;
     measured.cortex = cortex.positions;
     measured.cortex_displacement = cortex.displacement;
+    measured.extend = [cloud, cortex, options](const Points& displacement) {
+      return prescribed_on_surface_nodes(cloud, {cortex.positions, displacement, {}}, options);
+    };
   }
   const CraniotomyLoad inner = joined(rows_of(load, inside), most_measured_points);
   measured.inner = inner.positions;

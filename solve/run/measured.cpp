@@ -97,6 +97,22 @@ bool is_held(const Conditions& conditions, Eigen::Index node) {
          !is_measured(conditions, node);
 }
 
+/// Displacements of the points of the cortex in place of the measured ones. E alone would leave some of the noise near
+/// the rim, where the extension keeps within the measured values.
+void impose(const Points& of_points, Conditions& conditions) {
+  const Measurement& measured = *conditions.measured;
+  if (!measured.extend) {
+    conditions.displacement += measured.spread * (of_points - measured.cortex_displacement);
+    return;
+  }
+  const Points extended = measured.extend(of_points);
+  for (Eigen::Index a = 0; a < extended.rows(); ++a) {
+    if (is_measured(conditions, a)) {
+      conditions.displacement.row(a) = extended.row(a);
+    }
+  }
+}
+
 /// Lets a smooth motion of the opening move its points as they were measured, and all else as the body carries it; not
 /// where the registration, which would share it, is unknown, or the weight is given.
 void add_smooth_motion(const Asked& asked, const ShapeRows& rows, Response& response) {
@@ -151,7 +167,7 @@ Conditions weighed_conditions(Conditions conditions, const MeasuredFit& fit) {
   Measurement& measured = *conditions.measured;
   measured.weight = fit.weight;
   if (fit.smooth.length > 0) {
-    conditions.displacement += measured.spread * (fit.smoothed - measured.cortex_displacement);
+    impose(fit.smoothed, conditions);
     measured.spread.setZero();
     if (measured.inner.rows() == 0) {
       conditions.measured.reset();

@@ -11,13 +11,12 @@ import sys
 import numpy as np
 
 from patients import numbers, rows_of, write_load
-from phantoms import places_in, write_landmarks
+from phantoms import ALIKE, XYZ, places_in, small_phantom, write_landmarks
 from predictors import spread_out
 
-DRAWS, NODES = 10, 2500
+DRAWS = 10
 CELLS = [(points, noise) for points in (10, 20, 40) for noise in (0.3, 0.5, 1.0)]
 DEMO_CELLS = [(20, 0.5)]
-XYZ = ("x", "y", "z", "ux", "uy", "uz")
 
 
 class Head:
@@ -56,18 +55,15 @@ def between(text, first, last):
 
 
 def phantom(program, folder, random):
-    subprocess.run([program, "phantom", "--out", str(folder)], check=True, stdout=subprocess.DEVNULL)
-    scene = (folder / "scene.xml").read_text().replace('nodes="12000"', f'nodes="{NODES}"')
-    scene = scene.replace("landmarks.mrk.json", "landmarks.fcsv")
+    scene, measured = small_phantom(program, folder)
     places = places_in(folder / "labels.nii.gz", random)
     write_landmarks(folder / "landmarks.fcsv", places)
-    measured = numbers(rows_of(folder / "craniotomy.csv"), XYZ)
     return Head(program, folder, scene, between(scene, "<load>", "</load>"), measured, places)
 
 
 def demo(program, folder, random, scene_file):
     folder.mkdir(exist_ok=True)
-    scene = scene_file.read_text()
+    scene = scene_file.read_text().replace('nodes="12000"', f'nodes="12000" {ALIKE}')
     (folder / "demo.xml").write_text(scene)
     subprocess.run([program, "run", "-q", str(folder / "demo.xml"), "--out", str(folder / "whole"), "--until", "solve"],
                    check=True, stderr=subprocess.DEVNULL)

@@ -15,6 +15,8 @@ from ellipsoids import covered, distances, symmetric, write_table
 from patients import BRAIN, numbers, read_labels, rows_of, write_landmarks, write_load
 
 TRUTHS, PLACES, GIVEN, NOISE, NODES = 6, 150, 20, 0.5, 2500
+ALIKE = 'craniotomy_factor="1"'  # the nodes know nothing of the load
+XYZ = ("x", "y", "z", "ux", "uy", "uz")
 STIFFNESS = 0.25
 COVERED = (0.90, 0.98)
 
@@ -24,6 +26,17 @@ def places_in(labels, random):
     inside = np.argwhere(np.isin(voxels, BRAIN))
     chosen = inside[random.choice(len(inside), PLACES, replace=False)]
     return chosen @ affine[:, :3].T + affine[:, 3]
+
+
+def small_phantom(program, folder):
+    """The scene of a phantom whose runs all have the same nodes, and all its measured points.
+
+    Otherwise what differs would mostly be that nodes are finer where each load is.
+    """
+    subprocess.run([program, "phantom", "--out", str(folder)], check=True, stdout=subprocess.DEVNULL)
+    scene = (folder / "scene.xml").read_text().replace('nodes="12000"', f'nodes="{NODES}" {ALIKE}')
+    scene = scene.replace("landmarks.mrk.json", "landmarks.fcsv")
+    return scene, numbers(rows_of(folder / "craniotomy.csv"), XYZ)
 
 
 def with_constants(text, random):
@@ -45,10 +58,7 @@ def main(program, out):
     out.mkdir(parents=True, exist_ok=True)
     random = np.random.default_rng(1)
     work = out / "head"
-    subprocess.run([program, "phantom", "--out", str(work)], check=True, stdout=subprocess.DEVNULL)
-    text = (work / "scene.xml").read_text().replace('nodes="12000"', f'nodes="{NODES}"')
-    text = text.replace("landmarks.mrk.json", "landmarks.fcsv")
-    measured = numbers(rows_of(work / "craniotomy.csv"), ("x", "y", "z", "ux", "uy", "uz"))
+    text, measured = small_phantom(program, work)
     places = places_in(work / "labels.nii.gz", random)
     write_landmarks(work / "landmarks.fcsv", places)
     found = []

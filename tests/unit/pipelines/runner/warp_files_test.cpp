@@ -100,6 +100,18 @@ TEST_F(WarpFiles, FilesThatDifferInTheirEndingsAloneGoTogether) {
   EXPECT_EQ(warp({table, model}, Towards::intraop, "out").size(), 2U);
 }
 
+TEST_F(WarpFiles, ValuesOfAnEarlierWarpOfTheFileGoWhereTheNextMakesNone) {
+  const fs::path image = write("t1.nii.gz", ""), other = write("out/estimated_error_warped_t2.nii.gz", "");
+  const fs::path stale = write("out/estimated_error_warped_t1.nii.gz", "");
+  write("back/estimated_error_warped_t1.nii.gz", "");
+  remove_values_of_earlier({image}, folder_ / "back", folder_ / "out");
+  EXPECT_TRUE(fs::exists(stale));
+  fs::remove(folder_ / "back/estimated_error_warped_t1.nii.gz");
+  remove_values_of_earlier({image}, folder_ / "back", folder_ / "out");
+  EXPECT_FALSE(fs::exists(stale));
+  EXPECT_TRUE(fs::exists(other));
+}
+
 TEST_F(WarpFiles, NothingIsWrittenWhereAFileIsMissingOrTwoHaveOneName) {
   const fs::path file = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n");
   const fs::path other = write("other/points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n");

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
+#include "solve/load/noisy_load.hpp"
 #include "solve/measured/inner_rows.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/measured_box.hpp"
@@ -115,6 +117,26 @@ TEST(WeighedConditions, HoldAnOpeningThatMovesAlikeAndAreSolvedAsTheyAre) {
   const SolveResult again = solve(model, quick());
   ASSERT_TRUE(again.failure.empty()) << again.failure;
   EXPECT_LT((whole.solution.displacement - again.solution.displacement).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(WeighedConditions, ExtendThePointsOfASmoothMotionAsAnExactLoadIs) {
+  const NodeCloud cloud = measured_box(1).cloud;
+  CraniotomyLoad load{Points(12, 3), Points(12, 3), Points::Constant(12, 3, 1)};
+  for (Eigen::Index p = 0; p < 12; ++p) {
+    const auto angle = static_cast<double>(p);
+    load.positions.row(p) << 0.5 * model_side + 2 * angle * std::cos(angle),
+        0.5 * model_side + 2 * angle * std::sin(angle), model_side;
+    load.displacement.row(p) << 2 * std::sin(7 * angle), 0, -4 + 2 * std::cos(5 * angle);  // noise, for the most part
+  }
+  const Conditions conditions = noisy_conditions(cloud, load);
+  MeasuredFit fit;
+  fit.smooth.length = 20;
+  fit.smoothed = 0.1 * conditions.measured->cortex_displacement;
+  fit.smoothed.col(2).array() -= 3;
+  const Points exact = prescribed_on_surface_nodes(cloud, {conditions.measured->cortex, fit.smoothed, {}});
+  const Points weighed = weighed_conditions(conditions, fit).displacement;
+  ASSERT_TRUE((weighed.array().isNaN() == exact.array().isNaN()).all());
+  EXPECT_TRUE((exact.array().isNaN() || weighed.array() == exact.array()).all());
 }
 
 TEST(WorstOutlier, IsThePointThatContradictsTheOthersAndNoneWhereAllAgree) {
