@@ -17,9 +17,9 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
 
 /// Writes warped.nii.gz, warped_labels.nii.gz, the fields intraop_to_preop.nii.gz and preop_to_intraop.nii.gz, the
 /// transforms of write_transform_files(), jacobian.nii.gz and landmarks.csv (`label,x,y,z` preop, `intraop_x,…`,
-/// `ux,uy,uz`, mm LPS, and of a solution that has it `estimated_error`, mm, empty outside the brain) into an existing
-/// folder; the image, labels and landmarks only when there are any. Throws std::runtime_error, naming the file, when
-/// one cannot be written whole.
+/// `ux,uy,uz`, mm LPS, and of a solution that has it `estimated_error`, mm, empty outside the brain; a landmark without
+/// a name of its own has its number, from 1 on) into an existing folder; the image, labels and landmarks only when
+/// there are any. Throws std::runtime_error, naming the file, when one cannot be written whole.
 void write_registration(const std::filesystem::path& folder, const Registration& registration);
 
 }  // namespace brainshift::registration

@@ -4,17 +4,37 @@
 
 #include <omp.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <future>
 #include <iomanip>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "register/files/transform_files.hpp"
 
 namespace brainshift::registration {
 
 namespace {
+
+/// A field of a .csv.
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) {
+    text += c == '"' ? "\"\"" : std::string(1, std::iscntrl(static_cast<unsigned char>(c)) != 0 ? ' ' : c);
+  }
+  return name.find_first_of(",\"\n\r#") == std::string::npos ? name : text + '"';
+}
+
+/// Its name, or its number where it has none of its own.
+std::string label_of(const std::vector<std::string>& names, std::size_t landmark) {
+  const bool named = landmark < names.size() && !names[landmark].empty() &&
+                     std::count(names.begin(), names.end(), names[landmark]) == 1;
+  return named ? quoted(names[landmark]) : std::to_string(landmark + 1);
+}
 
 void write_landmarks(const std::filesystem::path& file, const Registration& registration) {
   const Points &preop = registration.preop_landmarks, &intraop = registration.landmarks;
@@ -23,7 +43,7 @@ void write_landmarks(const std::filesystem::path& file, const Registration& regi
   out << "# frame: LPS\n# unit: mm\nlabel,x,y,z,intraop_x,intraop_y,intraop_z,ux,uy,uz"
       << (error.empty() ? "\n" : ",estimated_error\n") << std::fixed << std::setprecision(6);
   for (Eigen::Index p = 0; p < preop.rows(); ++p) {
-    out << p + 1;
+    out << label_of(registration.landmark_names, static_cast<std::size_t>(p));
     const Eigen::RowVector3d moved = intraop.row(p) - preop.row(p);
     for (const Eigen::RowVector3d& triple :
          {Eigen::RowVector3d(preop.row(p)), Eigen::RowVector3d(intraop.row(p)), moved}) {

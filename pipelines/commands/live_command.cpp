@@ -11,6 +11,7 @@
 #include "pipelines/commands/file_watch.hpp"
 #include "pipelines/commands/printable.hpp"
 #include "pipelines/runner/live_run.hpp"
+#include "segmentation/files/refuse.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -71,6 +72,10 @@ LiveRun prepared(const LiveArguments& arguments, const Settings& settings) {
 
 /// Until the program is interrupted.
 [[noreturn]] void answer_all(const LiveArguments& arguments, const Settings& settings) {
+  std::error_code unknown;
+  if (fs::is_directory(arguments.load, unknown)) {
+    refuse(arguments.load, "is a folder; give the file in it that is going to hold the load");
+  }
   LiveRun run = prepared(arguments, settings);
   if (!run.not_kept().empty()) {
     std::fprintf(stderr, "brainshift: the next start prepares the run again: %s\n", printable(run.not_kept()).c_str());

@@ -9,6 +9,7 @@
 #include "pipelines/runner/warp_files.hpp"
 #include "pipelines/show/shown_fields.hpp"
 #include "register/files/warped_series.hpp"
+#include "segmentation/files/points_file.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/output/solution_file.hpp"
 
@@ -78,9 +79,12 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
     input.cavity = registration::Cavity{read_surface(job.wall), job.resected};
   }
   const fs::path& reference = job.t1.empty() ? job.labels : job.t1;
-  const registration::Registration result = naming(reference.string() + " and " + job.surface.string(), [&] {
+  registration::Registration result = naming(reference.string() + " and " + job.surface.string(), [&] {
     return registration::register_images(input, job.options, progress);
   });
+  if (!job.landmarks.empty()) {
+    result.landmark_names = PointsFile(job.landmarks).labels();
+  }
   registration::write_registration(out, result);
   write_shown_fields(out, input.solution, input.brain, result.forward);
   if (!job.uncertainty.empty()) {

@@ -2,9 +2,13 @@
 """How far off a load with noise leaves the brain, beside the same points imposed exactly; called by noise.sh.
 
 The truth is the head's solution with all measured points and no noise. Of these points some are given, spread evenly
-or by chance, with noise that is drawn.
+or by chance, with noise that is drawn. Each processor takes a row of the table by itself.
 """
+import concurrent.futures
+import copy
+import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -41,6 +45,14 @@ class Head:
     def error(self, given, attributes=""):
         """Of 95 % of the brain, mm."""
         return np.quantile(np.linalg.norm(self.moved(given, attributes) - self.truth, axis=1), 0.95)
+
+    def beside(self, name):
+        """The same in a folder of its own."""
+        other = copy.copy(self)
+        other.folder = self.folder.with_name(name)
+        shutil.rmtree(other.folder, ignore_errors=True)
+        shutil.copytree(self.folder, other.folder)
+        return other
 
 
 def solved(program, scene, out):
@@ -81,30 +93,34 @@ def chosen(places, points, evenly, random):
     return (np.array(spread_out(np.roll(places, -first, axis=0), points)) + first) % len(places)
 
 
-def row(head, points, noise, evenly, random):
-    """Means over the draws: exact, weighed."""
+def row(name, head, points, noise, evenly):
+    """Of the table: means over the draws."""
+    random = np.random.default_rng([points, round(10 * noise), evenly])
+    how = "spread evenly" if evenly else "by chance"
+    head = head.beside(f"{name}, {points} {how}, {noise} mm")
     errors = []
     for _ in range(DRAWS):
         given = head.measured[chosen(head.measured[:, :3], points, evenly, random)]
         given[:, 3:] += noise * random.standard_normal((points, 3))
         errors.append((head.error(given), head.error(given, f'noise="{noise}"')))
-    return np.mean(errors, axis=0)
+    shutil.rmtree(head.folder)
+    exact, weighed = np.mean(errors, axis=0)
+    return f"| {name} | {points}, {how} | {noise} | {exact:.3f} | {weighed:.3f} | {weighed / exact:.2f} |"
 
 
 def main(program, out, scene):
     out.mkdir(parents=True, exist_ok=True)
     random = np.random.default_rng(1)
-    lines = ["| head | points | noise, mm | imposed exactly, mm | weighed, mm | ratio |", "|" + " --- |" * 6]
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
     heads = [("phantom", phantom(program, out / "phantom", random), CELLS)]
     if scene.is_file():
         heads.append(("demo", demo(program, out / "demo", random, scene), DEMO_CELLS))
-    for name, head, cells in heads:
-        for points, noise in cells:
-            for evenly in (True, False):
-                exact, weighed = row(head, points, noise, evenly, random)
-                how = "spread evenly" if evenly else "by chance"
-                lines.append(f"| {name} | {points}, {how} | {noise} | {exact:.3f} | {weighed:.3f} | {weighed / exact:.2f} |")
-                print(lines[-1], flush=True)
+    rows = [(name, head, *cell, evenly) for name, head, cells in heads for cell in cells for evenly in (True, False)]
+    lines = ["| head | points | noise, mm | imposed exactly, mm | weighed, mm | ratio |", "|" + " --- |" * 6]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as processors:
+        for line in processors.map(lambda cell: row(*cell), rows):
+            lines.append(line)
+            print(line, flush=True)
     (out / "noise.md").write_text("\n".join(lines) + "\n")
 
 

@@ -200,6 +200,13 @@ TEST_F(Live, ASecondProgramOnOneRunIsRefused) {
   stop(SIGTERM);
 }
 
+TEST_F(Live, AFolderInPlaceOfTheLoadIsRefusedAtOnce) {
+  const ProgramResult said =
+      run_shell("timeout 60 " BRAINSHIFT_PROGRAM " live " + run().string() + " --load " + run().string());
+  EXPECT_NE(said.code, 0);
+  EXPECT_NE(said.err.find("is a folder"), std::string::npos) << said.err;
+}
+
 TEST_F(Live, MemoryDoesNotGrow) {
   constexpr int updates = 60;  // tests/benchmark/live.py makes a thousand
   fs::remove_all(run() / "live");

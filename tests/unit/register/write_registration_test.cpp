@@ -11,6 +11,7 @@
 
 #include "register/registration.hpp"
 #include "register/warp/warp.hpp"
+#include "segmentation/files/point_table.hpp"
 #include "segmentation/image/itk_bridge.hpp"
 #include "tests/unit/register/builders.hpp"
 #include "tests/unit/register/read_transform.hpp"
@@ -169,6 +170,21 @@ TEST_F(RegistrationFiles, TheLandmarksTellTheEstimatedErrorWhereThereIsOne) {
   EXPECT_TRUE(lines[2].ends_with(",uz,estimated_error"));
   EXPECT_TRUE(lines[3].ends_with(",0.250000"));
   EXPECT_TRUE(lines[4].ends_with(","));
+}
+
+TEST_F(RegistrationFiles, TheLandmarksKeepTheirNames) {
+  Registration registration = *registration_;
+  const auto labels_with = [&](const std::vector<std::string>& names) {
+    registration.landmark_names = names;
+    const ScratchFolder folder;
+    write_registration(folder.path(), registration);
+    const PointTable table = read_point_table(folder.path() / "landmarks.csv");
+    return texts_in(table, "label");
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(labels_with({"gyrus, \"left\"", "#2"}), (Names{"gyrus, \"left\"", "#2"}));
+  EXPECT_EQ(labels_with({"", "tumour"}), (Names{"1", "tumour"}));
+  EXPECT_EQ(labels_with({"tumour", "tumour"}), (Names{"1", "2"})) << "two of one name";
 }
 
 /// What is thrown names the file.
