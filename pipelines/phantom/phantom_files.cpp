@@ -104,7 +104,8 @@ std::string scene_text(const Phantom& phantom, bool has_gap) {
   <!-- E in Pa, density in kg/m³: constants of the brain-shift literature (Wittek, Miller, Joldes and others). -->
   <tissues>
     <tissue label="1" name="parenchyma" youngs_modulus="3000" poisson_ratio="0.49" density="1000"/>
-    <tissue label="2" name="ventricles" youngs_modulus="10" poisson_ratio="0.1" density="1000"/>
+    <tissue label="2" name="ventricles" youngs_modulus="10" poisson_ratio="0.1" density="1000"
+            room="drained"/>
     <tissue label="3" name="tumour" youngs_modulus="9000" poisson_ratio="0.49" density="1000"/>
   </tissues>
   <load>

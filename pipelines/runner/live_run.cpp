@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <future>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "pipelines/runner/input_states.hpp"
 #include "pipelines/runner/own_folder.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "register/field/moving_part.hpp"
@@ -43,6 +46,17 @@ std::string name_of(int number) {
   return std::string(digits - std::min(digits, text.size()), '0') + text;
 }
 
+/// The grid of the fields is the image's, too.
+void check_image(const fs::path& run, const fs::path& t1) {
+  std::ifstream stream(run / "run.json");
+  const auto record = nlohmann::json::parse(stream, nullptr, false);
+  for (const auto& input : record["inputs"]) {
+    if (input.value("role", "") == "image.t1" && input.value("sha256", "") != InputStates().sha256(t1)) {
+      refuse(t1, "the image has changed since the run was made; run the scene again");
+    }
+  }
+}
+
 }  // namespace
 
 LiveRun::LiveRun(const fs::path& run, bool with_image, std::optional<solve::Device> device, Interruption& interruption,
@@ -58,6 +72,9 @@ LiveRun::LiveRun(const fs::path& run, bool with_image, std::optional<solve::Devi
   }
   if (!fs::exists(image)) {
     refuse(run_, "there is no grid for a field: its scene names neither an image nor labels; use 'brainshift update'");
+  }
+  if (image == scene.image.t1) {
+    check_image(run_, image);
   }
   ScalarImage t1 = read_image(image);
   field_.emplace(read_solution(run_ / "solve" / "solution.vtu"), read_surface(run_ / "segment" / "brain.vtp"),
@@ -89,17 +106,24 @@ UpdatedRun& LiveRun::updated() {
   return updated_ ? *updated_ : updated_.emplace(run_, interruption_, Progress(), device_);
 }
 
-LiveRun::Answer LiveRun::answer(const fs::path& file) {
-  const solve::CraniotomyLoad load = updated().read(file);
-  const std::string fault_before = updated().device_fault();
-  solve::SolveResult result;
+solve::SolveResult LiveRun::solve(const solve::CraniotomyLoad& load, const fs::path& file) {
   try {
-    result = updated().solve(load, file, {});
+    return updated().solve(load, file, {});
   } catch (...) {
     if (!updated_->is_whole()) {
       updated_.reset();
     }
     throw;
+  }
+}
+
+LiveRun::Answer LiveRun::answer(const fs::path& file) {
+  const solve::CraniotomyLoad load = updated().read(file);
+  const std::string fault_before = updated().device_fault();
+  solve::SolveResult result = solve(load, file);
+  if (!result.failure.empty()) {  // it went on from the answer before, with what others taught
+    updated_.reset();
+    result = solve(load, file);
   }
   if (!result.failure.empty()) {
     std::string fault = file.string() + ": " + result.failure;

@@ -45,6 +45,7 @@ class LiveRun {
 
  private:
   UpdatedRun& updated();
+  solve::SolveResult solve(const solve::CraniotomyLoad& load, const std::filesystem::path& file);
   void rehearse(const Progress& progress);
 
   std::filesystem::path run_, live_;

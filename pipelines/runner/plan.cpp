@@ -187,7 +187,7 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
 }
 
 StagePlan plan_register(const Scene& scene, const fs::path& folder) {
-  const fs::path wall = wall_of(scene, folder);
+  const fs::path wall = scene.resection ? if_there(folder / "segment" / "resection.vtp") : fs::path();
   const RegisterJob job{.solution = folder / "solve" / "solution.vtu",
                         .surface = folder / "segment" / "brain.vtp",
                         .t1 = scene.image.t1,

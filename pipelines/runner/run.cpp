@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/run.hpp"
 
+#include <fstream>
+#include <span>
+
 #include "pipelines/runner/folder_lock.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
@@ -36,6 +39,27 @@ std::string collection_of(const std::vector<Scene>& scenes, const nlohmann::orde
   return text + "</Collection>\n</VTKFile>\n";
 }
 
+/// Of the states from the first of `later` on, what an earlier run made of an earlier one of those before.
+void outdate(std::span<const Scene> later, const fs::path& out, nlohmann::ordered_json& states,
+             Interruption& interruption) {
+  for (const Scene& state : later) {
+    const fs::path folder = state_folder(out, state.state->name);
+    std::ifstream stream(folder / "run.json");
+    auto record = nlohmann::ordered_json::parse(stream, nullptr, false);
+    if (!record.is_object() || !record.contains("stages")) {
+      continue;
+    }
+    for (const StageId stage : {StageId::solve, StageId::registration, StageId::report}) {
+      const std::string name(stage_name(stage));
+      if (record["stages"].contains(name)) {
+        record["stages"][name]["status"] = "outdated";
+      }
+    }
+    states[state.state->name] = record["stages"];
+    write_run_record(folder, record, interruption);
+  }
+}
+
 RunOutcome run_sequence(const Scene& scene, const RunOptions& options, Interruption& interruption,
                         const RunObserver& observer) {
   const fs::path out = place_of(options.out);
@@ -49,10 +73,19 @@ RunOutcome run_sequence(const Scene& scene, const RunOptions& options, Interrupt
     const std::string& name = state.state->name;
     RunOptions own = options;
     own.out = state_folder(out, name);
-    const RunOutcome one =
-        run_stages(state, own, before, interruption, part_of(observer, name, i, scene.states.size()));
+    const std::span<const Scene> later = std::span(scene.states).subspan(i + 1);
+    RunOutcome one;
+    try {
+      one = run_stages(state, own, before, interruption, part_of(observer, name, i, scene.states.size()));
+    } catch (...) {
+      outdate(later, out, outcome.record["states"], interruption);
+      throw;
+    }
     outcome.record["states"][name] = one.record["stages"];
-    outcome.failure = one.failure.empty() ? "" : "state '" + name + "': " + one.failure;
+    if (!one.failure.empty()) {
+      outcome.failure = "state '" + name + "': " + one.failure;
+      outdate(later, out, outcome.record["states"], interruption);
+    }
     before = own.out;
     write_run_record(out, outcome.record, interruption);
   }

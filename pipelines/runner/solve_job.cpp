@@ -281,6 +281,11 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
   add_uncertainty(job, input, result, out, said, part_of(given, solving_share, 1));
   warn(warnings_of(result.measures), said);
   warn(warnings_of_weight(input.model), said);
+  warn(warnings_of_rooms(input.model), said);
+  warn(warnings_of(input.model, result.solution), said);
+  if (said.failure.empty()) {
+    said.failure = turn_fault(input.model, result.solution);
+  }
   if (input.load) {
     warn(warnings_of(*input.load, input.model, result.solution.displacement), said);
   }

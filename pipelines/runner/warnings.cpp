@@ -3,8 +3,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <utility>
 
 #include "segmentation/geometry/distinct_points.hpp"
@@ -13,6 +15,8 @@
 #include "segmentation/options/values.hpp"
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/load/near_surface.hpp"
+#include "solve/load/rigid_fit.hpp"
+#include "solve/material/material.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -49,6 +53,23 @@ double median_distance(const Points& points, const Points& surface) {
   return median(std::move(distances));
 }
 
+/// Of a load without noise: two displacements in one place, of which the mean counts.
+Warnings warnings_of_repeated(const solve::CraniotomyLoad& load) {
+  constexpr double alike = 1;  // mm
+  std::map<std::array<double, 3>, Eigen::Index> first;
+  for (Eigen::Index p = 0; load.sigma.rows() == 0 && p < load.positions.rows(); ++p) {
+    const Eigen::RowVector3d x = load.positions.row(p), u = load.displacement.row(p);
+    const Eigen::RowVector3d before = load.displacement.row(first.try_emplace({x[0], x[1], x[2]}, p).first->second);
+    const double apart = (u - before).norm();
+    if (apart > alike && 2 * apart > std::max(u.norm(), before.norm())) {
+      return {"at (" + write_numbers(x.array().round().matrix()) +
+              ") mm two displacements are measured that differ by " + with_digits(apart) +
+              " mm; their mean counts; take the wrong one out"};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed) {
@@ -61,6 +82,7 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
                        " mm off the brain's surface (median); are load and image in the same frame, and were the "
                        "points taken on the cortex?");
   }
+  append(warnings_of_repeated(load), warnings);
   if (load.displacement.isZero(0)) {
     warnings.emplace_back("all measured displacements are 0");
   }
@@ -145,6 +167,71 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
 Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& model, const Points& displacement) {
   Warnings warnings = warnings_of(load, model.cloud, model.conditions);
   append(warnings_of(model, displacement), warnings);
+  return warnings;
+}
+
+namespace {
+
+double turn_of(const Solution& solution) {
+  return solve::fit_rigid(solution.positions, solution.positions + solution.displacement, Points(0, 3)).angle();
+}
+
+double of_95_percent(std::vector<double> values) {
+  const auto last = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 95 / 100);
+  std::ranges::nth_element(values, last);
+  return *last;
+}
+
+}  // namespace
+
+Warnings warnings_of(const solve::Model& model, const Solution& solution) {
+  constexpr double much = 3;  // degrees; measured loads of the heads at hand turn the brain by less than one
+  Warnings warnings;
+  if (const double angle = turn_of(solution); model.skull && angle > much) {
+    warnings.push_back("the brain has turned by " + with_digits(angle) +
+                       " degrees in its skull, along which it slides without friction: little resists that, so on "
+                       "other nodes it may turn by as much another way; measure displacements all over the opening");
+  }
+  if (!solution.estimated_error.empty()) {
+    std::vector<double> moved;
+    for (const auto& u : solution.displacement.rowwise()) {
+      moved.push_back(u.norm());
+    }
+    const double error = of_95_percent(solution.estimated_error), most = of_95_percent(std::move(moved));
+    if (error > most / 2) {
+      warnings.push_back("the estimated error, " + with_digits(error) +
+                         " mm in 95 % of the nodes, is more than half of what they move, " + with_digits(most) +
+                         " mm; take more nodes");
+    }
+  }
+  return warnings;
+}
+
+std::string turn_fault(const solve::Model& model, const Solution& solution) {
+  constexpr double no_answer = 15;  // degrees
+  const bool measured = solve::prescribed_nodes(model.conditions).size() > 0;
+  const double angle = model.skull && !measured ? turn_of(solution) : 0;
+  return angle < no_answer
+             ? ""
+             : "the brain has turned by " + with_digits(angle) +
+                   " degrees in its skull: nothing but contact without friction holds it, and what drained or swelled "
+                   "went along with it; give a measured load, or a level or swelling that moves it less";
+}
+
+Warnings warnings_of_rooms(const solve::Model& model) {
+  constexpr double like_fluid = 30;  // times less stiff than the stiffest
+  double stiffest = 0;
+  for (const auto& [label, material] : model.materials) {
+    stiffest = std::max(stiffest, solve::shear_modulus(material));
+  }
+  Warnings warnings;
+  for (const auto& [label, material] : model.materials) {
+    if (model.fluid && material.room == solve::Room::none && like_fluid * solve::shear_modulus(material) < stiffest) {
+      warnings.push_back("tissue " + std::to_string(label) +
+                         " is as soft as fluid is modelled, and has its whole weight where the fluid has drained, so "
+                         "that it sinks into itself; a ventricle is room=\"drained\" or \"full\"");
+    }
+  }
   return warnings;
 }
 

@@ -41,6 +41,17 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& mode
 /// Of a head that is weighed as if it did not float.
 Warnings warnings_of_weight(const solve::Model& model);
 
+/// Of a brain that has turned in its skull, where it slides without friction, and of an answer that is hardly larger
+/// than its estimated error. Without a measured load a turn that is no small one is no answer: turn_fault().
+Warnings warnings_of(const solve::Model& model, const Solution& solution);
+
+/// Empty, or why a body that nothing but contact holds has no answer: fluid that drains or tissue that swells as the
+/// image has it goes along with a brain that turns, and turns it on.
+std::string turn_fault(const solve::Model& model, const Solution& solution);
+
+/// Of soft tissue, as fluid is modelled, that a drained level leaves with its whole weight.
+Warnings warnings_of_rooms(const solve::Model& model);
+
 /// Of few integration points, at all or under strong compression, of high pressure, of much that is pressed together,
 /// and of what few nodes resolve.
 Warnings warnings_of(const solve::SolveMeasures& measures);

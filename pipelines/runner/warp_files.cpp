@@ -61,12 +61,15 @@ void check_names(const std::vector<fs::path>& files, const fs::path& out) {
   }
 }
 
-/// A later run that did not get so far leaves the fields of an earlier one.
+/// A later run that did not get so far, or still goes on, leaves the fields of an earlier one.
 void check_up_to_date(const fs::path& fields) {
   std::ifstream stream(fields / "../run.json");
   const auto record = nlohmann::json::parse(stream, nullptr, false);
-  const nlohmann::json::json_pointer status("/stages/register/status");
-  if (record.contains(status) && record[status] == "outdated") {
+  if (!record.is_object() || !record.contains("stages")) {
+    return;  // fields alone
+  }
+  const std::string status = record.value(nlohmann::json::json_pointer("/stages/register/status"), "");
+  if (status != "done" && status != "kept") {
     refuse(fields, "its fields are of an earlier run: the scene has changed since; run it again to the end");
   }
 }

@@ -67,18 +67,25 @@ void check_image(const Scene& scene) {
   }
 }
 
+bool swells(const Scene& scene) {
+  return std::any_of(scene.tissues.begin(), scene.tissues.end(),
+                     [](const Tissue& tissue) { return tissue.material.swelling != 0; });
+}
+
+bool is_pulled(const Scene& scene) {
+  return scene.gravity || !scene.loading.gravity.isZero();
+}
+
 /// Of a scene without <load>.
 void need_something_to_move(const Scene& scene) {
-  const bool swells = std::any_of(scene.tissues.begin(), scene.tissues.end(),
-                                  [](const Tissue& tissue) { return tissue.material.swelling != 0; });
-  if (!scene.gravity && scene.loading.gravity.isZero() && !swells) {
+  if (!is_pulled(scene) && !swells(scene)) {
     fail(scene, "load",
          "the scene has no <load>: nothing would move; name one, as <load><craniotomy file=\"...\"/></load>");
   }
   if (!scene.contact) {
     fail(scene, "load",
          "the scene has neither <load> nor <contact>: nothing would hold the brain against " +
-             std::string(swells ? "its swelling" : "gravity") + "; add <contact/>");
+             std::string(swells(scene) ? "its swelling" : "gravity") + "; add <contact/>");
   }
 }
 
@@ -108,6 +115,13 @@ void check_load(const Scene& scene) {
         scene, "load.robust",
         "robust=\"yes\" does not go with registration=\"unknown\": where the patient lies is not known yet, all points "
         "may contradict the brain; leave the one or the other out");
+  }
+  if ((is_pulled(scene) || swells(scene)) && (load.robust || load.registration_unknown)) {
+    fail(scene, load.robust ? "load.robust" : "load.registration",
+         std::string(load.robust ? "robust=\"yes\"" : "registration=\"unknown\"") +
+             " does not go with gravity or swelling: what these move would count as " +
+             (load.robust ? "points that contradict the others" : "the tracker's error") +
+             "; leave the one or the other out");
   }
   if (load.field && load.registration_unknown) {
     fail(scene, "load.registration",

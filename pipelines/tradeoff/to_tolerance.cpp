@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "pipelines/runner/artefacts.hpp"
 #include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/own_folder.hpp"
 #include "pipelines/runner/peak_memory.hpp"
@@ -60,9 +61,14 @@ Scene scene_of_level(const Scene& scene, std::size_t nodes, double tolerance) {
   return level;
 }
 
+/// Also where an artefact of either was edited, which leaves its stamp.
+bool is_copied(const fs::path& from, const fs::path& to) {
+  const auto record = read_stage_record(from), copy = read_stage_record(to);
+  return record && copy && record->stamp == copy->stamp && artefacts_in(from) == artefacts_in(to);
+}
+
 void copy_stage(const fs::path& from, const fs::path& to, Interruption& interruption) {
-  if (read_stage_record(to) && read_stage_record(from) &&
-      read_stage_record(to)->stamp == read_stage_record(from)->stamp) {
+  if (is_copied(from, to)) {
     return;
   }
   refuse_foreign_folder(to);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/point_table.hpp"
@@ -20,8 +22,11 @@ Points sigma_in(const PointTable& table) {
   const bool one = table.find_column("sigma").has_value();
   const bool each = table.find_column("sigma_x") || table.find_column("sigma_y") || table.find_column("sigma_z");
   for (const std::string& column : table.columns) {
+    constexpr std::array<std::string_view, 4> read = {"sigma", "sigma_x", "sigma_y", "sigma_z"};
+    constexpr std::array<std::string_view, 5> alike = {"sigma", "sd", "std", "standard", "noise"};
     const std::string name = in_lower_case(column);
-    if (name != column ? name.starts_with("sigma") : name == "sd" || name == "std" || name.starts_with("noise")) {
+    if (std::ranges::find(read, column) == read.end() &&
+        std::ranges::any_of(alike, [&](std::string_view word) { return name.starts_with(word); })) {
       refuse(table.file, "its column '" + column +
                              "' is not read; name standard deviations sigma, or sigma_x, sigma_y "
                              "and sigma_z, or take it out");

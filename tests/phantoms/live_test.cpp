@@ -10,10 +10,12 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "register/files/read_place_map.hpp"
 #include "register/files/transform_files.hpp"
+#include "segmentation/image/image.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/output/solution_file.hpp"
 #include "tests/phantoms/program.hpp"
@@ -205,6 +207,23 @@ TEST_F(Live, AFolderInPlaceOfTheLoadIsRefusedAtOnce) {
       run_shell("timeout 60 " BRAINSHIFT_PROGRAM " live " + run().string() + " --load " + run().string());
   EXPECT_NE(said.code, 0);
   EXPECT_NE(said.err.find("is a folder"), std::string::npos) << said.err;
+}
+
+TEST_F(Live, AnImageThatIsAnotherOneNowIsRefused) {
+  const auto inputs = nlohmann::json::parse(contents_of(run() / "run.json"))["inputs"];
+  const auto t1 = std::ranges::find(inputs, "image.t1", [](const auto& input) { return input["role"]; });
+  ASSERT_NE(t1, inputs.end());
+  const fs::path file = (*t1)["path"].get<std::string>(),
+                 away = file.parent_path() / ("away_" + file.filename().string());
+  fs::rename(file, away);
+  ScalarImage other = read_image(away);
+  other.voxels.front() += 1;
+  write_image(file, other);
+  const ProgramResult said =
+      run_shell("timeout 60 " BRAINSHIFT_PROGRAM " live " + run().string() + " --load " + load_file().string());
+  fs::rename(away, file);
+  EXPECT_NE(said.code, 0);
+  EXPECT_NE(said.err.find("the image has changed since"), std::string::npos) << said.err;
 }
 
 TEST_F(Live, MemoryDoesNotGrow) {

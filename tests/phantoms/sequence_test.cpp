@@ -68,6 +68,18 @@ TEST_F(Sequence, HasAnImageOfEachStateAndEndsWhereARunOfTheLastEnds) {
   ASSERT_EQ(last.rows(), whole.rows());
   EXPECT_LT((last - whole).rowwise().norm().maxCoeff(), 0.02) << "twice the tolerance";
   EXPECT_TRUE(half_written(at("out")).empty());
+
+  const ProgramResult failed =
+      run_shell(run_scene("operation.xml") + " --until register" + options + " --set solve.max_steps=20");
+  EXPECT_EQ(failed.code, 3) << failed.err;
+  for (const std::string state : {"drained", "resected"}) {
+    const auto stages = nlohmann::json::parse(contents_of(of(state, "run.json")))["stages"];
+    EXPECT_EQ(stages["register"]["status"], "outdated") << state << ": it went on from what has failed now";
+    const ProgramResult warped =
+        run_shell("brainshift warp " + at("out/states/" + state) + " " + at("t1.nii.gz") + " --out " + at("warped"));
+    EXPECT_EQ(warped.code, 2) << state;
+    EXPECT_NE(warped.err.find("run it again"), std::string::npos) << warped.err;
+  }
 }
 
 TEST_F(Sequence, WhatDoesNotGoWithOneIsSaid) {

@@ -64,6 +64,8 @@ TEST_F(Stamps, ChangeForTheStagesThatDependOnAnOptionAlone) {
   EXPECT_EQ(changed_by([&] { scene_.resection = solve::Resection{.labels = {1}}; }), "s-v-");
   EXPECT_EQ(changed_by([&] { scene_.resection->pressure = 9; }), "--v-");
   EXPECT_EQ(changed_by([&] { write("run/segment/resection.vtp", "wall"); }), "-dvr");
+  scene_.commands[static_cast<std::size_t>(StageId::discretise)] = "another";  // parts no cells
+  EXPECT_EQ(changed_by([&] { write("run/segment/resection.vtp", "another wall"); }), "-d-r");
   EXPECT_EQ(changed_by([&] { scene_.registration.fade = 3; }), "---r");
   EXPECT_EQ(changed_by([&] { scene_.tissues.push_back({3, "", "", {}}); }), "sdv-");
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -65,6 +67,19 @@ TEST(Warnings, TellOfPointsThatAreLostOrDoNotMove) {
   expect_parts(of_points(both).front(), {"50 %", "are lost", "one opening"});
   ASSERT_EQ(of_points(opening(60), 0).size(), 1U);
   expect_parts(of_points(opening(60), 0).front(), {"displacements are 0"});
+}
+
+TEST(Warnings, TellOfTwoDisplacementsInOnePlaceThatContradictEachOther) {
+  const Points points = opening(60);
+  solve::CraniotomyLoad load{points, Points::Constant(points.rows(), 3, 2)};
+  load.positions.row(1) = load.positions.row(0);
+  const auto of_load = [&] { return warnings_of(load, ball(), prescribed_on_top()); };
+  EXPECT_TRUE(of_load().empty()) << "measured twice alike";
+  load.displacement.row(1) *= -1;
+  ASSERT_EQ(of_load().size(), 1U);
+  expect_parts(of_load().front(), {"two displacements", "differ by 6.9 mm"});
+  load.sigma = Points::Constant(points.rows(), 3, 0.5);
+  EXPECT_TRUE(of_load().empty()) << "told as points of a noisy load";
 }
 
 TEST(Warnings, OfPointsInsideTheBrainTellHowManyCountAsSuch) {
@@ -143,6 +158,46 @@ TEST(Warnings, TellOfABodyThatNothingButItsLoadHolds) {
   EXPECT_EQ(warnings_of(model, shift).size(), 1U);
   model.skull = brainshift::test::sphere({0, 0, 0}, 60, 2);
   EXPECT_TRUE(warnings_of(model, shift).empty());
+}
+
+/// The ball, turned about z.
+Solution turned(double degrees) {
+  Solution solution;
+  solution.positions = ball().positions;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(degrees * M_PI / 180, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  solution.displacement = solution.positions * turn.transpose() - solution.positions;
+  return solution;
+}
+
+TEST(Warnings, TellOfABrainThatTurnsInItsSkullWhichIsNoAnswerWhereNothingElseHoldsIt) {
+  solve::Model model;
+  model.cloud = ball();
+  EXPECT_TRUE(warnings_of(model, turned(30)).empty()) << "no skull";
+  model.skull = brainshift::test::sphere({0, 0, 0}, 60, 2);
+  EXPECT_TRUE(warnings_of(model, turned(2)).empty());
+  expect_parts(warnings_of(model, turned(5)).front(), {"turned by 5 degrees", "without friction"});
+  EXPECT_EQ(turn_fault(model, turned(5)), "");
+  expect_parts(turn_fault(model, turned(30)), {"turned by 30 degrees", "give a measured load"});
+  model.conditions.displacement = prescribed_on_top();
+  EXPECT_EQ(turn_fault(model, turned(30)), "") << "as measured";
+}
+
+TEST(Warnings, TellOfAnErrorThatIsLargeBesideTheAnswer) {
+  Solution solution = turned(2);  // by 2 mm at most
+  solution.estimated_error.assign(static_cast<std::size_t>(solution.positions.rows()), 0.5);
+  EXPECT_TRUE(warnings_of(solve::Model(), solution).empty());
+  solution.estimated_error.assign(solution.estimated_error.size(), 1.5);
+  expect_parts(warnings_of(solve::Model(), solution).front(), {"1.5 mm", "more than half", "more nodes"});
+}
+
+TEST(Warnings, TellOfATissueAsSoftAsFluidThatIsNoRoom) {
+  solve::Model model;
+  model.materials = {{1, {.youngs_modulus = 3000}}, {2, {.youngs_modulus = 10}}};
+  EXPECT_TRUE(warnings_of_rooms(model).empty()) << "nothing drains";
+  model.fluid.emplace();
+  expect_parts(warnings_of_rooms(model).front(), {"tissue 2", "room=\"drained\""});
+  model.materials[2].room = solve::Room::drained;
+  EXPECT_TRUE(warnings_of_rooms(model).empty());
 }
 
 solve::SolveMeasures of_many_points() {

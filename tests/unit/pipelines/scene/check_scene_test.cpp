@@ -34,6 +34,13 @@ TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
     without.replace(0, 5, "<load " + asked);
     expect_parts(fault(scene(image + two + without)), {"how well the points were measured", "a noise"});
   }
+  for (const std::string asked : {"robust=\"yes\"", "registration=\"unknown\""}) {
+    std::string noisy = load;
+    noisy.replace(0, 5, "<load noise=\"0.5\" " + asked);
+    const std::string drained = "<contact/><gravity direction=\"0 0 -1\" drained=\"40\"/>";
+    EXPECT_EQ(fault(scene(image + two + noisy + "<contact/>")), "");
+    expect_parts(fault(scene(image + two + noisy + drained)), {asked, "does not go with gravity", "leave the one"});
+  }
   const std::string tumour = "<image labels=\"labels.nii.gz\" other_labels=\"6";
   expect_parts(fault(scene(tumour + "\" tumour=\"labels.nii.gz\"/>" + two + load)),
                {"label 3", "labels.nii.gz has already", "another number"});

@@ -106,7 +106,7 @@ TEST(CraniotomyCsv, RefusesAStandardDeviationThatIsNoneAndNamesTheLine) {
     const std::string fault = refusal([&] { read_craniotomy_csv(file); });
     EXPECT_NE(fault.find("bad.csv:4:"), std::string::npos) << sigma << " -> " << fault;
   }
-  for (const std::string column : {"Sigma", "sd", "noise_mm", "sigma,sigma_x"}) {
+  for (const std::string column : {"Sigma", "SD", "sd_mm", "sigma_mm", "NOISE", "noise_mm", "sigma,sigma_x"}) {
     const auto named = folder.write("named.csv", "# frame: LPS\nx,y,z,ux,uy,uz," + column + "\n1,2,3,4,5,6,1" +
                                                      (column.find(',') == std::string::npos ? "" : ",1") + "\n");
     EXPECT_NE(refusal([&] { read_craniotomy_csv(named); }).find("sigma_x"), std::string::npos) << column;
