@@ -15,25 +15,27 @@
 #include <vector>
 
 #include "register/files/transform_files.hpp"
+#include "segmentation/files/text_lines.hpp"
 
 namespace brainshift::registration {
 
 namespace {
 
-/// A field of a .csv.
-std::string quoted(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    text += c == '"' ? "\"\"" : std::string(1, std::iscntrl(static_cast<unsigned char>(c)) != 0 ? ' ' : c);
+/// A field of a .csv, on one line; one that began with # would be a comment.
+std::string field_of(std::string name) {
+  if (name.find_first_of(",\"\n\r#") == std::string::npos) {
+    return name;
   }
-  return name.find_first_of(",\"\n\r#") == std::string::npos ? name : text + '"';
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return quoted_field(name);
 }
 
 /// Its name, or its number where it has none of its own.
 std::string label_of(const std::vector<std::string>& names, std::size_t landmark) {
   const bool named = landmark < names.size() && !names[landmark].empty() &&
                      std::count(names.begin(), names.end(), names[landmark]) == 1;
-  return named ? quoted(names[landmark]) : std::to_string(landmark + 1);
+  return named ? field_of(names[landmark]) : std::to_string(landmark + 1);
 }
 
 void write_landmarks(const std::filesystem::path& file, const Registration& registration) {

@@ -46,10 +46,14 @@ std::vector<std::uint16_t> resected_labels(const Scene& scene) {
   return {scene.resection->labels.begin(), scene.resection->labels.end()};
 }
 
-/// The wall of what is resected, where the cells are parted by it: another discretiser knows no wall.
+/// The wall of what is resected.
 fs::path wall_of(const Scene& scene, const fs::path& folder) {
-  return scene.resection && is_ours(scene, StageId::discretise) ? if_there(folder / "segment" / "resection.vtp")
-                                                                : fs::path();
+  return scene.resection ? if_there(folder / "segment" / "resection.vtp") : fs::path();
+}
+
+/// The same where the cells are parted by it: another discretiser knows no wall.
+fs::path wall_of_cells(const Scene& scene, const fs::path& folder) {
+  return is_ours(scene, StageId::discretise) ? wall_of(scene, folder) : fs::path();
 }
 
 /// The solution that a state of a sequence goes on from.
@@ -120,7 +124,7 @@ StagePlan plan_discretise(const Scene& given, const fs::path& folder) {
   plan.options["brain_labels"] = labels;
   plan.options["alike"] = job.options.alike;
   add_artefacts(plan.inputs, folder, {"segment/brain.vtp", "segment/labels.nii.gz"});
-  job.wall = wall_of(scene, folder);
+  job.wall = wall_of_cells(scene, folder);
   if (!job.wall.empty()) {
     job.resected = scene.resection->labels;
     plan.options["resected"] = job.resected;
@@ -187,7 +191,7 @@ StagePlan plan_solve(const Scene& scene, const fs::path& folder) {
 }
 
 StagePlan plan_register(const Scene& scene, const fs::path& folder) {
-  const fs::path wall = scene.resection ? if_there(folder / "segment" / "resection.vtp") : fs::path();
+  const fs::path wall = wall_of(scene, folder);
   const RegisterJob job{.solution = folder / "solve" / "solution.vtu",
                         .surface = folder / "segment" / "brain.vtp",
                         .t1 = scene.image.t1,
@@ -255,7 +259,7 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
                .gravity = scene.gravity,
                .cuts = scene.cuts,
                .resection = scene.resection,
-               .wall = wall_of(scene, folder),
+               .wall = wall_of_cells(scene, folder),
                .last = last_of(scene, folder)};
   if (scene.contact) {
     job.skull = scene.contact->skull.empty() ? folder / "segment" / "skull.vtp" : scene.contact->skull;

@@ -17,6 +17,7 @@
 #include "solve/load/near_surface.hpp"
 #include "solve/load/rigid_fit.hpp"
 #include "solve/material/material.hpp"
+#include "solve/run/error_estimate.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -42,6 +43,11 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
+}
+
+std::vector<double> lengths_of(const Points& displacement) {
+  const Eigen::VectorXd lengths = displacement.rowwise().norm();
+  return {lengths.begin(), lengths.end()};
 }
 
 double median_distance(const Points& points, const Points& surface) {
@@ -133,12 +139,8 @@ Warnings warnings_of(const solve::Model& model, const Points& displacement) {
   if (model.skull || solve::mostly_prescribed(model.cloud, model.conditions)) {
     return {};
   }
-  std::vector<double> moved;
-  for (const auto& u : displacement.rowwise()) {
-    moved.push_back(u.norm());
-  }
   return {"nothing but the load holds the brain, so all of it follows the opening (half of it by more than " +
-          with_digits(median(std::move(moved))) +
+          with_digits(median(lengths_of(displacement))) +
           " mm); in a patient the skull holds it: add <contact/>, unless that is meant"};
 }
 
@@ -176,12 +178,6 @@ double turn_of(const Solution& solution) {
   return solve::fit_rigid(solution.positions, solution.positions + solution.displacement, Points(0, 3)).angle();
 }
 
-double of_95_percent(std::vector<double> values) {
-  const auto last = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 95 / 100);
-  std::ranges::nth_element(values, last);
-  return *last;
-}
-
 }  // namespace
 
 Warnings warnings_of(const solve::Model& model, const Solution& solution) {
@@ -193,11 +189,8 @@ Warnings warnings_of(const solve::Model& model, const Solution& solution) {
                        "other nodes it may turn by as much another way; measure displacements all over the opening");
   }
   if (!solution.estimated_error.empty()) {
-    std::vector<double> moved;
-    for (const auto& u : solution.displacement.rowwise()) {
-      moved.push_back(u.norm());
-    }
-    const double error = of_95_percent(solution.estimated_error), most = of_95_percent(std::move(moved));
+    const double error = solve::percentile_95(solution.estimated_error);
+    const double most = solve::percentile_95(lengths_of(solution.displacement));
     if (error > most / 2) {
       warnings.push_back("the estimated error, " + with_digits(error) +
                          " mm in 95 % of the nodes, is more than half of what they move, " + with_digits(most) +

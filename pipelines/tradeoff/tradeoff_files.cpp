@@ -10,6 +10,7 @@
 #include "pipelines/report/plot.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/tradeoff/front.hpp"
+#include "segmentation/files/text_lines.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -25,14 +26,6 @@ std::string rounded(double value) {
 
 double seconds_of(const TradeoffPoint& point, TradeoffTime time) {
   return time == TradeoffTime::solve ? point.solve_seconds : point.whole_seconds;
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    result += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return result + '"';
 }
 
 std::string csv(const Sweep& sweep) {
@@ -52,7 +45,7 @@ std::string csv(const Sweep& sweep) {
       text << value << ',';
     }
     if (!p.failure.empty()) {
-      text << ",,,,,,,,,0,0," << quoted(p.failure) << "\n";
+      text << ",,,,,,,,,0,0," << quoted_field(p.failure) << "\n";
       continue;
     }
     text << p.nodes << ',' << p.points << ',' << p.steps << ',' << p.solve_seconds << ',' << p.whole_seconds << ','

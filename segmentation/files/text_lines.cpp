@@ -85,6 +85,14 @@ std::vector<std::string> split_fields(std::string_view line) {
   return fields;
 }
 
+std::string quoted_field(std::string_view text) {
+  std::string field = "\"";
+  for (const char c : text) {
+    field.append(c == '"' ? 2 : 1, c);
+  }
+  return field + '"';
+}
+
 void fail_at_line(const std::filesystem::path& file, std::size_t line, const std::string& what) {
   throw std::invalid_argument(file.string() + ":" + std::to_string(line) + ": " + what);
 }

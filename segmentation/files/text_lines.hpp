@@ -25,6 +25,9 @@ std::vector<std::string> split_fields(std::string_view line);
 /// The same fields as they stand in the line, with blanks and quotes.
 std::vector<std::string_view> split_raw_fields(std::string_view line);
 
+/// A field in double quotes, as split_fields() reads it.
+std::string quoted_field(std::string_view text);
+
 /// Throws std::invalid_argument: "FILE:N: what".
 [[noreturn]] void fail_at_line(const std::filesystem::path& file, std::size_t line, const std::string& what);
 

@@ -80,9 +80,12 @@ TEST_F(WarpFiles, WhatLiesOutsideTheImageIsTold) {
 TEST_F(WarpFiles, FieldsOfAnEarlierRunAreRefused) {
   const fs::path file = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n"), later = folder_ / "later";
   fs::copy(run_->path(), later, fs::copy_options::recursive);
-  for (const auto& [status, taken] : {std::pair("done", true), {"kept", true}, {"outdated", false}, {"", false}}) {
-    write("later/run.json", std::string(R"({"stages": {)") + (status[0] == '\0' ? "" : R"("register": {"status": ")") +
-                                status + (status[0] == '\0' ? "}}" : "\"}}}"));
+  const auto registered = [](const std::string& status) { return R"("register": {"status": ")" + status + "\"}"; };
+  for (const auto& [status, taken] : {std::pair(registered("done"), true),
+                                      {registered("kept"), true},
+                                      {registered("outdated"), false},
+                                      {std::string(), false}}) {
+    write("later/run.json", "{\"stages\": {" + status + "}}");
     for (const fs::path& run : {later, later / "register"}) {
       const std::string said = refusal([&] {
         warp_files({.run = run, .files = {file}, .like = {}, .towards = Towards::intraop, .options = {.grid = {}}},

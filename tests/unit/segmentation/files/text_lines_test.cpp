@@ -65,6 +65,12 @@ TEST(TextLines, RawFieldsJoinedAgainAreTheLine) {
   }
 }
 
+TEST(TextLines, AQuotedFieldIsReadAsItWas) {
+  for (const std::string text : {"plain", "gyrus, \"left\"", "", "\""}) {
+    EXPECT_EQ(split_fields(quoted_field(text) + ",next"), (std::vector<std::string>{text, "next"}));
+  }
+}
+
 TEST(TextLines, ANumberIsTheWholeFieldAndFinite) {
   EXPECT_EQ(parse_number("-1.5e-3", "t.csv", 7), -1.5e-3);
   EXPECT_EQ(parse_number("+2", "t.csv", 7), 2.0);
