@@ -15,7 +15,7 @@ import sys
 import numpy as np
 
 from patients import numbers, rows_of, write_load
-from phantoms import ALIKE, XYZ, places_in, small_phantom, write_landmarks
+from phantoms import ALIKE, XYZ, phantom_scene, places_in, write_landmarks
 from predictors import spread_out
 
 DRAWS = 10
@@ -67,7 +67,7 @@ def between(text, first, last):
 
 
 def phantom(program, folder, random):
-    scene, measured = small_phantom(program, folder)
+    scene, measured = phantom_scene(program, folder, 2500)
     places = places_in(folder / "labels.nii.gz", random)
     write_landmarks(folder / "landmarks.fcsv", places)
     return Head(program, folder, scene, between(scene, "<load>", "</load>"), measured, places)
