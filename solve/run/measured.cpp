@@ -28,6 +28,18 @@ Points stacked(const Points& above, const Points& below) {
   return both;
 }
 
+/// Places so far outside that no node sees them move to the nearest node: nothing is said there that anyone uses.
+Points within_sight(Points places, const Points& nodes) {
+  constexpr double sight = 20;  // mm
+  for (Eigen::Index i = 0; i < places.rows(); ++i) {
+    Eigen::Index nearest = 0;
+    if ((nodes.rowwise() - places.row(i)).rowwise().norm().minCoeff(&nearest) > sight) {
+      places.row(i) = nodes.row(nearest);
+    }
+  }
+  return places;
+}
+
 /// What is measured, the points of the cortex first.
 struct Seen {
   Points positions, displacement, sigma;
@@ -144,7 +156,7 @@ void add_smooth_motion(const Asked& asked, const ShapeRows& rows, Response& resp
 MeasuredFit fit_measured(const ThinnedBody& thinned, const Conditions& conditions) {
   const Asked asked(thinned, conditions);
   const Measurement& measured = *conditions.measured;
-  const Points places = stacked(asked.positions, measured.asked);
+  const Points places = stacked(asked.positions, within_sight(measured.asked, thinned.stiff.cloud.positions));
   const ShapeRows rows = inner_rows(asked.shape, places);
   Response response = asked.response(rows, places);
   add_smooth_motion(asked, rows, response);

@@ -104,6 +104,12 @@ TEST(MeasuredCovariance, IsThatOfTheLandmarksAtANodeInside) {
   EXPECT_LT((at_node - fit.covariance.row(0)).norm(), 1e-9 * at_node.norm());
 }
 
+TEST(MeasuredCovariance, OfALandmarkFarOutsideIsNoReasonToRefuse) {
+  Model model = measured_box(0.5);
+  model.conditions.measured->asked = Points::Constant(1, 3, 10 * model_side);
+  EXPECT_TRUE(fit_measured(thinned_body(model, {}), model.conditions).covariance.allFinite());
+}
+
 TEST(WeighedConditions, HoldAnOpeningThatMovesAlikeAndAreSolvedAsTheyAre) {
   Model model = measured_box(0.5);
   Measurement& measured = *model.conditions.measured;
