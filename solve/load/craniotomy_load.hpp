@@ -72,10 +72,11 @@ struct OpeningOptions {
 /// Extends the measured displacements to the surface nodes under the opening: those whose projection on the best-fit
 /// plane of the measured points lies in their convex hull widened by the margin, or beyond it by a quarter of their
 /// spacing, and that are near them in depth too. All other components stay free (NaN). Between the points by thin-plate
-/// splines of the nearest ones, kept within the measured values by a tenth of their range. Returns (n × 3) mm, one row
-/// a node. Throws std::invalid_argument on an option out of range; on no measured point or one that is not finite; with
-/// the distance and the point, on one too far from the surface (a wrong frame, most often: says so if flipping x and y
-/// would bring it near) or that moves by more than half of the body; and when no node is loaded.
+/// splines of the nearest ones, kept within the measured values by a tenth of their range. Openings that lie apart
+/// (openings()) each by itself. Returns (n × 3) mm, one row a node. Throws std::invalid_argument on an option out of
+/// range; on no measured point or one that is not finite; with the distance and the point, on one too far from the
+/// surface (a wrong frame, most often: says so if flipping x and y would bring it near) or that moves by more than half
+/// of the body; and when no node is loaded.
 Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load,
                                    const OpeningOptions& options = {});
 

@@ -53,7 +53,11 @@ std::vector<Eigen::Index> inner_points(const NodeCloud& cloud, const CraniotomyL
     }
     const auto [near, squared] = nodes.nearest(x.data());
     const bool in_cloud = std::sqrt(squared) <= 1.5 * cloud.spacing[near];
-    if (in_cloud && depth_below(rim, outer, middle, x) > cortex_depth) {
+    const auto [nearest, of_surface] = outer.nearest(x.data());
+    // So far from all nodes of the surface the nearest of these may lie all around, and tell no plane.
+    const double farthest = std::hypot(cortex_depth, cloud.spacing[static_cast<std::size_t>(surface[nearest])]);
+    const bool deep = cloud.on_surface[near] == 0 && std::sqrt(of_surface) > farthest;
+    if (in_cloud && (deep || depth_below(rim, outer, middle, x) > cortex_depth)) {
       inner.push_back(p);
     }
   }

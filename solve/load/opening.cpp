@@ -13,6 +13,7 @@
 #include "solve/load/load_options.hpp"
 #include "solve/load/near_surface.hpp"
 #include "solve/load/opening_shape.hpp"
+#include "solve/load/openings.hpp"
 
 namespace brainshift::solve {
 namespace {
@@ -70,16 +71,18 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
   const Points surface = cloud.positions(nodes, Eigen::all);
   check_near_surface(load.positions, surface, options.farthest);
   check_moved(load.displacement, surface);
-  const OpeningShape opening(load, surface, margin_of(load, options, cloud, nodes));
-  const Points candidates = opening.local(surface);
   Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
-  share_work(candidates.rows(), splines_a_part, [&](std::int64_t n) {
-    const std::int32_t node = nodes[static_cast<std::size_t>(n)];
-    const double past = on_rim * cloud.spacing[static_cast<std::size_t>(node)];
-    if (const auto displacement = opening.displacement_at(candidates.row(n), past, options.depth)) {
-      prescribed.row(node) = *displacement;
-    }
-  });
+  for (const CraniotomyLoad& part : openings(load)) {
+    const OpeningShape opening(part, surface, margin_of(part, options, cloud, nodes));
+    const Points candidates = opening.local(surface);
+    share_work(candidates.rows(), splines_a_part, [&](std::int64_t n) {
+      const std::int32_t node = nodes[static_cast<std::size_t>(n)];
+      const double past = on_rim * cloud.spacing[static_cast<std::size_t>(node)];
+      if (const auto displacement = opening.displacement_at(candidates.row(n), past, options.depth)) {
+        prescribed.row(node) = *displacement;
+      }
+    });
+  }
   if (prescribed.array().isNaN().all()) {
     const Points places = distinct_points(load.positions);
     const PointTree tree(places);

@@ -9,6 +9,7 @@
 #include "solve/load/load_options.hpp"
 #include "solve/load/noisy_load.hpp"
 #include "solve/load/opening_shape.hpp"
+#include "solve/load/openings.hpp"
 
 namespace brainshift::solve {
 namespace {
@@ -83,12 +84,18 @@ std::vector<Eigen::RowVector3d> places_on_rim(const Surface& brain, const Openin
 Points opening_rim(const Surface& brain, const CraniotomyLoad& load, const OpeningOptions& options) {
   check_table(opening_options(), options);
   const CraniotomyLoad cortex = on_cortex(brain, load);
-  const std::optional<double> margin = default_margin(cortex.positions);
-  if (!margin) {
+  if (cortex.positions.rows() == 0) {
     return Points(0, 3);
   }
-  const OpeningShape opening(cortex, brain.vertices, options.margin >= 0 ? options.margin : *margin);
-  return as_points(places_on_rim(brain, opening, options.depth));
+  std::vector<Eigen::RowVector3d> places;
+  for (const CraniotomyLoad& part : openings(cortex)) {
+    if (const std::optional<double> margin = default_margin(part.positions)) {
+      const OpeningShape opening(part, brain.vertices, options.margin >= 0 ? options.margin : *margin);
+      const std::vector<Eigen::RowVector3d> rim = places_on_rim(brain, opening, options.depth);
+      places.insert(places.end(), rim.begin(), rim.end());
+    }
+  }
+  return as_points(places);
 }
 
 }  // namespace brainshift::solve

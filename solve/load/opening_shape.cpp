@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "segmentation/geometry/distinct_points.hpp"
-#include "segmentation/geometry/neighbour_distance.hpp"
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/load/convex_hull.hpp"
+#include "solve/load/openings.hpp"
 
 namespace brainshift::solve {
 namespace {
@@ -51,14 +51,8 @@ Plane opening_plane(const Points& measured, const Points& surface) {
 }  // namespace
 
 std::optional<double> default_margin(const Points& measured) {
-  const Points places = distinct_points(measured);
-  if (places.rows() < 2) {
-    return std::nullopt;
-  }
-  std::vector<double> distances = nearest_neighbours(places, 1).distance;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::min(0.5 * *middle, widest_default_margin);
+  const double distance = usual_distance(measured);
+  return distance > 0 ? std::optional(std::min(0.5 * distance, widest_default_margin)) : std::nullopt;
 }
 
 OpeningShape::OpeningShape(const CraniotomyLoad& load, const Points& surface, double margin)

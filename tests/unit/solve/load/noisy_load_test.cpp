@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "solve/load/joined_points.hpp"
 #include "tests/unit/scratch_folder.hpp"
@@ -40,6 +42,23 @@ TEST(NoisyLoad, PrescribesAtTheCortexWhatTheExactLoadDoesAndKeepsPointsInsideApa
   EXPECT_TRUE((conditions.displacement.array().isNaN() || conditions.displacement.array() == exact.array()).all());
   EXPECT_EQ(conditions.measured->inner, load.positions.bottomRows(1));
   EXPECT_EQ(conditions.measured->inner_displacement, load.displacement.bottomRows(1));
+}
+
+/// The surface nodes nearest to a deep point lie on several sides of it.
+TEST(NoisyLoad, TakesNoDeepPointForOneOfTheCortex) {
+  NodeCloud cloud = test::irregular_box(9, side);
+  cloud.positions.col(0) *= 0.5;
+  std::vector<Eigen::Index> deep;
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    const Eigen::RowVector3d x = cloud.positions.row(a), most(side / 2, side, side);
+    if (std::min(x.minCoeff(), (most - x).minCoeff()) > 10) {
+      deep.push_back(a);
+    }
+  }
+  ASSERT_GT(deep.size(), 20U);
+  const auto count = static_cast<Eigen::Index>(deep.size());
+  const CraniotomyLoad load{cloud.positions(deep, Eigen::all), Points::Ones(count, 3), Points::Constant(count, 3, 0.5)};
+  EXPECT_EQ(noisy_conditions(cloud, load).measured->inner.rows(), count);
 }
 
 TEST(NoisyLoad, SharesOfTheCortexAddUpToOneAndGiveBackWhatIsPrescribed) {

@@ -92,6 +92,37 @@ TEST(Opening, LoadsTheNodesUnderItAndNoneUnderTheBoneOrOnTheFarSide) {
   EXPECT_FALSE(is_loaded(prescribed, prescribed.rows() - 1)) << "a node within the brain is no surface node";
 }
 
+/// Rows of one load below those of another.
+CraniotomyLoad both(const CraniotomyLoad& one, const CraniotomyLoad& other) {
+  CraniotomyLoad load{Points(one.positions.rows() + other.positions.rows(), 3), {}, {}};
+  load.displacement = load.positions;
+  load.positions << one.positions, other.positions;
+  load.displacement << one.displacement, other.displacement;
+  return load;
+}
+
+TEST(Opening, PrescribesNothingBetweenTwoThatLieApart) {
+  const NodeCloud cloud = head();
+  const CraniotomyLoad one = measured(60, 0.35);
+  for (const int count : {1, 12}) {
+    CraniotomyLoad other;
+    other.positions = measured_places(count, Eigen::Vector3d(1, 0, 0), 0.2, 3);
+    other.displacement = Points::Constant(count, 3, 0.5);
+    const Points apart = prescribed_on_surface_nodes(cloud, one), second = prescribed_on_surface_nodes(cloud, other);
+    const Points together = prescribed_on_surface_nodes(cloud, both(one, other));
+    int of_second = 0;
+    for (Eigen::Index n = 0; n < together.rows(); ++n) {
+      const Points& alone = is_loaded(second, n) ? second : apart;
+      EXPECT_EQ(is_loaded(together, n), is_loaded(alone, n)) << n;
+      if (is_loaded(together, n)) {
+        EXPECT_EQ(together.row(n), alone.row(n)) << n;
+      }
+      of_second += is_loaded(second, n);
+    }
+    EXPECT_GT(of_second, 0);
+  }
+}
+
 TEST(Opening, PrescribesAllThreeComponentsOfANodeOrNone) {
   const Points prescribed = prescribed_on_surface_nodes(head(), measured(60, 0.35));
   for (const auto& row : prescribed.rowwise()) {

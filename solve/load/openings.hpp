@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solve/load/craniotomy_load.hpp"
+
+namespace brainshift::solve {
+
+/// The median distance from a point to its nearest neighbour, mm; 0 for points in one place. points (n × 3).
+double usual_distance(const Points& points);
+
+/// The load by its openings, those of the first points first. Two points belong to one where steps of at most three
+/// times the usual distance between neighbours, or 30 mm where that is more, lead from one to the other. Between two
+/// openings nothing was measured: a spline across the cortex there would prescribe what nobody saw.
+std::vector<CraniotomyLoad> openings(const CraniotomyLoad& load);
+
+}  // namespace brainshift::solve
