@@ -17,23 +17,32 @@ Eigen::Matrix3d sizes_of(const SmoothMotion& smooth) {
   return smooth.along * smooth.along * along + smooth.across * smooth.across * (Eigen::Matrix3d::Identity() - along);
 }
 
+/// squared: r².
+double how_alike(double squared, Alike alike) {
+  if (alike == Alike::squared_exponential) {
+    return std::exp(-squared / 2);
+  }
+  const double r = std::sqrt(5 * squared);
+  return (1 + r + r * r / 3) * std::exp(-r);
+}
+
 }  // namespace
 
-Eigen::MatrixXd smooth_covariance(const Points& sites, double length, const Eigen::Matrix3d& sizes) {
+Eigen::MatrixXd smooth_covariance(const Points& sites, double length, const Eigen::Matrix3d& sizes, Alike alike) {
   Eigen::MatrixXd covariance(3 * sites.rows(), 3 * sites.rows());
   for (Eigen::Index i = 0; i < sites.rows(); ++i) {
     for (Eigen::Index j = 0; j < sites.rows(); ++j) {
-      const double far = (sites.row(i) - sites.row(j)).squaredNorm();
-      covariance.block<3, 3>(3 * i, 3 * j) = std::exp(-far / (2 * length * length)) * sizes;
+      const double squared = (sites.row(i) - sites.row(j)).squaredNorm() / (length * length);
+      covariance.block<3, 3>(3 * i, 3 * j) = how_alike(squared, alike) * sizes;
     }
   }
   return covariance;
 }
 
-Prior::Prior(const Response& response, double weight, const SmoothMotion& smooth)
+Prior::Prior(const Response& response, double weight, const SmoothMotion& smooth, Alike alike)
     : response_(response), weight_(millijoule * weight) {
   if (smooth.length > 0) {
-    smooth_ = smooth_covariance(response.sites, smooth.length, sizes_of(smooth));
+    smooth_ = smooth_covariance(response.sites, smooth.length, sizes_of(smooth), alike);
   }
 }
 

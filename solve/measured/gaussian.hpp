@@ -16,14 +16,20 @@ inline Eigen::VectorXd stacked_rows(const Points& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), values.size());
 }
 
+/// How alike a smooth motion is at two places, r over its length apart: exp(−r²/2), or Matérn's of order 5/2, which has
+/// two derivatives where the other has all. Of the first what lies between measured points is known too well (Stein
+/// 1999, Interpolation of Spatial Data).
+enum class Alike { squared_exponential, matern };
+
 /// K ⊗ sizes, (3k × 3k) mm²: the covariance of a smooth motion with these (3 × 3) variances at the sites (k × 3), mm.
-Eigen::MatrixXd smooth_covariance(const Points& sites, double length, const Eigen::Matrix3d& sizes);
+Eigen::MatrixXd smooth_covariance(const Points& sites, double length, const Eigen::Matrix3d& sizes,
+                                  Alike alike = Alike::squared_exponential);
 
 /// What is believed of displacements before they are measured, at the points of a response: s G of the deformation's
 /// energy, weight in mJ, and the smooth motion of the opening, as the body carries it.
 class Prior {
  public:
-  Prior(const Response& response, double weight, const SmoothMotion& smooth);
+  Prior(const Response& response, double weight, const SmoothMotion& smooth, Alike alike = Alike::squared_exponential);
 
   /// Covariance, mm², of `rows` components from `first` on with `columns` from `other` on.
   Eigen::MatrixXd between(Eigen::Index first, Eigen::Index rows, Eigen::Index other, Eigen::Index columns) const;

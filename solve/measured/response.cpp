@@ -167,22 +167,22 @@ Response linear_response(const StiffBody& body, const Conditions& conditions, co
   return {observed.transpose() * moved, observed.transpose() * motions, true};
 }
 
-Carried carried_motion(const StiffBody& body, const Conditions& conditions, const ShapeRows& at_points) {
+Carried carried_motion(const StiffBody& body, const Conditions& conditions, const ShapeRows& at_nodes,
+                       const ShapeRows& at_points) {
   Carried carried;
+  std::vector<std::int32_t> rows;
   for (Eigen::Index a = 0; a < body.cloud.positions.rows(); ++a) {
     if (is_measured(conditions, a)) {
       carried.nodes.push_back(a);
+      rows.push_back(static_cast<std::int32_t>(a));
     }
   }
   Eigen::MatrixXd k = body.stiffness;
   const double stiff = held_stiffness * k.diagonal().mean();
   hold(body.cloud, conditions, body.touches, k);
-  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(k.rows(), static_cast<Eigen::Index>(3 * carried.nodes.size()));
-  for (std::size_t i = 0; i < carried.nodes.size(); ++i) {
-    const Eigen::Index a = 3 * carried.nodes[i];
-    k.diagonal().segment<3>(a).array() += stiff;
-    push.block<3, 3>(a, static_cast<Eigen::Index>(3 * i)).diagonal().setConstant(stiff);
-  }
+  const Eigen::MatrixXd held = loads_at(rows_at(at_nodes, rows), body.cloud.size());
+  k += stiff * held * held.transpose();
+  const Eigen::MatrixXd push = stiff * held;
   k.diagonal().array() += slack * k.diagonal().mean();
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(k);
   carried.motion = loads_at(at_points, body.cloud.size()).transpose() * factor.solve(push);

@@ -20,6 +20,7 @@ struct Response {
   Points sites = Points(0, 3);
   /// (3m × 3k) what becomes of it at the points.
   Eigen::MatrixXd carry = {};
+  double shortest = 0;  ///< mm over which that motion is alike at least; over less it would be each point's own
 };
 
 /// The six rigid motions at places, (3m × 6): moves along x, y, z by 1 mm, then turns about them through the centre of
@@ -51,7 +52,9 @@ struct Carried {
   Eigen::MatrixXd motion;           ///< (3m × 3 nodes) at the points, of 1 mm of each component of these nodes
 };
 
-/// Where the measured nodes are held. Arguments as of linear_response().
-Carried carried_motion(const StiffBody& body, const Conditions& conditions, const ShapeRows& at_points);
+/// Where the displacement of the measured nodes is held: not their parameters, as a coarse cloud's displacement is a
+/// mean of these over some nodes. at_nodes: shape functions at the body's nodes; others as of linear_response().
+Carried carried_motion(const StiffBody& body, const Conditions& conditions, const ShapeRows& at_nodes,
+                       const ShapeRows& at_points);
 
 }  // namespace brainshift::solve

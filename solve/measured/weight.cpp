@@ -123,8 +123,8 @@ class Likelihood {
     const Eigen::JacobiSVD<Eigen::MatrixXd> main(displacement_, Eigen::ComputeFullV);
     const Eigen::Vector3d direction = main.matrixV().col(0);
     for (const double share : lengths) {
-      if (!(extent > 0)) {
-        break;
+      if (!(extent > 0) || share * extent < response_.shortest) {
+        continue;
       }
       const Shapes shapes = shapes_of(share * extent, direction);
       for (Place place : {Place{chosen, 1, 0}, Place{0, 2 * amplitudes / 3, 0}}) {
@@ -201,17 +201,37 @@ class Likelihood {
   std::vector<double> weights_, amplitudes_;  // mJ, mm
 };
 
-/// Of displacements behind the measured ones, in the frame of the image: of a body that is held the rigid motion is the
-/// patient's, not the brain's.
-Eigen::MatrixXd covariance_behind(const Response& response, const Prior& prior, const MeasuredGaussian& measured,
-                                  Eigen::Index first, Eigen::Index size) {
-  const Eigen::Index m = measured.push.size();
-  Eigen::MatrixXd rigid = response.rigid.middleRows(first, size);
-  if (!response.free) {
-    rigid.setZero();
-  }
-  return measured.covariance(prior.between(first, size, first, size), prior.between(first, size, 0, m), rigid);
+/// The smooth motion as it is believed for what is said of the error: no more parallel than to some degrees.
+SmoothMotion doubted(SmoothMotion smooth) {
+  constexpr double least_across = 0.05;  // over along
+  smooth.across = std::max(smooth.across, least_across * smooth.along);
+  return smooth;
 }
+
+/// Covariance, mm², of the displacements behind the measured ones, in the frame of the image: of a body that is held
+/// the rigid motion is the patient's, not the brain's. What carries the answer is likely; this is to hold the truth,
+/// so it believes of the smooth motion that it is rougher and less parallel.
+class Behind {
+ public:
+  Behind(const Response& response, const MeasuredFit& fit, const Eigen::VectorXd& d, const Eigen::VectorXd& variance)
+      : response_(response),
+        prior_(response, fit.weight, doubted(fit.smooth), Alike::matern),
+        measured_(prior_.between(0, d.size(), 0, d.size()), response.rigid.topRows(d.size()), d, variance) {}
+
+  Eigen::MatrixXd covariance(Eigen::Index first, Eigen::Index size) const {
+    Eigen::MatrixXd rigid = response_.rigid.middleRows(first, size);
+    if (!response_.free) {
+      rigid.setZero();
+    }
+    return measured_.covariance(prior_.between(first, size, first, size),
+                                prior_.between(first, size, 0, measured_.push.size()), rigid);
+  }
+
+ private:
+  const Response& response_;
+  Prior prior_;
+  MeasuredGaussian measured_;
+};
 
 }  // namespace
 
@@ -241,20 +261,19 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
     const Eigen::VectorXd smoothed = d - variance.cwiseProduct(chosen.push);
     fit.smoothed = Eigen::Map<const Points>(smoothed.data(), displacement.rows(), 3);
   }
+  const Behind behind(response, fit, d, variance);
   const Eigen::Index asked = (response.compliance.rows() - m) / 3;
   fit.covariance.resize(asked, 6);
   for (Eigen::Index a = 0; a < asked; ++a) {
-    fit.covariance.row(a) = six_entries(factor * covariance_behind(response, prior, chosen, m + 3 * a, 3));
+    fit.covariance.row(a) = six_entries(factor * behind.covariance(m + 3 * a, 3));
   }
   return fit;
 }
 
 Eigen::MatrixXd posterior_covariance(const Response& response, const Points& sigma, const MeasuredFit& fit) {
   const Eigen::Index m = sigma.size(), rest = response.compliance.rows() - m;
-  const Prior prior(response, fit.weight, fit.smooth);
-  const MeasuredGaussian measured(prior.between(0, m, 0, m), response.rigid.topRows(m), Eigen::VectorXd::Zero(m),
-                                  stacked_rows(sigma).cwiseAbs2());
-  return fit.noise_factor * fit.noise_factor * covariance_behind(response, prior, measured, m, rest);
+  const Behind behind(response, fit, Eigen::VectorXd::Zero(m), stacked_rows(sigma).cwiseAbs2());
+  return fit.noise_factor * fit.noise_factor * behind.covariance(m, rest);
 }
 
 Eigen::Matrix<double, 1, 6> six_entries(const Eigen::Matrix3d& c) {

@@ -6,6 +6,7 @@
 
 #include "solve/interface/unfit_parts.hpp"
 #include "solve/load/noisy_load.hpp"
+#include "solve/load/openings.hpp"
 #include "solve/load/spread_out.hpp"
 #include "solve/measured/inner_rows.hpp"
 #include "solve/measured/surprise.hpp"
@@ -139,8 +140,10 @@ void add_smooth_motion(const Asked& asked, const ShapeRows& rows, Response& resp
     }
   }
   const StiffBody& body = asked.thinned.stiff;
-  const Carried carried = carried_motion(body, asked.conditions, rows);
+  const ShapeRows at_nodes = asked.shape.evaluate(body.cloud.positions, false);
+  const Carried carried = carried_motion(body, asked.conditions, at_nodes, rows);
   const auto own = static_cast<Eigen::Index>(on_cortex.size());
+  response.shortest = usual_distance(asked.positions(on_cortex, Eigen::all));
   response.sites = stacked(asked.positions(on_cortex, Eigen::all), body.cloud.positions(carried.nodes, Eigen::all));
   response.carry = Eigen::MatrixXd::Zero(response.compliance.rows(), 3 * response.sites.rows());
   response.carry.rightCols(carried.motion.cols()) = carried.motion;

@@ -100,13 +100,26 @@ TEST(CarriedMotion, TakesTheBodyAlongAsAWhole) {
   for (const Eigen::Index a : {24, 30, 200, 310}) {
     measured.spread.insert(a, measured.spread.nonZeros()) = 1;
   }
-  const Carried carried = carried_motion(stiff_body(box.parts, false), box.parts.cloud.conditions, box.rows());
+  const Carried carried =
+      carried_motion(stiff_body(box.parts, false), box.parts.cloud.conditions, box.parts.nodal_rows, box.rows());
   ASSERT_EQ(carried.nodes, (std::vector<Eigen::Index>{24, 30, 200, 310}));
   const Eigen::MatrixXd opening =
       rigid_motions(box.parts.cloud.positions(carried.nodes, Eigen::all), box.model.cloud.positions);
   const Points places = box.parts.cloud.positions(box.at, Eigen::all);
   const Eigen::MatrixXd expected = rigid_motions(places, box.model.cloud.positions);
   EXPECT_LT((carried.motion * opening - expected).norm(), 0.02 * expected.norm());
+}
+
+TEST(CarriedMotion, IsAtMeasuredNodesWhatTheyWereGiven) {
+  Parts box(true);
+  Measurement& measured = box.parts.cloud.conditions.measured.emplace();
+  measured.spread.resize(static_cast<Eigen::Index>(box.parts.cloud.size()), 3);
+  for (const std::int32_t a : box.at) {
+    measured.spread.insert(a, measured.spread.nonZeros()) = 1;
+  }
+  const Carried carried =
+      carried_motion(stiff_body(box.parts, false), box.parts.cloud.conditions, box.parts.nodal_rows, box.rows());
+  EXPECT_LT((carried.motion - Eigen::MatrixXd::Identity(9, 9)).cwiseAbs().maxCoeff(), 0.03);
 }
 
 }  // namespace brainshift::solve::response_test
