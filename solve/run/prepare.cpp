@@ -276,7 +276,7 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   if (model.resection) {
     leave_out(*model.resection, placed);
   }
-  const bool may_part = visibility || model.resection;
+  const bool may_part = visibility || model.resection || (is_pushed(model) && !model.skull);
   if (may_part && !model.face_contact && options.dynamics == Dynamics::relaxation) {  // a face may hold the other
     check_parts_held(parts.cloud, placed.rows, model);
   }

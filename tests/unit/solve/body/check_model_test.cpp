@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/specimen.hpp"
 
@@ -36,6 +38,44 @@ TEST(CheckModel, WantsSomethingThatMovesAndSomethingThatHolds) {
   model.gravity.setZero();
   model.materials[1].swelling = 0.1;
   EXPECT_NE(refusal(model).find("nothing holds the body"), std::string::npos) << refusal(model);
+}
+
+template <class Value>
+void append_twin(std::vector<Value>& values, Value more = {}) {
+  const std::vector<Value> first = values;
+  for (const Value value : first) {
+    values.push_back(value + more);
+  }
+}
+
+void append_twin(Points& positions, const Eigen::RowVector3d& aside) {
+  const Points first = positions;
+  positions.resize(2 * first.rows(), 3);
+  positions << first, first.rowwise() + aside;
+}
+
+/// A cube that is pressed, and one beside it that nothing holds.
+Model with_loose_twin() {
+  const Eigen::RowVector3d aside(3 * model_side, 0, 0);
+  Model model = uniaxial(0.9, 4);
+  const Points prescribed = model.conditions.displacement;
+  append_twin(model.cells.connectivity, static_cast<std::int32_t>(model.cells.vertices.rows()));
+  append_twin(model.cells.vertices, aside);
+  append_twin(model.cells.inside_fraction);
+  append_twin(model.cells.label);
+  append_twin(model.cloud.positions, aside);
+  append_twin(model.cloud.spacing);
+  append_twin(model.cloud.on_surface);
+  model.conditions = test::all_free(model.cloud);
+  model.conditions.displacement.topRows(prescribed.rows()) = prescribed;
+  return model;
+}
+
+TEST(CheckModel, WantsEachPartHeldWhereSomethingPushesIt) {
+  Model model = with_loose_twin();
+  EXPECT_EQ(refusal(model), "") << "it stays";
+  model.gravity = {0, 0, -1};
+  EXPECT_NE(refusal(model).find("in parts, and the part about (210"), std::string::npos) << refusal(model);
 }
 
 }  // namespace brainshift::solve::check_model_test

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "solve/material/named_materials.hpp"
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/specimen.hpp"
 
@@ -75,6 +76,22 @@ TEST(Relaxation, BoundsTheErrorOfAStiffPartThatWeighsOnASoftOne) {
 }
 
 /// As of two layers of nodes between bonded plates. From a coarse solution on only rounding moves.
+/// An Ogden tissue has no stiffness there, and one that is nearly so has an enormous one.
+TEST(Relaxation, GoesOnFromRestWhereItsStartTurnsPointsInsideOut) {
+  Model model = uniaxial(0.75, 5);
+  model.materials[1] = named_material("brain_ogden").value();
+  const SolveResult right = solve(model, {});
+  model.last.emplace();
+  model.last->positions = model.cloud.positions;
+  model.last->spacing = model.cloud.spacing;
+  model.last->displacement = -1.5 * model.cloud.positions;
+  SolveOptions options;
+  options.start = Start::coarse;
+  const SolveResult result = solve(model, options);
+  ASSERT_TRUE(result.failure.empty()) << result.failure;
+  EXPECT_LE((result.solution.displacement - right.solution.displacement).rowwise().norm().maxCoeff(), 0.02);
+}
+
 TEST(Relaxation, EndsWhereEveryNodeIsHeld) {
   const Eigen::Matrix3d stretch = Eigen::Vector3d(0.02, 0.02, -0.05).asDiagonal();
   Model model = box_model(test::box_cells(5, side), 8);
