@@ -81,7 +81,7 @@ void end_well_when_crashing() {
 }
 
 [[noreturn]] void leave_interrupted(int signal) {
-  say(0, "interrupted; finished stages are kept, the same command continues from them");
+  say(0, "interrupted; what was finished is kept, and a run goes on from it with the same command");
   _exit(128 + signal);
 }
 

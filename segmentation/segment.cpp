@@ -152,6 +152,9 @@ void note_missed(Segmentation& result, const std::string& name, const SurfaceMea
        << 100 * std::abs(measures.volume / measures.label_volume - 1) << " % and 95 % of it lie within "
        << measures.boundary_distance_95
        << " mm of the labels' boundary, where 1 % and 1 mm are aimed at: it is smoother than the labels";
+  if (measures.lost_before > most_lost_before) {
+    text << ", and had lost " << 100 * measures.lost_before << " % of their volume, thin parts, before it was fitted";
+  }
   result.notes.push_back(text.str());
 }
 

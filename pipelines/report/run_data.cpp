@@ -24,7 +24,12 @@ json read_record(const fs::path& file) {
     throw std::invalid_argument("there is no " + file.string() + ": give the folder of a finished run");
   }
   try {
-    return json::parse(stream);
+    json record = json::parse(stream);
+    if (record.contains("states")) {
+      throw std::invalid_argument(file.parent_path().string() +
+                                  ": the folder of a sequence; give that of one of its states, states/NAME in it");
+    }
+    return record;
   } catch (const json::exception& fault) {
     throw std::invalid_argument(file.string() + " is no run record (" + fault.what() + "): run the scene again");
   }

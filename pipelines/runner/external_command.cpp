@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <deque>
 
 #include <algorithm>
 #include <csignal>
@@ -24,16 +25,24 @@ std::string quoted(const std::filesystem::path& path) {
   return text + "'";
 }
 
-std::string last_line(const std::filesystem::path& file) {
+/// At most the last twenty that are not empty: the folder they lie in goes when the command has failed.
+std::string last_lines(const std::filesystem::path& file) {
+  constexpr std::size_t most = 20;
   std::ifstream stream(file);
-  std::string line;
-  std::string last;
-  while (std::getline(stream, line)) {
+  std::deque<std::string> last;
+  for (std::string line; std::getline(stream, line);) {
     if (!line.empty()) {
-      last = line;
+      last.push_back(line);
+    }
+    if (last.size() > most) {
+      last.pop_front();
     }
   }
-  return last;
+  std::string text;
+  for (const std::string& line : last) {
+    text += (text.empty() ? "" : "\n  ") + line;
+  }
+  return text;
 }
 
 /// In the child: never returns. Only calls that are safe after fork.
@@ -86,7 +95,7 @@ void run_external_command(const ExternalCommand& command, Interruption& interrup
   interruption.set_command(0);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    const std::string said = last_line(log);
+    const std::string said = last_lines(log);
     throw std::invalid_argument("the command '" + command.command + "' ended with code " + std::to_string(code) +
                                 (said.empty() ? ", saying nothing" : ", saying: " + said));
   }

@@ -141,7 +141,7 @@ Warnings warnings_of(const solve::Model& model, const Points& displacement) {
   }
   return {"nothing but the load holds the brain, so all of it follows the opening (half of it by more than " +
           with_digits(median(lengths_of(displacement))) +
-          " mm); in a patient the skull holds it: add <contact/>, unless that is meant"};
+          " mm); in a patient the skull holds it: add <contact/> (of a stage alone --skull), unless that is meant"};
 }
 
 void append(const Warnings& more, Warnings& warnings) {
@@ -307,6 +307,17 @@ Warnings warnings_of_cavity(const solve::SolveMeasures& measures) {
           "other; expect no accuracy there better than two spacings"};
 }
 
+Warnings warnings_of_noise(const solve::SolveMeasures& measures) {
+  constexpr double far_less = 0.4;  // what was given counts as one point, so that few points do not come so low
+  if (!measures.measured || measures.measured->noise_factor >= far_less) {
+    return {};
+  }
+  return {
+      "the measured points agree " + with_digits(1 / measures.measured->noise_factor) +
+      " times better with each other than the noise that is given lets expect: the load may be followed too little; "
+      "give the noise of one component in mm, as a standard deviation"};
+}
+
 constexpr std::size_t few_nodes = 500;
 
 /// Of many nodes a tissue that they hardly resolve, as a ventricle, does little to the rest.
@@ -314,12 +325,12 @@ bool does_little(const solve::ThinPart& part, const solve::SolveMeasures& measur
   return part.is_tissue && measures.estimated_error_95 && measures.nodes >= few_nodes;
 }
 
-/// The parts that do little, or the others: "tissue 2 2.7, ...".
+/// The parts that do little, or the others: "tissue 2 (2.7), ...".
 std::string thin_parts(const solve::SolveMeasures& measures, bool doing_little) {
   std::string parts;
   for (const solve::ThinPart& part : measures.thin) {
     if (does_little(part, measures) == doing_little) {
-      parts += (parts.empty() ? "" : ", ") + part.what + " " + with_digits(part.spacings);
+      parts += (parts.empty() ? "" : ", ") + part.what + " (" + with_digits(part.spacings) + ")";
     }
   }
   return parts;
@@ -333,15 +344,16 @@ Warnings warnings_of_few_nodes(const solve::SolveMeasures& measures) {
   return {(measures.estimated_error_95
                ? "for want of nodes the answer may be farther off than is estimated"
                : "nothing says how far off the answer is for want of nodes, and it may be far off") +
-          (": spacings across, where four are needed, " + parts) + "; take more nodes"};
+          (": fewer than four node spacings thick are " + parts) + "; take more nodes"};
 }
 
 }  // namespace
 
 Warnings warnings_of(const solve::SolveMeasures& measures) {
   Warnings warnings = warnings_of_points(measures);
-  for (const Warnings& more : {warnings_of_pressure(measures), warnings_of_compression(measures),
-                               warnings_of_cavity(measures), warnings_of_few_nodes(measures)}) {
+  for (const Warnings& more :
+       {warnings_of_pressure(measures), warnings_of_compression(measures), warnings_of_cavity(measures),
+        warnings_of_noise(measures), warnings_of_few_nodes(measures)}) {
     append(more, warnings);
   }
   return warnings;
@@ -350,7 +362,7 @@ Warnings warnings_of(const solve::SolveMeasures& measures) {
 std::vector<std::string> notes_of(const solve::SolveMeasures& measures) {
   std::vector<std::string> notes;
   if (const std::string parts = thin_parts(measures, true); !parts.empty()) {
-    notes.push_back("spacings of the nodes across, where it takes four for the motion within: " + parts);
+    notes.push_back("fewer than four node spacings thick, so that motion within is not resolved: " + parts);
   }
   if (measures.converged && !measures.estimated_error_95 && thin_parts(measures, false).empty()) {
     notes.emplace_back("nothing estimates how far off this answer is for want of nodes: hold it against one on more");

@@ -61,10 +61,21 @@ void check_names(const std::vector<fs::path>& files, const fs::path& out) {
   }
 }
 
+nlohmann::json record_in(const fs::path& folder) {
+  std::ifstream stream(folder / "run.json");
+  return nlohmann::json::parse(stream, nullptr, false);
+}
+
+/// A sequence has the fields of each state.
+void check_is_one_state(const fs::path& run) {
+  if (const auto record = record_in(run); record.is_object() && record.contains("states")) {
+    refuse(run, "the folder of a sequence; give that of one of its states, states/NAME in it");
+  }
+}
+
 /// A later run that did not get so far, or still goes on, leaves the fields of an earlier one.
 void check_up_to_date(const fs::path& fields) {
-  std::ifstream stream(fields / "../run.json");
-  const auto record = nlohmann::json::parse(stream, nullptr, false);
+  const auto record = record_in(fields / "..");
   if (!record.is_object() || !record.contains("stages")) {
     return;  // fields alone
   }
@@ -87,6 +98,7 @@ std::vector<std::string> warp_files(const std::vector<fs::path>& files, registra
 }
 
 std::vector<std::string> warp_files(const WarpJob& job, const fs::path& out) {
+  check_is_one_state(job.run);
   const fs::path stage = job.run / "register";
   const fs::path folder = fs::is_directory(stage) ? stage : job.run;
   check_up_to_date(folder);

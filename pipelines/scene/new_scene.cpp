@@ -209,6 +209,10 @@ class Writer {
 
   void write_load() {
     xml_.OpenElement("load");
+    if (files_.points.size() == 1 && files_.points[0].extension() != ".csv") {
+      throw std::invalid_argument(files_.points[0].string() +
+                                  ": markups and surfaces come in pairs, before and after; give both to --points");
+    }
     if (files_.points.size() == 1) {
       const auto load = solve::read_craniotomy_csv(files_.points[0]);
       take(files_.points[0], std::to_string(load.positions.rows()) + " measured displacements");

@@ -21,18 +21,18 @@ SurfaceMeasures measured(const Surface& surface, const Mask& mask, double edge_l
   return measures;
 }
 
-// volume_before: before it was fitted. A surface that has to swell much to hold its volume has lost its thin parts.
-bool faithful(const SurfaceMeasures& measures, double volume_before) {
-  return std::abs(volume_before - measures.label_volume) <= 0.05 * measures.label_volume &&
+bool faithful(const SurfaceMeasures& measures) {
+  return measures.lost_before <= most_lost_before &&
          std::abs(measures.volume - measures.label_volume) <= 0.01 * measures.label_volume &&
          measures.boundary_distance_95 <= 1.0;
 }
 
 MeasuredSurface fitted(Surface surface, const Mask& mask, double edge_length) {
-  const double volume_before = volume(surface);
+  const double before = volume(surface);
   fit_volume(surface, volume(mask));
   SurfaceMeasures measures = measured(surface, mask, edge_length);
-  measures.within_bounds = faithful(measures, volume_before);
+  measures.lost_before = std::abs(before / measures.label_volume - 1);
+  measures.within_bounds = faithful(measures);
   return {std::move(surface), measures};
 }
 

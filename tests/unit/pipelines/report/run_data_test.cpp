@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/expect_parts.hpp"
 #include "tests/unit/pipelines/report/small_run.hpp"
 #include "tests/unit/pipelines/run_folder.hpp"
 
@@ -21,6 +22,11 @@ TEST_F(RunDataTest, PartsThatTheRunDidNotMakeAreEmpty) {
   EXPECT_FALSE(run.t1 || run.warped || run.forward || run.brain || run.solution || run.labels || run.warped_labels ||
                run.jacobian);
   EXPECT_EQ(dynamics_of(run.record), solve::Dynamics::relaxation);
+}
+
+TEST_F(RunDataTest, OfASequenceOneStateIsWanted) {
+  write("run.json", R"({"states": {"open": {}}})");
+  test::expect_parts(test::refusal([&] { read_run(folder_); }), {"sequence", "states/NAME"});
 }
 
 TEST(RunData, LoadedIsWhatHasAReaction) {

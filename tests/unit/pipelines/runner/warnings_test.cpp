@@ -207,6 +207,17 @@ solve::SolveMeasures of_many_points() {
   return measures;
 }
 
+TEST(Warnings, TellOfPointsThatAgreeFarBetterThanTheirNoise) {
+  solve::SolveMeasures measures = of_many_points();
+  measures.measured.emplace();
+  for (const double fine : {0.5, 1.0, 3.0}) {
+    measures.measured->noise_factor = fine;
+    EXPECT_TRUE(warnings_of(measures).empty()) << fine;
+  }
+  measures.measured->noise_factor = 0.25;
+  expect_parts(warnings_of(measures).front(), {"4 times better", "standard deviation"});
+}
+
 TEST(Warnings, TellOfFewPointsInAPressedBody) {
   solve::SolveMeasures measures;
   measures.nodes = 1000;

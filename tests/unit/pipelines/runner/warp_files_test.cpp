@@ -72,6 +72,13 @@ TEST_F(WarpFiles, ImagesAreWhatTheStageMakesOrOnAnothersGrid) {
   EXPECT_TRUE(same_geometry(read_image(folder_ / "back/warped_t1.nii.gz").geometry, like.geometry));
 }
 
+TEST_F(WarpFiles, OfASequenceOneStateIsWanted) {
+  write("run.json", R"({"states": {"open": {}}})");
+  expect_parts(
+      refusal([&] { warp_files({.run = folder_, .files = {}, .like = {}, .options = {.grid = {}}}, folder_ / "out"); }),
+      {"sequence", "states/NAME"});
+}
+
 TEST_F(WarpFiles, WhatLiesOutsideTheImageIsTold) {
   const fs::path file = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n500,0,0\n");
   expect_parts(warp({file}, Towards::intraop, "out").front(), {"2 points", "1 lie outside the run's image"});
