@@ -23,7 +23,7 @@ struct SurfaceMeasures {
   bool closed = false;              ///< every edge between two triangles, 2-manifold
   bool outward = false;             ///< the triangles face outward
   bool self_intersecting = true;
-  bool repaired = false;       ///< made with the rescue (alpha wrap)
+  bool repaired = false;  ///< made with the rescue (alpha wrap)
   /// Of a mask: volume within 1 %, boundary_distance_95 within 1 mm, lost_before within most_lost_before.
   bool within_bounds = false;
 
