@@ -47,6 +47,5 @@ target_link_libraries(readme PRIVATE brainshift::segmentation brainshift::regist
 END
 cmake -S readme -B readme/build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$scratch/prefix"
 cmake --build readme/build
-mkdir -p out
 readme/build/readme
-test -s out/warped.nii.gz
+test -s head/warped.nii.gz

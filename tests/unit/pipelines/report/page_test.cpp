@@ -210,7 +210,7 @@ TEST(Page, ExplainsTheWeightOfALoadWithNoiseAndHintsWhereThereIsNone) {
   content.weights = weight_figures(measures);
   const std::string page = make_page(content);
   EXPECT_FALSE(has(page, hint));
-  EXPECT_TRUE(has(page, "tried 0.5 mJ"));
+  EXPECT_TRUE(has(page, "0.5 mJ was chosen"));
   EXPECT_TRUE(has(page, "id=\"weights\""));
   EXPECT_TRUE(has(page, "the one that was taken, 0.5 mJ"));
   EXPECT_FALSE(has(page, "taken for motion"));

@@ -251,9 +251,9 @@ TEST(Warnings, TellOfFewerPointsThanNodes) {
 TEST(Warnings, TellOfFewSpacingsAcrossAPatch) {
   solve::SolveMeasures measures = of_many_points();
   measures.thin = {{"the held patch", 3.2}};
-  expect_parts(warnings_of(measures).front(), {"nothing says how far off", "the held patch 3.2"});
+  expect_parts(warnings_of(measures).front(), {"nothing says how far off", "the held patch (3.2)"});
   measures.estimated_error_95 = 0.3;
-  expect_parts(warnings_of(measures).front(), {"farther off than is estimated", "the held patch 3.2"});
+  expect_parts(warnings_of(measures).front(), {"farther off than is estimated", "the held patch (3.2)"});
 }
 
 /// A ventricle nearly always is: no alarm where the rest is estimated.
@@ -268,7 +268,7 @@ TEST(Warnings, OfATissueThatIsFewSpacingsAcrossAreNotesWhereNodesAreMany) {
   measures.nodes = 600;
   EXPECT_TRUE(warnings_of(measures).empty());
   ASSERT_EQ(notes_of(measures).size(), 1U);
-  expect_parts(notes_of(measures).front(), {"four", "tissue 2 2.7"});
+  expect_parts(notes_of(measures).front(), {"four", "tissue 2 (2.7)"});
 }
 
 TEST(Warnings, HaveANoteWhereNothingEstimatesTheError) {
@@ -306,7 +306,7 @@ TEST(Warnings, TellOfPartsThatFewNodesHardlyResolve) {
   measures.integration_points = 800;
   measures.thin = {{"the moved patch", 2.13}, {"tissue 3", 1.5}};
   ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"how far off", "the moved patch 2.1, tissue 3 1.5", "more nodes"});
+  expect_parts(warnings_of(measures).front(), {"how far off", "the moved patch (2.1), tissue 3 (1.5)", "more nodes"});
 }
 
 TEST(Warnings, TellOfAFieldThatFolds) {
