@@ -15,6 +15,7 @@ from ellipsoids import covered, distances, symmetric, write_table
 from patients import BRAIN, numbers, read_labels, rows_of, write_landmarks, write_load
 
 TRUTHS, PLACES, GIVEN, NOISE = 6, 150, 20, 0.5
+NEAR, NEARER = 75, 30  # more places within so many mm of the measured points: of all places few lie there
 NODES = 12000  # of fewer, which tissues are much stiffer than others changes the answer as much as constants do
 ALIKE = 'craniotomy_factor="1"'  # the nodes know nothing of the load
 XYZ = ("x", "y", "z", "ux", "uy", "uz")
@@ -22,11 +23,22 @@ STIFFNESS = 0.25
 COVERED = (0.90, 0.98)
 
 
-def places_in(labels, random):
+def brain_in(labels):
     voxels, affine = read_labels(labels)
-    inside = np.argwhere(np.isin(voxels, BRAIN))
-    chosen = inside[random.choice(len(inside), PLACES, replace=False)]
-    return chosen @ affine[:, :3].T + affine[:, 3]
+    return np.argwhere(np.isin(voxels, BRAIN)) @ affine[:, :3].T + affine[:, 3]
+
+
+def chosen(places, count, random):
+    return places[random.choice(len(places), count, replace=False)]
+
+
+def places_in(labels, random):
+    return chosen(brain_in(labels), PLACES, random)
+
+
+def places_near(labels, measured, random):
+    inside = brain_in(labels)
+    return chosen(inside[distances(inside, measured) < NEARER], NEAR, random)
 
 
 def phantom_scene(program, folder, nodes):
@@ -60,9 +72,10 @@ def main(program, out):
     random = np.random.default_rng(1)
     work = out / "head"
     text, measured = phantom_scene(program, work, NODES)
-    places = places_in(work / "labels.nii.gz", random)
+    places = np.vstack([places_in(work / "labels.nii.gz", random),
+                        places_near(work / "labels.nii.gz", measured[:, :3], np.random.default_rng(2))])
     write_landmarks(work / "landmarks.fcsv", places)
-    found = []
+    found, everywhere = [], []
     for truth in range(TRUTHS):
         write_load(work / "craniotomy.csv", measured[:, :3], measured[:, 3:])
         true = run(program, work, with_constants(text, random), out / "run")
@@ -72,13 +85,12 @@ def main(program, out):
         error = run(program, work, told, out / "run") - true
         six = numbers(rows_of(out / "run" / "solve" / "uncertainty.csv"), ("xx", "yy", "zz", "xy", "yz", "zx"))
         found += list(zip(distances(places, given[:, :3]), error, symmetric(six)))
+        everywhere += found[-len(places):][:PLACES]
         print(f"truth {truth + 1}: error {np.linalg.norm(error, axis=1).mean():.2f} mm", flush=True)
     write_table(out / "coverage.md", found)
-    inside = np.mean([covered(error, covariance) for _, error, covariance in found])
-    if not COVERED[0] <= inside <= COVERED[1]:
-        print(f"{100 * inside:.1f} % of the places lie inside their 95 % ellipsoid")
-        return 1
-    return 0
+    inside = np.mean([covered(error, covariance) for _, error, covariance in everywhere])
+    print(f"{100 * inside:.1f} % of {len(everywhere)} places all over the brain lie inside their 95 % ellipsoid")
+    return 0 if COVERED[0] <= inside <= COVERED[1] else 1
 
 
 if __name__ == "__main__":
