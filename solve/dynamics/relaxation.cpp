@@ -90,9 +90,6 @@ class Relaxation {
         look();
         report_window(progress, result.steps, motion_.time, error_bound_, tolerance(), done_);
         if (motion_.time >= 1 && error_bound_ <= tolerance() && no_change_is_left() && ends_soundly()) {
-          if (rounding_hides() > tolerance()) {
-            fail_at_standstill();
-          }
           return finish();
         }
         if (bound_.stands_still(rounding())) {
@@ -292,15 +289,6 @@ class Relaxation {
 
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
   double rounding() const { return rounding_of_step(farthest_, points().precision()); }
-
-  /// How far off a slow motion may still be whose steps rounding hides, mm: forces that balance to a rounding of the
-  /// parameters move it by so much over its eigenvalue. Measured: 0.3 to 2 times that on plates and on blocks that
-  /// single nodes hold; heads that rock in their skull are off by less than their bound, and are left alone.
-  double rounding_hides() const {
-    constexpr double half_a_digit = 6e-8;
-    const bool may_hide = points().precision() == Precision::single_precision && !motion_.body.contact;
-    return may_hide ? half_a_digit * farthest_ / lowest_ : 0;
-  }
 
   void fail_at_standstill() {
     motion_.result.rounded = points().precision() == Precision::single_precision;
