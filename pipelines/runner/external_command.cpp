@@ -4,10 +4,10 @@
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <deque>
 
 #include <algorithm>
 #include <csignal>
+#include <deque>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>

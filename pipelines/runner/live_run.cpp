@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "pipelines/runner/input_states.hpp"
 #include "pipelines/runner/own_folder.hpp"
+#include "pipelines/runner/read_run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "register/field/moving_part.hpp"
 #include "register/field/resampling_field.hpp"
@@ -48,8 +48,7 @@ std::string name_of(int number) {
 
 /// The grid of the fields is the image's, too.
 void check_image(const fs::path& run, const fs::path& t1) {
-  std::ifstream stream(run / "run.json");
-  const auto record = nlohmann::json::parse(stream, nullptr, false);
+  const auto record = read_run_record(run);
   for (const auto& input : record["inputs"]) {
     if (input.value("role", "") == "image.t1" && input.value("sha256", "") != InputStates().sha256(t1)) {
       refuse(t1, "the image has changed since the run was made; run the scene again");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/run.hpp"
 
-#include <fstream>
 #include <span>
 
 #include "pipelines/runner/folder_lock.hpp"
+#include "pipelines/runner/read_run_record.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 
@@ -44,8 +44,7 @@ void outdate(std::span<const Scene> later, const fs::path& out, nlohmann::ordere
              Interruption& interruption) {
   for (const Scene& state : later) {
     const fs::path folder = state_folder(out, state.state->name);
-    std::ifstream stream(folder / "run.json");
-    auto record = nlohmann::ordered_json::parse(stream, nullptr, false);
+    auto record = read_run_record(folder);
     if (!record.is_object() || !record.contains("stages")) {
       continue;
     }

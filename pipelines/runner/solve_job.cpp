@@ -13,7 +13,6 @@
 #include "pipelines/runner/warnings.hpp"
 #include "pipelines/scene/field_load.hpp"
 #include "segmentation/files/surface_file.hpp"
-#include "segmentation/geometry/surface_tree.hpp"
 #include "solve/cut/septum.hpp"
 #include "solve/load/near_surface.hpp"
 #include "solve/load/noisy_load.hpp"
@@ -195,17 +194,16 @@ solve::CraniotomyLoad read_load(const Load& load, const fs::path& surface) {
 }
 
 /// A centre that was meant for another frame lies as far off as that.
-void note_far_centre(const Load& load, const fs::path& surface, std::vector<std::string>& notes) {
+void note_far_centre(const Load& load, const Points& opening, std::vector<std::string>& notes) {
   if (!load.simulated) {
     return;
   }
-  const Surface brain = read_surface(surface);
-  const Eigen::Vector3d place = SurfaceTree(brain).nearest(load.simulated->centre).position;
-  const double far = (place - load.simulated->centre).norm();
+  Eigen::Index nearest = 0;
+  const double far = (opening.rowwise() - load.simulated->centre.transpose()).rowwise().norm().minCoeff(&nearest);
   if (far > load.opening.farthest) {
     std::ostringstream text;
     text << std::setprecision(3) << "warning: the simulated opening's centre lies " << far
-         << " mm off the brain's surface, so the opening is about " << place.transpose()
+         << " mm off the brain's surface, so the opening is about " << opening.row(nearest)
          << "; give a centre on the cortex, in mm of the image (LPS)";
     notes.push_back(text.str());
   }
@@ -247,7 +245,7 @@ SolveInput read_input(const SolveJob& job) {
     impose_field(*job.load, input);
   } else if (job.load) {
     input.load = read_load(*job.load, job.surface);
-    note_far_centre(*job.load, job.surface, input.notes);
+    note_far_centre(*job.load, input.load->positions, input.notes);
     solve::CraniotomyLoad& load = *input.load;
     add_noise(*job.load, load);
     naming(load_files(*job.load), [&] {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/update_run.hpp"
 
-#include <fstream>
-
 #include "pipelines/runner/impose.hpp"
 #include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/plan.hpp"
+#include "pipelines/runner/read_run_record.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/sha256.hpp"
 #include "pipelines/scene/describe_scene.hpp"
@@ -23,8 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 nlohmann::ordered_json record_of(const fs::path& run) {
-  std::ifstream stream(run / "run.json");
-  auto record = nlohmann::ordered_json::parse(stream, nullptr, false);
+  auto record = read_run_record(run);
   if (!record.is_object() || !record.contains("scene") || !record["scene"].is_string() || !record.contains("version") ||
       !record["version"].is_string() || !record.contains("options") || !record["options"].is_object() ||
       !record.contains("inputs") || !record["inputs"].is_array()) {

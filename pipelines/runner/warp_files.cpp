@@ -2,10 +2,10 @@
 #include "pipelines/runner/warp_files.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "pipelines/runner/read_run_record.hpp"
 #include "register/files/warped_name.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/image/frame_note.hpp"
@@ -61,25 +61,20 @@ void check_names(const std::vector<fs::path>& files, const fs::path& out) {
   }
 }
 
-nlohmann::json record_in(const fs::path& folder) {
-  std::ifstream stream(folder / "run.json");
-  return nlohmann::json::parse(stream, nullptr, false);
-}
-
 /// A sequence has the fields of each state.
 void check_is_one_state(const fs::path& run) {
-  if (const auto record = record_in(run); record.is_object() && record.contains("states")) {
+  if (const auto record = read_run_record(run); record.is_object() && record.contains("states")) {
     refuse(run, "the folder of a sequence; give that of one of its states, states/NAME in it");
   }
 }
 
 /// A later run that did not get so far, or still goes on, leaves the fields of an earlier one.
 void check_up_to_date(const fs::path& fields) {
-  const auto record = record_in(fields / "..");
+  const auto record = read_run_record(fields / "..");
   if (!record.is_object() || !record.contains("stages")) {
     return;  // fields alone
   }
-  const std::string status = record.value(nlohmann::json::json_pointer("/stages/register/status"), "");
+  const std::string status = record.value(nlohmann::ordered_json::json_pointer("/stages/register/status"), "");
   if (status != "done" && status != "kept") {
     refuse(fields, "its fields are of an earlier run: the scene has changed since; run it again to the end");
   }

@@ -11,15 +11,12 @@
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/load/joined_points.hpp"
 #include "solve/load/near_surface.hpp"
+#include "solve/load/openings.hpp"
 #include "solve/load/spread_out.hpp"
 
 namespace brainshift::solve {
 
 namespace {
-
-CraniotomyLoad rows_of(const CraniotomyLoad& load, const std::vector<Eigen::Index>& rows) {
-  return {load.positions(rows, Eigen::all), load.displacement(rows, Eigen::all), load.sigma(rows, Eigen::all)};
-}
 
 /// Depth below the surface about the nearest surface nodes, along the normal of their plane; negative outside.
 double depth_below(const Points& rim, const PointTree& tree, const Eigen::RowVector3d& middle,

@@ -28,7 +28,7 @@ CraniotomyLoad on_cortex(const Surface& brain, const CraniotomyLoad& load) {
       kept.push_back(p);
     }
   }
-  return {load.positions(kept, Eigen::all), load.displacement(kept, Eigen::all), {}};
+  return rows_of(load, kept);
 }
 
 /// The place on an edge, one end of which lies beyond the rim.

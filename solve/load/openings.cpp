@@ -43,14 +43,6 @@ std::vector<int> groups_of(const Points& places, double gap) {
   return group;
 }
 
-CraniotomyLoad part_of(const CraniotomyLoad& load, const std::vector<Eigen::Index>& rows) {
-  CraniotomyLoad part{load.positions(rows, Eigen::all), load.displacement(rows, Eigen::all), {}};
-  if (load.sigma.rows() > 0) {
-    part.sigma = load.sigma(rows, Eigen::all);
-  }
-  return part;
-}
-
 }  // namespace
 
 double usual_distance(const Points& points) {
@@ -62,6 +54,14 @@ double usual_distance(const Points& points) {
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return *middle;
+}
+
+CraniotomyLoad rows_of(const CraniotomyLoad& load, const std::vector<Eigen::Index>& rows) {
+  CraniotomyLoad part{load.positions(rows, Eigen::all), load.displacement(rows, Eigen::all), {}};
+  if (load.sigma.rows() > 0) {
+    part.sigma = load.sigma(rows, Eigen::all);
+  }
+  return part;
 }
 
 std::vector<CraniotomyLoad> openings(const CraniotomyLoad& load) {
@@ -79,7 +79,7 @@ std::vector<CraniotomyLoad> openings(const CraniotomyLoad& load) {
   }
   std::vector<CraniotomyLoad> parts;
   for (const std::vector<Eigen::Index>& of_group : rows) {
-    parts.push_back(part_of(load, of_group));
+    parts.push_back(rows_of(load, of_group));
   }
   return parts;
 }

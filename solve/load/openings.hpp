@@ -11,6 +11,9 @@ namespace brainshift::solve {
 /// The median distance from a point to its nearest neighbour, mm; 0 for points in one place. points (n × 3).
 double usual_distance(const Points& points);
 
+/// These of a load's points, with their deviations where it has any.
+CraniotomyLoad rows_of(const CraniotomyLoad& load, const std::vector<Eigen::Index>& rows);
+
 /// The load by its openings, those of the first points first. Two points belong to one where steps of at most three
 /// times the usual distance between neighbours, or 30 mm where that is more, lead from one to the other. Between two
 /// openings nothing was measured: a spline across the cortex there would prescribe what nobody saw.

@@ -261,9 +261,12 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
     const Eigen::VectorXd smoothed = d - variance.cwiseProduct(chosen.push);
     fit.smoothed = Eigen::Map<const Points>(smoothed.data(), displacement.rows(), 3);
   }
-  const Behind behind(response, fit, d, variance);
   const Eigen::Index asked = (response.compliance.rows() - m) / 3;
   fit.covariance.resize(asked, 6);
+  if (asked == 0) {
+    return fit;
+  }
+  const Behind behind(response, fit, d, variance);
   for (Eigen::Index a = 0; a < asked; ++a) {
     fit.covariance.row(a) = six_entries(factor * behind.covariance(m + 3 * a, 3));
   }

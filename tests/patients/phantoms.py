@@ -36,11 +36,6 @@ def places_in(labels, random):
     return chosen(brain_in(labels), PLACES, random)
 
 
-def places_near(labels, measured, random):
-    inside = brain_in(labels)
-    return chosen(inside[distances(inside, measured) < NEARER], NEAR, random)
-
-
 def phantom_scene(program, folder, nodes):
     """The scene of a phantom whose runs all have the same nodes, and all its measured points.
 
@@ -72,8 +67,9 @@ def main(program, out):
     random = np.random.default_rng(1)
     work = out / "head"
     text, measured = phantom_scene(program, work, NODES)
-    places = np.vstack([places_in(work / "labels.nii.gz", random),
-                        places_near(work / "labels.nii.gz", measured[:, :3], np.random.default_rng(2))])
+    brain = brain_in(work / "labels.nii.gz")
+    near = brain[distances(brain, measured[:, :3]) < NEARER]
+    places = np.vstack([chosen(brain, PLACES, random), chosen(near, NEAR, np.random.default_rng(2))])
     write_landmarks(work / "landmarks.fcsv", places)
     found, everywhere = [], []
     for truth in range(TRUTHS):
@@ -84,8 +80,9 @@ def main(program, out):
         told = text.replace("<load>", f'<load noise="{NOISE}">').replace("<contact/>", "<contact/><uncertainty/>")
         error = run(program, work, told, out / "run") - true
         six = numbers(rows_of(out / "run" / "solve" / "uncertainty.csv"), ("xx", "yy", "zz", "xy", "yz", "zx"))
-        found += list(zip(distances(places, given[:, :3]), error, symmetric(six)))
-        everywhere += found[-len(places):][:PLACES]
+        of_truth = list(zip(distances(places, given[:, :3]), error, symmetric(six)))
+        found += of_truth
+        everywhere += of_truth[:PLACES]
         print(f"truth {truth + 1}: error {np.linalg.norm(error, axis=1).mean():.2f} mm", flush=True)
     write_table(out / "coverage.md", found)
     inside = np.mean([covered(error, covariance) for _, error, covariance in everywhere])
