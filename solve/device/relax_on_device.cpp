@@ -93,6 +93,10 @@ class Relaxation {
               stands_still(result_.steps - ErrorBound::standstill, error_bound_, tolerance(), precision());
         }
       }
+      if (result_.failure.empty() && outlasts(precision(), bound_.loaded_steps(), farthest_, tolerance())) {
+        result_.rounded = true;
+        result_.failure = outlasts_single(result_.steps, error_bound_, tolerance());
+      }
     }
     if (result_.failure.empty()) {
       result_.failure = not_converged(result_.steps, error_bound_, tolerance());

@@ -32,6 +32,9 @@ class ErrorBound {
   /// Steps without progress that are a standstill.
   static constexpr int standstill = 400;
 
+  /// Steps under the whole load.
+  int loaded_steps() const { return static_cast<int>(loaded_) * window_; }
+
   /// Whether steps under the whole load have stopped growing shorter: in the last half of a standstill they are as
   /// large as in the half before, and no larger than `rounding`, mm. The bound then stays what it is.
   bool stands_still(double rounding) const;

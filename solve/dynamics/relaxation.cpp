@@ -101,6 +101,10 @@ class Relaxation {
             fail_at_standstill();
           }
         }
+        if (result.failure.empty() && outlasts(points().precision(), bound_.loaded_steps(), farthest_, tolerance())) {
+          result.rounded = true;
+          result.failure = outlasts_single(result.steps, error_bound_, tolerance());
+        }
       }
     }
     if (result.failure.empty()) {

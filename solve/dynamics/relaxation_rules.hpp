@@ -87,6 +87,16 @@ inline double rounding_of_step(double farthest, Precision precision) {
                                                    : std::numeric_limits<double>::epsilon());
 }
 
+/// Whether a relaxation is so slow that single precision may bring it to rest farther off than is wanted, mm. Rounding
+/// of forces moves the slowest motion by up to 6e-8 |û| / A_0, and a body takes some 4/√A_0 steps under the whole load.
+/// A_0 itself does not tell it, as near the end that is of steps that are rounding. Plates a cell thick, which
+/// ended 2.8 to 5.8 times their bound off, and blocks that single nodes hold (1.4 times) took 3,460 steps and more.
+inline bool outlasts(Precision precision, int loaded_steps, double farthest, double wanted) {
+  constexpr double of_rounding = 5e-10;  // a component, times the square of the steps: half of what is wanted at most
+  const double steps = loaded_steps;
+  return precision == Precision::single_precision && of_rounding * farthest * steps * steps > wanted;
+}
+
 /// Whether steps are so short that A_0, read off two of them, is too high: rounding stirs quick motions up, which count
 /// there with their own eigenvalues. Of a ball with a stiff layer it rose from 3e-5 to 1e-4 where 6e-6 is right.
 inline bool feels_rounding(double moved, double farthest, Precision precision) {

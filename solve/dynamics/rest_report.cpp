@@ -22,6 +22,13 @@ std::string stands_still(int since, double error_bound, double tolerance, Precis
   return text.str();
 }
 
+std::string outlasts_single(int steps, double error_bound, double tolerance) {
+  std::ostringstream text;
+  text << "not converged after " << steps << " steps: the error bound is " << error_bound << " mm, wanted " << tolerance
+       << " mm, and single precision may not tell where so slow a body rests; take double precision";
+  return text.str();
+}
+
 void report_window(const Progress& progress, int steps, double time, double error_bound, double tolerance,
                    double& done) {
   std::ostringstream text;

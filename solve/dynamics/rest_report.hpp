@@ -16,6 +16,9 @@ std::string not_converged(int steps, double error_bound, double tolerance);
 /// Steps that are rounding since one of them.
 std::string stands_still(int since, double error_bound, double tolerance, Precision precision);
 
+/// Too many steps for single precision.
+std::string outlasts_single(int steps, double error_bound, double tolerance);
+
 /// Reports a window; done: what was reported so far, as a bound may rise.
 void report_window(const Progress& progress, int steps, double time, double error_bound, double tolerance,
                    double& done);

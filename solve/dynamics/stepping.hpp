@@ -59,7 +59,7 @@ struct SteppingResult {
   double error_bound = 0;      ///< mm; relaxation only
   double critical_step = 0;    ///< s, of the undeformed body; transient only
   bool unstable = false;       ///< failed because it blew up, not for want of steps
-  bool rounded = false;        ///< failed because single precision moves the body no nearer to its rest
+  bool rounded = false;        ///< failed for want of double precision
   std::string failure;         ///< empty when all went well
   std::optional<Fault> fault;  ///< where, when something went wrong at a place
 };

@@ -59,6 +59,9 @@ struct Way {
     if (loaded && bound.with_spans(spans.value()) <= wanted) {
       return End::rest;
     }
+    if (outlasts(precision, bound.loaded_steps(), farthest, wanted)) {
+      return End::left;
+    }
     if (!bound.stands_still(rounding_of_step(farthest, precision))) {
       return std::nullopt;
     }

@@ -203,7 +203,7 @@ SolveResult solve_region(const Model& model, const SolveOptions& given, const Pr
   measures.seconds_setup = setup.seconds();
   SolveResult solved = step_to_end(part, options, std::move(prepared), measures, {}, progress);
   solved.measures.coarse_error = error_next_to_rim(region, solved.solution.displacement, *coarse, options.region);
-  if (solved.measures.coarse_error > trusted * options.region) {
+  if (solved.rounded || solved.measures.coarse_error > trusted * options.region) {
     return solve_whole(model, given, start.seconds(), progress);
   }
   return on_whole_cloud(model, region, *coarse, std::move(solved));

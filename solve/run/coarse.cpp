@@ -146,6 +146,11 @@ std::optional<CoarseSolution> solved_on(const std::vector<std::int32_t>& nodes, 
                                         const SolveOptions& given, const Progress& progress) {
   auto [coarse, options, measures, prepared] = coarse_body(nodes, model, given, progress);
   const SolveResult result = step_to_end(coarse, options, std::move(prepared), measures, {}, progress);
+  if (result.rounded) {
+    SolveOptions doubled = given;
+    doubled.precision = Precision::double_precision;
+    return solved_on(nodes, model, doubled, progress);
+  }
   if (!result.failure.empty()) {
     return std::nullopt;
   }

@@ -289,9 +289,12 @@ bool tells_more(const SolveResult& next, const SolveResult& result) {
 }
 
 /// The first of the further attempts that ends well, else what tells most. One that runs out of steps leaves half as
-/// many to the next.
-SolveResult try_again(const Model& model, const SolveOptions& options, const SolveMeasures& known, SolveResult result,
+/// many to the next. What single precision has come to is where double goes on.
+SolveResult try_again(Model model, const SolveOptions& options, const SolveMeasures& known, SolveResult result,
                       const Progress& progress) {
+  if (result.rounded) {
+    model.last = result.solution;
+  }
   int steps = options.max_steps;
   std::string tried;
   for (auto& [other, what] : further_attempts(result, options)) {

@@ -34,4 +34,18 @@ TEST(StepsOfLoad, AreThoseThatAreAskedForInPlaneStress) {
   EXPECT_EQ(steps({0.4999}, true), 400);
 }
 
+TEST(SinglePrecision, IsOutlastedSoonerByWhatMovesFartherOrIsWantedNearer) {
+  const auto steps = [](double farthest, double wanted) {
+    int n = 0;
+    while (!outlasts(Precision::single_precision, n, farthest, wanted)) {
+      n += usual_window;
+    }
+    return n;
+  };
+  EXPECT_NEAR(steps(10, 0.01), 1400, 40) << "a head takes up to 760";
+  EXPECT_NEAR(steps(40, 0.01), steps(10, 0.01) / 2, 40);
+  EXPECT_NEAR(steps(10, 0.0025), steps(10, 0.01) / 2, 40);
+  EXPECT_FALSE(outlasts(Precision::double_precision, 1'000'000, 10, 0.01));
+}
+
 }  // namespace brainshift::solve::relaxation_rules_test
