@@ -137,8 +137,7 @@ pipelines::Warnings warnings_on(const solve::CraniotomyLoad& load, const solve::
   pipelines::append(warnings_of(load, model, result.solution.displacement), all);
   if (result.measures.measured) {
     pipelines::append(warnings_of(solve::worst_of_joined(load)), all);
-    pipelines::append(warnings_of(solve::worst_outlier(solve::thinned_body(model, options.shape), model.conditions)),
-                      all);
+    pipelines::append(warnings_of(solve::outliers(solve::thinned_body(model, options.shape), model.conditions)), all);
   }
   return all;
 }

@@ -107,7 +107,7 @@ void write_measured(const SolveInput& input, const solve::SolveResult& result, c
     return;
   }
   const solve::MeasuredFit& fit = *result.measures.measured;
-  warn(warnings_of(solve::worst_outlier(solve::thinned_body(input.model, input.options.shape), input.model.conditions)),
+  warn(warnings_of(solve::outliers(solve::thinned_body(input.model, input.options.shape), input.model.conditions)),
        said);
   if (input.registration) {
     solve::write_rigid(out / "registration_error.tfm", *input.registration);

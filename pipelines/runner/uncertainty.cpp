@@ -295,7 +295,8 @@ Spread write_spread(const UncertaintyJob& job, const Solved& solved, const fs::p
   const Points& positions = solved.result.solution.positions;
   Spread spread{Eigen::MatrixXd::Zero(positions.rows(), 6), Eigen::MatrixXd::Zero(positions.rows(), 6)};
   if (solved.result.measures.measured) {
-    spread.noise = solve::measured_covariance(solved.model, solved.options, *solved.result.measures.measured);
+    spread.noise = solve::measured_covariance(solved.model, solved.options, *solved.result.measures.measured,
+                                              solved.result.solution.displacement);
   }
   if (solve::varies(solved.model, job.options)) {
     spread.constants = spread_of_constants(job, solved, out, said, progress);

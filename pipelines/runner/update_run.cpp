@@ -204,7 +204,7 @@ Warnings UpdatedRun::warnings() const {
   Warnings all;
   if (conditions.measured) {
     append(warnings_of(solve::worst_of_joined(load)), all);
-    append(warnings_of(solve::worst_outlier(*kept_.thinned, conditions)), all);
+    append(warnings_of(solve::outliers(*kept_.thinned, conditions)), all);
   }
   append(warnings_of(load, cloud(), conditions), all);
   return all;

@@ -76,6 +76,25 @@ Warnings warnings_of_repeated(const solve::CraniotomyLoad& load) {
   return {};
 }
 
+/// How far the measured points move away from the middle of the surface in the mean, mm, where that is most of how they
+/// move and enough to be seen; else 0.
+double moved_out(const solve::CraniotomyLoad& load, const NodeCloud& cloud) {
+  constexpr double seen = 1, most = 0.7;
+  const Eigen::RowVector3d middle = surface_of(cloud).colwise().mean();
+  const Points outwards = (load.positions.rowwise() - middle).rowwise().normalized();
+  const double out = load.displacement.cwiseProduct(outwards).rowwise().sum().mean();
+  return out > std::max(seen, most * load.displacement.rowwise().norm().mean()) ? out : 0;
+}
+
+/// "(1 2 3), (4 5 6)", whole mm.
+std::string listed(const Points& places) {
+  std::string text;
+  for (const auto& x : places.rowwise()) {
+    text += (text.empty() ? "(" : ", (") + write_numbers(Eigen::RowVector3d(x.array().round())) + ")";
+  }
+  return text;
+}
+
 }  // namespace
 
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed) {
@@ -91,6 +110,11 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
   append(warnings_of_repeated(load), warnings);
   if (load.displacement.isZero(0)) {
     warnings.emplace_back("all measured displacements are 0");
+  }
+  if (const double out = moved_out(load, cloud); out > 0) {
+    warnings.push_back("the measured points move out of the head, by " + with_digits(out) +
+                       " mm in the mean, as those of a brain that swells; if it sank, turn the signs: a displacement "
+                       "is where a point came to less where it was");
   }
   constexpr double hardly_any = 0.1;
   if (const double share = solve::share_not_taken(load.positions, cloud, prescribed); share > hardly_any) {
@@ -370,27 +394,31 @@ std::vector<std::string> notes_of(const solve::SolveMeasures& measures) {
   return notes;
 }
 
-Warnings warnings_of(const std::optional<solve::Outlier>& outlier) {
-  if (!outlier) {
+Warnings warnings_of(std::span<const solve::Outlier> outliers) {
+  if (outliers.empty()) {
     return {};
   }
-  return {
-      "what was measured near (" + write_numbers(outlier->position.array().round().matrix()) + ") mm is " +
-      with_digits(outlier->deviations) +
-      " standard deviations from what the other points say; look at the points there, and give a wrong one a larger "
-      "sigma or take it out"};
+  Points places(std::ssize(outliers), 3);
+  for (std::size_t i = 0; i < outliers.size(); ++i) {
+    places.row(static_cast<Eigen::Index>(i)) = outliers[i].position;
+  }
+  return {"what was measured near " + listed(places) + " mm is " + (outliers.size() > 1 ? "up to " : "") +
+          with_digits(outliers.front().deviations) +
+          " standard deviations from what the other points say; look at the points there, and give a wrong one a "
+          "larger sigma or take it out, or let such points count for less with robust=\"yes\""};
+}
+
+Warnings warnings_of(const std::optional<solve::Outlier>& outlier) {
+  return outlier ? warnings_of(std::span(&*outlier, 1)) : Warnings();
 }
 
 Warnings warnings_of(const solve::LessenedPoints& lessened) {
   if (lessened.positions.rows() == 0) {
     return {};
   }
-  std::string places;
-  for (const auto& x : lessened.positions.rowwise()) {
-    places += (places.empty() ? "(" : ", (") + write_numbers(Eigen::RowVector3d(x.array().round())) + ")";
-  }
   return {"of " + std::to_string(lessened.all) + " measured points " + std::to_string(lessened.positions.rows()) +
-          " contradict the others and count for less than half: at " + places + " mm; look at what was measured there"};
+          " contradict the others and count for less than half: at " + listed(lessened.positions) +
+          " mm; look at what was measured there"};
 }
 
 Warnings warnings_of(const registration::RegisterMeasures& measures) {

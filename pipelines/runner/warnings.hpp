@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ namespace brainshift::pipelines {
 /// What is no fault, but most likely not what the user means: a sentence each.
 using Warnings = std::vector<std::string>;
 
-/// Of points that lie off the brain's surface, that are too few or lie on a line, do not move, or are lost. prescribed:
+/// Of points that lie off the brain's surface, that are too few or lie on a line, do not move, move out of the head, or
+/// are lost. prescribed:
 /// what became of them.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed);
 
@@ -59,7 +61,8 @@ Warnings warnings_of(const solve::SolveMeasures& measures);
 /// Of tissues that many nodes hardly resolve, and of an error that nothing estimates.
 std::vector<std::string> notes_of(const solve::SolveMeasures& measures);
 
-/// Of what was measured where it contradicts itself.
+/// Of what was measured where it contradicts itself; the farthest off first.
+Warnings warnings_of(std::span<const solve::Outlier> outliers);
 Warnings warnings_of(const std::optional<solve::Outlier>& outlier);
 
 /// Of measured points that count for less than half.

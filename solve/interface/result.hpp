@@ -117,6 +117,7 @@ struct MeasuredFit {
   double motion_size = 1;                                   ///< mm a turn of 1 moves by
   /// (asked × 6) mm²: xx, yy, zz, xy, yz, zx of the displacement at the places that were asked for.
   Eigen::MatrixXd covariance;
+  Points linear = Points(0, 3);  ///< (asked × 3) mm: that displacement as the linear body of the fit has it
 };
 
 /// Below this stretch a free face of soft matter creases under uniaxial compression (Hong, Zhao & Suo 2009).
@@ -184,7 +185,7 @@ struct SolveResult {
   SolveMeasures measures;
   std::string failure;    ///< empty when converged; else one sentence: what went wrong, where and when (exit 3)
   bool unstable = false;  ///< failed because it blew up, not for want of steps
-  bool rounded = false;   ///< failed because single precision moves the body no nearer to its rest
+  bool rounded = false;   ///< failed for want of double precision
 };
 
 }  // namespace brainshift::solve

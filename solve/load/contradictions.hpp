@@ -29,7 +29,7 @@ struct LessenedPoints {
 
 /// Of the measured points that joined() would join, the one that is farthest from the mean of the others with which it
 /// is joined, where that is more than five standard deviations of their distance, and five times farther than is usual
-/// of this load. Their mean would hide it from worst_outlier(). load: with standard deviations.
+/// of this load. Their mean would hide it from outliers(). load: with standard deviations.
 std::optional<Outlier> worst_of_joined(const CraniotomyLoad& load);
 
 /// Raises the standard deviations of such points until none is left, so that they hardly count in the mean; of two in

@@ -27,13 +27,18 @@ double biweight(double r) {
   return in * in;
 }
 
-/// Of each point the residual of leaving it out, P_ii⁻¹ (P d)_i, whose covariance is P_ii⁻¹ less what the variance was
-/// raised by.
-Eigen::VectorXd left_out(const Response& response, const Eigen::VectorXd& d, const Eigen::VectorXd& variance,
-                         const Eigen::VectorXd& raised, const MeasuredFit& fit) {
-  const Eigen::Index m = d.size();
+}  // namespace
+
+/// The residual of leaving a point out is P_ii⁻¹ (P d)_i; its covariance is P_ii⁻¹ less what the variance was raised
+/// by.
+Eigen::VectorXd surprise(const Response& response, const Points& displacement, const Points& sigma,
+                         const Points& weighed, const MeasuredFit& fit) {
+  const Eigen::VectorXd variance = stacked_rows(weighed).cwiseAbs2();
+  const Eigen::VectorXd raised = variance - stacked_rows(sigma).cwiseAbs2();
+  const Eigen::Index m = variance.size();
   const Prior prior(response, fit.weight, fit.smooth);
-  const MeasuredGaussian measured(prior.between(0, m, 0, m), response.rigid.topRows(m), d, variance);
+  const MeasuredGaussian measured(prior.between(0, m, 0, m), response.rigid.topRows(m), stacked_rows(displacement),
+                                  variance);
   const Eigen::MatrixXd p = measured.precision();
   Eigen::VectorXd result(m / 3);
   for (Eigen::Index i = 0; i < m / 3; ++i) {
@@ -45,34 +50,23 @@ Eigen::VectorXd left_out(const Response& response, const Eigen::VectorXd& d, con
   return result;
 }
 
-}  // namespace
-
-Eigen::VectorXd surprise(const Response& response, const Points& displacement, const Points& sigma,
-                         const MeasuredFit& fit) {
-  const Eigen::VectorXd variance = stacked_rows(sigma).cwiseAbs2();
-  return left_out(response, stacked_rows(displacement), variance, Eigen::VectorXd::Zero(variance.size()), fit);
-}
-
-Eigen::VectorXd robust_weights(const Response& response, const Points& displacement, const Points& sigma,
-                               double weight) {
+Trust robust_trust(const Response& response, const Points& displacement, const Points& sigma, double weight) {
   constexpr int most_rounds = 50;
   constexpr double settled = 0.01;
-  const Eigen::VectorXd d = stacked_rows(displacement), own = stacked_rows(sigma).cwiseAbs2();
-  Eigen::VectorXd left = Eigen::VectorXd::Ones(displacement.rows());
+  Trust trust{.weight = Eigen::VectorXd::Ones(displacement.rows()), .surprise = {}};
   for (int round = 0; round < most_rounds; ++round) {
-    const Points raised = sigma.array().colwise() / left.array().sqrt();
-    const Eigen::VectorXd variance = stacked_rows(raised).cwiseAbs2();
-    const MeasuredFit fit = choose_weight(response, displacement, raised, weight);
-    const Eigen::VectorXd off = left_out(response, d, variance, variance - own, fit);
-    const double usual = std::max(1.0, median(off) / usual_surprise);
-    const Eigen::VectorXd next = off.unaryExpr([&](double r) { return std::max(least_trust, biweight(r / usual)); });
-    const double moved = (next - left).cwiseAbs().maxCoeff();
-    left = next;
+    const Points weighed = sigma.array().colwise() / trust.weight.array().sqrt();
+    const MeasuredFit fit = choose_weight(response, displacement, weighed, weight);
+    const Eigen::VectorXd off = surprise(response, displacement, sigma, weighed, fit);
+    trust.surprise = off / std::max(1.0, median(off) / usual_surprise);
+    const Eigen::VectorXd next = trust.surprise.unaryExpr([](double r) { return std::max(least_trust, biweight(r)); });
+    const double moved = (next - trust.weight).cwiseAbs().maxCoeff();
+    trust.weight = next;
     if (moved < settled) {
       break;
     }
   }
-  return left;
+  return trust;
 }
 
 }  // namespace brainshift::solve

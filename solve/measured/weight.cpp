@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/measured/weight.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <array>
@@ -201,38 +202,6 @@ class Likelihood {
   std::vector<double> weights_, amplitudes_;  // mJ, mm
 };
 
-/// The smooth motion as it is believed for what is said of the error: no more parallel than to some degrees.
-SmoothMotion doubted(SmoothMotion smooth) {
-  constexpr double least_across = 0.05;  // over along
-  smooth.across = std::max(smooth.across, least_across * smooth.along);
-  return smooth;
-}
-
-/// Covariance, mm², of the displacements behind the measured ones, in the frame of the image: of a body that is held
-/// the rigid motion is the patient's, not the brain's. What carries the answer is likely; this is to hold the truth,
-/// so it believes of the smooth motion that it is rougher and less parallel.
-class Behind {
- public:
-  Behind(const Response& response, const MeasuredFit& fit, const Eigen::VectorXd& d, const Eigen::VectorXd& variance)
-      : response_(response),
-        prior_(response, fit.weight, doubted(fit.smooth), Alike::matern),
-        measured_(prior_.between(0, d.size(), 0, d.size()), response.rigid.topRows(d.size()), d, variance) {}
-
-  Eigen::MatrixXd covariance(Eigen::Index first, Eigen::Index size) const {
-    Eigen::MatrixXd rigid = response_.rigid.middleRows(first, size);
-    if (!response_.free) {
-      rigid.setZero();
-    }
-    return measured_.covariance(prior_.between(first, size, first, size),
-                                prior_.between(first, size, 0, measured_.push.size()), rigid);
-  }
-
- private:
-  const Response& response_;
-  Prior prior_;
-  MeasuredGaussian measured_;
-};
-
 }  // namespace
 
 MeasuredFit choose_weight(const Response& response, const Points& displacement, const Points& sigma, double weight) {
@@ -261,26 +230,43 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
     const Eigen::VectorXd smoothed = d - variance.cwiseProduct(chosen.push);
     fit.smoothed = Eigen::Map<const Points>(smoothed.data(), displacement.rows(), 3);
   }
-  const Eigen::Index asked = (response.compliance.rows() - m) / 3;
-  fit.covariance.resize(asked, 6);
-  if (asked == 0) {
-    return fit;
-  }
-  const Behind behind(response, fit, d, variance);
-  for (Eigen::Index a = 0; a < asked; ++a) {
-    fit.covariance.row(a) = six_entries(factor * behind.covariance(m + 3 * a, 3));
-  }
   return fit;
 }
 
-Eigen::MatrixXd posterior_covariance(const Response& response, const Points& sigma, const MeasuredFit& fit) {
-  const Eigen::Index m = sigma.size(), rest = response.compliance.rows() - m;
-  const Behind behind(response, fit, Eigen::VectorXd::Zero(m), stacked_rows(sigma).cwiseAbs2());
-  return fit.noise_factor * fit.noise_factor * behind.covariance(m, rest);
+Posterior posterior(const Response& response, const Points& displacement, const Points& sigma, const MeasuredFit& fit) {
+  const Eigen::VectorXd d = stacked_rows(displacement), variance = stacked_rows(sigma).cwiseAbs2();
+  const Eigen::Index m = d.size(), rest = response.compliance.rows() - m;
+  const Eigen::MatrixXd rigid = response.rigid.topRows(m);
+  Eigen::MatrixXd their_rigid = response.rigid.bottomRows(rest);
+  if (!response.free) {
+    their_rigid.setZero();
+  }
+  const Prior likely(response, fit.weight, fit.smooth), careful(response, fit.weight, fit.smooth, Alike::matern);
+  const MeasuredGaussian answer(likely.between(0, m, 0, m), rigid, d, variance);
+  const MeasuredGaussian doubt(careful.between(0, m, 0, m), rigid, d, variance);
+  Eigen::VectorXd mean = likely.between(m, rest, 0, m) * answer.push;
+  if (their_rigid.cols() > 0) {
+    mean += their_rigid * answer.motion;
+  }
+  const double factor = fit.noise_factor * fit.noise_factor;
+  return {.covariance =
+              factor * doubt.covariance(careful.between(m, rest, m, rest), careful.between(m, rest, 0, m), their_rigid),
+          .mean = Eigen::Map<const Points>(mean.data(), rest / 3, 3)};
 }
 
-Eigen::Matrix<double, 1, 6> six_entries(const Eigen::Matrix3d& c) {
+SixEntries six_entries(const Eigen::Matrix3d& c) {
   return {c(0, 0), c(1, 1), c(2, 2), c(0, 1), c(1, 2), c(2, 0)};
+}
+
+SixEntries as_said(const SixEntries& c, const Eigen::RowVector3d& linear, const Eigen::RowVector3d& answered) {
+  const double doubt = std::sqrt(c.head<3>().sum());
+  const double times = doubt > 0 ? std::min(1.0, (answered.norm() + doubt) / (linear.norm() + doubt)) : 1;
+  const Eigen::Matrix3d matrix{{c[0], c[3], c[5]}, {c[3], c[1], c[4]}, {c[5], c[4], c[2]}};
+  const double longest =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[2];
+  SixEntries said = c / 2;
+  said.head<3>().array() += longest / 2;
+  return times * times * said;
 }
 
 }  // namespace brainshift::solve

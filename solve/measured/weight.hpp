@@ -13,17 +13,34 @@ namespace brainshift::solve {
 /// the response has sites, a smooth motion of the opening beside it, unless the points are as likely without: three
 /// more numbers must gain three in the likelihood (Akaike 1974). s is searched where the prior's standard deviation at
 /// the points is between a tenth of the mean σ and ten times the largest |d|; a weight that is given (mJ) is taken
-/// alone. displacement, sigma: (m × 3) mm, of the first m points of the response, of which the first 60 choose; of
-/// those behind them the covariance of the displacement is given, with noise and prior as large as what was measured
-/// says (noise_factor). `smoothed` are all m points. Throws std::invalid_argument where the points do not fix a rigid
-/// motion.
+/// alone. displacement, sigma: (m × 3) mm, of the first m points of the response, of which the first 60 choose.
+/// `smoothed` are all m points; covariance and linear stay empty. Throws std::invalid_argument where the points do not
+/// fix a rigid motion.
 MeasuredFit choose_weight(const Response& response, const Points& displacement, const Points& sigma, double weight = 0);
 
-/// The joint covariance (mm²) of all displacements behind the m measured points of the response, (3a × 3a), under the
-/// prior and with the noise_factor of a fit: the prior's less what the measured points say. sigma: (m × 3) mm.
-Eigen::MatrixXd posterior_covariance(const Response& response, const Points& sigma, const MeasuredFit& fit);
+/// What the linear body says of the displacements behind the measured points.
+struct Posterior {
+  Eigen::MatrixXd covariance;  ///< joint, (3a × 3a) mm²
+  Points mean;                 ///< (a × 3) mm
+};
+
+/// Of all a places behind the m measured points of the response, by the prior of a fit, with noise and prior as large
+/// as what was measured says (noise_factor). displacement, sigma: (m × 3) mm. In the frame of the image: of a body that
+/// is held the rigid motion is the patient's, not the brain's. The mean is what the answer's prior finds. The
+/// covariance is to hold the truth, so it believes that the smooth motion is rougher, Alike::matern.
+Posterior posterior(const Response& response, const Points& displacement, const Points& sigma, const MeasuredFit& fit);
 
 /// xx, yy, zz, xy, yz, zx of a symmetric matrix: a row of a table of covariances.
-Eigen::Matrix<double, 1, 6> six_entries(const Eigen::Matrix3d& c);
+using SixEntries = Eigen::Matrix<double, 1, 6>;
+SixEntries six_entries(const Eigen::Matrix3d& c);
+
+/// The covariance c (mm²) of a place as it is said once the answer is known; linear, answered: the displacement there,
+/// mm, by the linear body and by the answer. The linear body of some hundred nodes that carries errors there slides
+/// along its skull and never leaves it: far from the opening it may move by twice as much as the answer does, and
+/// errors are carried as the motion is. So c is made smaller where the answer is, as far as that can be told from
+/// errors. And the body knows better how large errors are than where they point: on a phantom and a FreeSurfer head
+/// errors along the shortest axis were twice as long as that. So what is said is the mean of c and of the ball about
+/// its longest axis.
+SixEntries as_said(const SixEntries& c, const Eigen::RowVector3d& linear, const Eigen::RowVector3d& answered);
 
 }  // namespace brainshift::solve

@@ -2,6 +2,7 @@
 #include "solve/run/measured.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "solve/interface/unfit_parts.hpp"
@@ -75,6 +76,31 @@ Eigen::MatrixXd covariance_of(const ShapeRows& rows, const Eigen::MatrixXd& join
     result.row(static_cast<Eigen::Index>(i)) = six_entries(sum);
   }
   return result;
+}
+
+/// Φ û of each row, (rows × 3).
+Points values_of(const ShapeRows& rows, const Points& parameters) {
+  Points values = Points::Zero(static_cast<Eigen::Index>(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t a = 0; a < rows[i].size(); ++a) {
+      values.row(static_cast<Eigen::Index>(i)) += rows[i].value[a] * parameters.row(rows[i].node[a]);
+    }
+  }
+  return values;
+}
+
+/// The displacement of an answer as rows of the thinned body see it. displacement: at the nodes of the whole cloud.
+Points answered_at(const ShapeRows& rows, const ThinnedBody& thinned, const ShapeFunctions& shape,
+                   const Points& displacement) {
+  return values_of(
+      rows, parameters_from_displacement(shape, thinned.stiff.cloud.positions, displacement(thinned.node, Eigen::all)));
+}
+
+/// Of each place, as_said().
+void say(const Points& linear, const Points& answered, Eigen::MatrixXd& covariance) {
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
+    covariance.row(i) = as_said(covariance.row(i), linear.row(i), answered.row(i));
+  }
 }
 
 /// What the fit is made on: the thinned body, and what is measured, spread out first.
@@ -164,6 +190,14 @@ MeasuredFit fit_measured(const ThinnedBody& thinned, const Conditions& condition
   Response response = asked.response(rows, places);
   add_smooth_motion(asked, rows, response);
   MeasuredFit fit = choose_weight(response, asked.displacement, asked.sigma, measured.weight);
+  if (measured.asked.rows() > 0) {
+    Posterior there = posterior(response, asked.displacement, asked.sigma, fit);
+    fit.linear = std::move(there.mean);
+    fit.covariance.resize(fit.linear.rows(), 6);
+    for (Eigen::Index a = 0; a < fit.linear.rows(); ++a) {
+      fit.covariance.row(a) = six_entries(there.covariance.block<3, 3>(3 * a, 3 * a));
+    }
+  }
   fit.motion_centre = asked.positions.colwise().mean().transpose();
   fit.motion_size = (asked.positions.rowwise() - fit.motion_centre.transpose()).rowwise().norm().mean();
   if (fit.smooth.length > 0) {
@@ -191,7 +225,17 @@ Conditions weighed_conditions(Conditions conditions, const MeasuredFit& fit) {
   return conditions;
 }
 
-Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit) {
+void say_by_answer(const ThinnedBody& thinned, const Points& asked, const Points& displacement, MeasuredFit& fit) {
+  if (asked.rows() == 0) {
+    return;
+  }
+  const ShapeFunctions shape = thinned.shape();
+  const ShapeRows rows = inner_rows(shape, within_sight(asked, thinned.stiff.cloud.positions));
+  say(fit.linear, answered_at(rows, thinned, shape, displacement), fit.covariance);
+}
+
+Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit,
+                                    const Points& displacement) {
   const ThinnedBody thinned = thinned_body(model, options.shape);
   const Asked asked(thinned, model.conditions);
   ShapeRows rows = inner_rows(asked.shape, asked.positions);
@@ -199,8 +243,10 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
   const Points places = stacked(asked.positions, thinned.stiff.cloud.positions);
   Response response = asked.response(rows, places);
   add_smooth_motion(asked, rows, response);
-  const Eigen::MatrixXd joint = posterior_covariance(response, asked.sigma, fit);
-  Eigen::MatrixXd covariance = covariance_of(inner_rows(asked.shape, model.cloud.positions), joint);
+  const Posterior of_nodes = posterior(response, asked.displacement, asked.sigma, fit);
+  const ShapeRows at_all = inner_rows(asked.shape, model.cloud.positions);
+  Eigen::MatrixXd covariance = covariance_of(at_all, of_nodes.covariance);
+  say(values_of(at_all, of_nodes.mean), answered_at(at_all, thinned, asked.shape, displacement), covariance);
   for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
     if (is_held(model.conditions, a)) {
       covariance.row(a).setZero();  // a ball about it reaches past the body
@@ -209,20 +255,19 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
   return covariance;
 }
 
-std::optional<Outlier> worst_outlier(const ThinnedBody& thinned, const Conditions& conditions) {
+std::vector<Outlier> outliers(const ThinnedBody& thinned, const Conditions& conditions) {
   const Asked asked(thinned, conditions);
   // Without a smooth motion: one alike over short lengths takes a wrong point for one of its own.
   const Response response = asked.response(inner_rows(asked.shape, asked.positions), asked.positions);
-  const MeasuredFit fit = choose_weight(response, asked.displacement, asked.sigma, conditions.measured->weight);
-  const Eigen::VectorXd off = surprise(response, asked.displacement, asked.sigma, fit);
-  std::vector<double> sorted(off.begin(), off.end());
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double usual = std::max(1.0, sorted[sorted.size() / 2] / usual_surprise);
-  Eigen::Index worst = 0;
-  if (!(off.maxCoeff(&worst) > surprising * usual)) {
-    return std::nullopt;
+  const Trust trust = robust_trust(response, asked.displacement, asked.sigma, conditions.measured->weight);
+  std::vector<Outlier> found;
+  for (Eigen::Index i = 0; i < trust.surprise.size(); ++i) {
+    if (trust.surprise[i] > surprising) {
+      found.push_back({asked.positions.row(i), trust.surprise[i]});
+    }
   }
-  return Outlier{asked.positions.row(worst), off[worst] / usual};
+  std::ranges::sort(found, std::greater(), &Outlier::deviations);
+  return found;
 }
 
 LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const OpeningOptions& opening) {
@@ -232,7 +277,7 @@ LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const 
   const double weight = model.conditions.measured->weight;
   const Response response = linear_response(thinned.stiff, subset(model.conditions, thinned.node),
                                             inner_rows(thinned.shape(), seen.positions));
-  const Eigen::VectorXd trust = robust_weights(response, seen.displacement, seen.sigma, weight);
+  const Eigen::VectorXd trust = robust_trust(response, seen.displacement, seen.sigma, weight).weight;
   std::vector<Eigen::Index> kept, lessened;
   for (Eigen::Index i = 0; i < trust.size(); ++i) {
     if (trust[i] > least_trust) {
@@ -256,10 +301,12 @@ LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const 
 SolveResult solve_measured(const Model& model, const SolveOptions& options, const Progress& progress) {
   check_parts(model, options);
   report(progress, 0, "weighing the deformation against the noise");
-  MeasuredFit fit = fit_measured(thinned_body(model, options.shape), model.conditions);
+  const ThinnedBody thinned = thinned_body(model, options.shape);
+  MeasuredFit fit = fit_measured(thinned, model.conditions);
   Model weighed = model;
   weighed.conditions = weighed_conditions(model.conditions, fit);
   SolveResult result = solve_whole_body(weighed, options, progress);
+  say_by_answer(thinned, model.conditions.measured->asked, result.solution.displacement, fit);
   result.measures.measured = std::move(fit);
   return result;
 }

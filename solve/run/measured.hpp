@@ -15,22 +15,28 @@
 namespace brainshift::solve {
 
 /// What measured points say of the weight, the noise and a rigid motion, by the thinned body: choose_weight().
-/// conditions: at the nodes of the whole cloud. Throws as solve() does.
+/// conditions: at the nodes of the whole cloud. The covariance is posterior()'s. Throws as solve() does.
 MeasuredFit fit_measured(const ThinnedBody& thinned, const Conditions& conditions);
+
+/// Its covariance at the places that were asked for as_said() by the answer to it. displacement: the answer's, at the
+/// nodes of the whole cloud, (n × 3) mm. Throws as solve() does.
+void say_by_answer(const ThinnedBody& thinned, const Points& asked, const Points& displacement, MeasuredFit& fit);
 
 /// What noise and prior leave open of the displacement at each node of the model's cloud, (n × 6) mm²: xx, yy, zz, xy,
 /// yz, zx of its covariance, with the weight and the noise_factor of the fit; of the thinned body, whose shape
-/// functions carry it to the others, and, as at landmarks, of the mean over a ball of seen_radius; 0 at nodes that are
-/// held. Throws as solve() does.
-Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit);
+/// functions carry it to the others, and, as at landmarks, of the mean over a ball of seen_radius, as_said() by the
+/// answer, displacement, (n × 3) mm; 0 at nodes that are held. Throws as solve() does.
+Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& options, const MeasuredFit& fit,
+                                    const Points& displacement);
 
-/// The most surprising of the measured points, by the energy of the deformation alone as prior, where it is more than
-/// five standard deviations off, and five times farther than is usual of this load: where all are far off, σ is too
-/// small, and no point is to blame. Throws as solve() does.
-std::optional<Outlier> worst_outlier(const ThinnedBody& thinned, const Conditions& conditions);
+/// The measured points that contradict the others, the farthest off first: by the energy of the deformation alone as
+/// prior, more than five standard deviations off, and five times farther than is usual of this load (where all are far
+/// off, σ is too small, and no point is to blame). The others count with robust weights, as one wrong point hides
+/// another. Throws as solve() does.
+std::vector<Outlier> outliers(const ThinnedBody& thinned, const Conditions& conditions);
 
 /// Lets the measured points that contradict the others count for less: the conditions are made anew,
-/// noisy_conditions(), without those that robust_weights() leaves nothing, and with the standard deviations of the
+/// noisy_conditions(), without those that robust_trust() leaves nothing, and with the standard deviations of the
 /// others raised by the root of their weights. Of a load of points with noise, not of a field. Throws as
 /// solve_measured() and noisy_conditions() do.
 LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const OpeningOptions& opening);

@@ -293,6 +293,9 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
   SteppingResult stepped = come_to_rest(run, course, progress);
   SolveResult result = result_of(stepped, run.options, measures);
   result.measures.seconds_stepping = stepping.seconds();
+  if (result.measures.measured) {
+    say_by_answer(*run.thinned, given.measured->asked, result.solution.displacement, *result.measures.measured);
+  }
   take(stepped, run.fine);
   if (tells_all && result.failure.empty()) {
     run.departures.learn(run.responses, from_origin, told, run.fine.parameters, result.measures.error_bound);

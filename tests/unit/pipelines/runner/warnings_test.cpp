@@ -69,6 +69,18 @@ TEST(Warnings, TellOfPointsThatAreLostOrDoNotMove) {
   expect_parts(of_points(opening(60), 0).front(), {"displacements are 0"});
 }
 
+TEST(Warnings, TellOfPointsThatMoveOutOfTheHeadAsIfASignWereTurned) {
+  const Points points = opening(60);
+  const auto moved = [&](const Eigen::RowVector3d& u) {
+    return warnings_of(solve::CraniotomyLoad{points, u.replicate(points.rows(), 1)}, ball(), prescribed_on_top());
+  };
+  ASSERT_EQ(moved({1, 0, 4}).size(), 1U);
+  expect_parts(moved({1, 0, 4}).front(), {"move out of the head, by 3.6 mm", "turn the signs"});
+  EXPECT_TRUE(moved({1, 0, -4}).empty());
+  EXPECT_TRUE(moved({4, 0, 1}).empty()) << "along the cortex";
+  EXPECT_TRUE(moved({0, 0, 0.5}).empty()) << "hardly";
+}
+
 TEST(Warnings, TellOfTwoDisplacementsInOnePlaceThatContradictEachOther) {
   const Points points = opening(60);
   solve::CraniotomyLoad load{points, Points::Constant(points.rows(), 3, 2)};

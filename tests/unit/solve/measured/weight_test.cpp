@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "solve/load/contradictions.hpp"
 #include "solve/measured/gaussian.hpp"
 #include "solve/measured/surprise.hpp"
 #include "tests/unit/scratch_folder.hpp"
@@ -98,11 +99,11 @@ TEST(Weight, EllipsoidsHoldTheTruthAsOftenAsTheySay) {
     v.diagonal().array() += 0.25;
     const Points measured = truth.topRows(known) + noise;
     const Eigen::VectorXd push = v.llt().solve(Eigen::Map<const Eigen::VectorXd>(measured.data(), 3 * known));
+    const Posterior said = posterior(response, measured, Points::Constant(known, 3, 0.5), fit);
     for (int a = 0; a < asked; ++a) {
       const Eigen::Vector3d mean =
           millijoule * fit.weight * response.compliance.block(3 * (known + a), 0, 3, 3 * known) * push;
-      const Eigen::VectorXd c = fit.covariance.row(a);
-      const Eigen::Matrix3d covariance{{c[0], c[3], c[5]}, {c[3], c[1], c[4]}, {c[5], c[4], c[2]}};
+      const Eigen::Matrix3d covariance = said.covariance.block<3, 3>(3 * a, 3 * a);
       const Eigen::Vector3d error = truth.row(known + a).transpose() - mean;
       inside += error.dot(covariance.llt().solve(error)) <= 7.815 ? 1 : 0;
     }
@@ -172,10 +173,10 @@ TEST(SmoothMotion, TakesNoiseOutOfThePointsAndItsEllipsoidsHoldTheTruth) {
     Eigen::MatrixXd v = prior.between(0, 3 * known, 0, 3 * known);
     v.diagonal().array() += 0.25;
     const Eigen::VectorXd push = v.llt().solve(stacked_rows(d));
+    const Posterior said = posterior(response, d, sigma, fit);
     for (int a = 0; a < asked; ++a) {
       const Eigen::Vector3d mean = prior.between(3 * (known + a), 3, 0, 3 * known) * push;
-      const Eigen::VectorXd c = fit.covariance.row(a);
-      const Eigen::Matrix3d covariance{{c[0], c[3], c[5]}, {c[3], c[1], c[4]}, {c[5], c[4], c[2]}};
+      const Eigen::Matrix3d covariance = said.covariance.block<3, 3>(3 * a, 3 * a);
       const Eigen::Vector3d error = truth.row(known + a).transpose() - mean;
       inside += error.dot(covariance.llt().solve(error)) <= 7.815 ? 1 : 0;
     }
@@ -185,23 +186,36 @@ TEST(SmoothMotion, TakesNoiseOutOfThePointsAndItsEllipsoidsHoldTheTruth) {
   EXPECT_LE(inside, 0.99 * draws * asked);
 }
 
-TEST(Weight, AJointCovarianceHoldsThoseOfThePlacesThatAreAskedFor) {
+TEST(Posterior, MeasuresTheRigidMotionOfAFreeBodyAndLeavesThatOfAHeldOneOut) {
   std::mt19937 random(5);
   constexpr int known = 10, asked = 4;
   const Points places = test::random_points(known + asked, 100);
   Response response = smooth_response(places);
   response.rigid = rigid_motions(places, places);
+  const Points sigma = Points::Constant(known, 3, 0.5), still = drawn(response, 1e4, random).topRows(known);
+  const Eigen::VectorXd motion = response.rigid * Eigen::VectorXd::Constant(6, 3);
+  const Points moved = still + Eigen::Map<const Points>(motion.data(), places.rows(), 3).topRows(known);
   for (const bool free : {false, true}) {
     response.free = free;
-    const Points sigma = Points::Constant(known, 3, 0.5);
-    const MeasuredFit fit = choose_weight(response, drawn(response, 1e4, random).topRows(known), sigma);
-    const Eigen::MatrixXd joint = posterior_covariance(response, sigma, fit);
-    ASSERT_EQ(joint.rows(), 3 * asked);
-    EXPECT_LT((joint - joint.transpose()).norm(), 1e-9 * joint.norm());
-    for (int a = 0; a < asked; ++a) {
-      EXPECT_LT((six_entries(joint.block<3, 3>(3 * a, 3 * a)) - fit.covariance.row(a)).norm(), 1e-9 * joint.norm());
-    }
+    const MeasuredFit fit = choose_weight(response, still, sigma);
+    const Posterior one = posterior(response, still, sigma, fit), other = posterior(response, moved, sigma, fit);
+    ASSERT_EQ(one.covariance.rows(), 3 * asked);
+    EXPECT_LT((one.covariance - one.covariance.transpose()).norm(), 1e-9 * one.covariance.norm());
+    const Points apart = Eigen::Map<const Points>(motion.data(), places.rows(), 3).bottomRows(asked);
+    EXPECT_LT((other.mean - one.mean - (free ? 1 : 0) * apart).norm(), 1e-6);
   }
+}
+
+TEST(AsSaid, IsTheMeanOfTheCovarianceAndTheBallAboutItAndSmallerWhereTheAnswerIs) {
+  const Eigen::Matrix3d c = Eigen::Vector3d(0.01, 0.04, 0.09).asDiagonal();
+  const Eigen::RowVector3d u(3, 0, 4);
+  EXPECT_LT((as_said(six_entries(c), u, u) - SixEntries(0.05, 0.065, 0.09, 0, 0, 0)).norm(), 1e-12);
+  const SixEntries half = as_said(six_entries(c), u, u / 2);
+  EXPECT_GT(half[2], 0.09 / 4);
+  EXPECT_LT(half[2], 0.09 / 3) << "what is no larger than the error hardly counts";
+  EXPECT_LT((as_said(six_entries(c), 2e-6 * u, 1e-6 * u) - as_said(six_entries(c), u, u)).norm(), 1e-5);
+  EXPECT_EQ(as_said(six_entries(c), u, 2 * u), as_said(six_entries(c), u, u));
+  EXPECT_EQ(as_said(SixEntries::Zero(), u, u), SixEntries::Zero());
 }
 
 TEST(Surprise, IsChiSquaredOfPointsThatAgreeAndLargeOfOneThatDoesNot) {
@@ -209,23 +223,23 @@ TEST(Surprise, IsChiSquaredOfPointsThatAgreeAndLargeOfOneThatDoesNot) {
   constexpr int points = 20, draws = 100;
   const Points places = test::random_points(points, 100);
   const Response response = smooth_response(places);
+  const Points sigma = Points::Constant(points, 3, 0.5);
   double mean = 0;
   for (int draw = 0; draw < draws; ++draw) {
     const Points noise = 0.5 * Eigen::Map<const Points>(normals(3 * points, random).data(), points, 3);
     const Points measured = drawn(response, 1e4, random) + noise;
-    mean +=
-        surprise(response, measured, Points::Constant(points, 3, 0.5), of_weight(1e4)).squaredNorm() / (points * draws);
+    mean += surprise(response, measured, sigma, sigma, of_weight(1e4)).squaredNorm() / (points * draws);
   }
   EXPECT_NEAR(mean, 3, 0.15);
   Points contradicted = drawn(response, 1e4, random);
   contradicted.row(7) += Eigen::RowVector3d(0, 30, 0);
-  const Eigen::VectorXd off = surprise(response, contradicted, Points::Constant(points, 3, 0.5), of_weight(1e4));
+  const Eigen::VectorXd off = surprise(response, contradicted, sigma, sigma, of_weight(1e4));
   Eigen::Index most = 0;
   EXPECT_GT(off.maxCoeff(&most), 10);
   EXPECT_EQ(most, 7);
 }
 
-TEST(RobustWeights, TakePointsOutThatContradictTheOthersAndLeaveTheRestAlmostWhole) {
+TEST(RobustTrust, TakePointsOutThatContradictTheOthersAndLeaveTheRestAlmostWhole) {
   std::mt19937 random(5);
   const Points places = test::random_points(30, 100);
   const Response response = smooth_response(places);
@@ -233,23 +247,25 @@ TEST(RobustWeights, TakePointsOutThatContradictTheOthersAndLeaveTheRestAlmostWho
   for (int draw = 0; draw < 10; ++draw) {
     const Points noise = Eigen::Map<const Points>(normals(90, random).data(), 30, 3);
     Points d = drawn(response, 4e3, random) + 0.3 * noise;
-    const Eigen::VectorXd sound = robust_weights(response, d, sigma, 0);
+    const Eigen::VectorXd sound = robust_trust(response, d, sigma, 0).weight;
     EXPECT_GT(sound.mean(), 0.75);
     d.row(3) += Eigen::RowVector3d(0, 10, 0);
     d.row(20) += Eigen::RowVector3d(-6, 0, 8);
-    const Eigen::VectorXd weights = robust_weights(response, d, sigma, 0);
+    const auto& [weights, surprises] = robust_trust(response, d, sigma, 0);
     EXPECT_LT(std::max(weights[3], weights[20]), 0.01) << draw;
+    EXPECT_GT(std::min(surprises[3], surprises[20]), surprising) << draw;
+    EXPECT_EQ((surprises.array() > surprising).count(), 2) << draw;
     EXPECT_GT(weights.sum() / 28, 0.75) << draw;
   }
 }
 
-TEST(RobustWeights, DoNotBlameThePointsWhereTheNoiseIsSaidToBeTooSmall) {
+TEST(RobustTrust, DoNotBlameThePointsWhereTheNoiseIsSaidToBeTooSmall) {
   std::mt19937 random(6);
   const Points places = test::random_points(30, 100);
   const Response response = smooth_response(places);
   const Points noise = Eigen::Map<const Points>(normals(90, random).data(), 30, 3);
   const Points d = drawn(response, 4e3, random) + noise;
-  EXPECT_GT(robust_weights(response, d, Points::Constant(30, 3, 0.1), 0).mean(), 0.7);
+  EXPECT_GT(robust_trust(response, d, Points::Constant(30, 3, 0.1), 0).weight.mean(), 0.7);
 }
 
 TEST(Weight, FindsARigidMotionBesideTheDeformation) {
