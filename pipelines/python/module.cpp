@@ -29,7 +29,7 @@
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/material/material_options.hpp"
 #include "solve/material/named_materials.hpp"
-#include "solve/run/measured.hpp"
+#include "solve/run/outliers.hpp"
 #include "solve/solve.hpp"
 #include "solve/solve_each.hpp"
 

@@ -18,7 +18,7 @@
 #include "solve/load/noisy_load.hpp"
 #include "solve/output/field_difference.hpp"
 #include "solve/output/solution_file.hpp"
-#include "solve/run/measured.hpp"
+#include "solve/run/outliers.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;

@@ -18,6 +18,7 @@
 #include "solve/material/material_options.hpp"
 #include "solve/output/solution_file.hpp"
 #include "solve/run/measured.hpp"
+#include "solve/run/measured_covariance.hpp"
 #include "solve/uncertainty/draw.hpp"
 #include "solve/uncertainty/sample.hpp"
 

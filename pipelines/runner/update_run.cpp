@@ -15,7 +15,7 @@
 #include "solve/body/nodal_order.hpp"
 #include "solve/device/kept_on_device.hpp"
 #include "solve/output/solution_file.hpp"
-#include "solve/run/measured.hpp"
+#include "solve/run/outliers.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;

@@ -11,8 +11,8 @@
 #include "register/interface/result.hpp"
 #include "solve/interface/model.hpp"
 #include "solve/interface/result.hpp"
+#include "solve/load/contradictions.hpp"
 #include "solve/load/craniotomy_load.hpp"
-#include "solve/run/measured.hpp"
 
 namespace brainshift::pipelines {
 

@@ -19,6 +19,7 @@
 #include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/measured/inner_rows.hpp"
 #include "solve/run/measured.hpp"
+#include "solve/run/measured_covariance.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "solve/shape/nodal_displacement.hpp"

@@ -12,6 +12,7 @@ import vtu
 FREE = math.nan
 YOUNG = 3000.0  # Pa, of the softest tissue
 POISSON = (0.0, 0.3, 0.45, 0.45, 0.49, 0.49, 0.49, 0.495, 0.499, 0.4999)
+ALPHA = (None, None, -8.0, -4.7, -4.7, 4.0)  # of Ogden's law, one term; None: neo-Hookean
 SOLID = ("block", "block", "cylinder", "ball", "ellipsoid", "l", "slab")
 FLAT = ("rectangle", "l")
 CLOUDS = ("regular", "jittered", "irregular", "irregular", "graded")
@@ -23,6 +24,7 @@ LOADS = ("press", "pull", "shear", "twist", "oblique", "indent", "gravity", "pla
 class Problem:
     seed: int
     small: bool = False
+    laws: bool = False  # tissues of other laws than neo-Hookean, too
     random: object = field(init=False)
 
     def __post_init__(self):
@@ -40,6 +42,9 @@ class Problem:
         self.cells = self.one_of(CELLS)
         self.basis = self.one_of(("modified_quadratic", "modified_quadratic", "linear"))
         self.plane = self.one_of(("strain", "stress")) if self.dimensions == 2 else ""
+        draw = random.Random(7919 * self.seed + 3).random  # its own, so that all else of a seed stays
+        powers = [ALPHA[int(draw() * len(ALPHA))] for _ in self.tissues]
+        self.powers = powers if self.laws else [None] * len(self.tissues)
 
     def one_of(self, choices):
         return choices[int(self.random() * len(choices))]
@@ -185,7 +190,7 @@ class Problem:
                 return None
             matrix = self.load["matrix"]
             return lambda x: tuple(sum(matrix[i][j] * x[j] for j in range(n)) for i in range(n))
-        if kind == "plates":
+        if kind == "plates" and self.powers == [None]:
             stretch = 1 + (-1 if self.load["direction"][0] < 0 else 1) * self.load["amount"]
             side = self.free_stretch(stretch)
             return lambda x: tuple(((stretch if i == self.up else side) - 1) * x[i] for i in range(n))
@@ -297,8 +302,10 @@ class Problem:
 
     def common(self, folder):
         arguments = []
-        for label, (young, poisson) in enumerate(self.tissues, 1):
-            arguments += ["--material", f"{label}:{young!r},{poisson!r},1000"]
+        for label, ((young, poisson), power) in enumerate(zip(self.tissues, self.powers), 1):
+            modulus = young / 2 / (1 + poisson)
+            arguments += ["--material", f"{label}:{young!r},{poisson!r},1000" if power is None else
+                          f"{label}:law=ogden,ogden={modulus!r},{power!r},poisson_ratio={poisson!r},density=1000"]
         if self.plane:
             arguments += ["--plane", self.plane]
         if self.gravity():
@@ -363,7 +370,8 @@ class Problem:
                          f"DimSize = {sizes}\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n".encode() + values)
 
     def says(self):
-        tissues = "; ".join(f"{young / YOUNG:.3g}, {poisson:g}" for young, poisson in self.tissues)
+        tissues = "; ".join(f"{young / YOUNG:.3g}, {poisson:g}" + (f", Ogden {power:g}" if power else "")
+                            for (young, poisson), power in zip(self.tissues, self.powers))
         plane = f" (plane {self.plane})" if self.plane else ""
         return {"seed": self.seed, "body": self.shape + plane, "cloud": self.cloud, "cells": self.cells,
                 "basis": self.basis, "tissues": tissues,

@@ -93,7 +93,7 @@ def reference(problem, folder, program, arguments, seconds):
 
 
 def judge(seed, arguments):
-    problem = problems.Problem(seed, arguments.small)
+    problem = problems.Problem(seed, arguments.small, arguments.laws)
     folder = arguments.out / str(seed)
     shutil.rmtree(folder, ignore_errors=True)
     given = problem.write(folder)
@@ -151,6 +151,7 @@ def main():
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--seconds", type=int, default=15, help="of processor time a solve; a reference may take four")
     parser.add_argument("--small", action="store_true")
+    parser.add_argument("--laws", action="store_true", help="two tissues in three are Ogden's")
     parser.add_argument("--anew", action="store_true", help="forget what an earlier call found")
     parser.add_argument("--calculix", action="store_true")
     parser.add_argument("--keep", action="store_true", help="files of seeds that are good, too")
@@ -158,7 +159,7 @@ def main():
     arguments.out.mkdir(parents=True, exist_ok=True)
     file_of_rows = arguments.out / "problems.csv"
     made_by = arguments.out / "made_by"  # rows of another program or of other options say nothing of this one
-    key = f"{hashlib.sha256(open(arguments.program, 'rb').read()).hexdigest()} {arguments.small} {arguments.calculix}"
+    key = f"{hashlib.sha256(open(arguments.program, 'rb').read()).hexdigest()} {arguments.small} {arguments.calculix} {arguments.laws}"
     if arguments.anew or not made_by.exists() or made_by.read_text() != key:
         file_of_rows.unlink(missing_ok=True)
     made_by.write_text(key)

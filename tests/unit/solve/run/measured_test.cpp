@@ -74,47 +74,6 @@ TEST(SolveMeasured, IsDrawnByAPointInside) {
   EXPECT_LT(std::sqrt(result.measures.measured->covariance(0, 0)), 0.1);
 }
 
-TEST(MeasuredCovariance, IsTheNoisesNearThePointsAndThePriorsFarOffAndGrowsWithBoth) {
-  const Model model = with_weight(measured_box(0.5), 0.05);
-  const SolveResult answer = solve(model, quick());
-  MeasuredFit fit = *answer.measures.measured;
-  fit.noise_factor = 1;
-  const Points& u = answer.solution.displacement;
-  const Eigen::MatrixXd covariance = measured_covariance(model, quick(), fit, u);
-  ASSERT_EQ(covariance.rows(), model.cloud.positions.rows());
-  EXPECT_GE(covariance.leftCols(3).minCoeff(), 0);
-  for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
-    const Eigen::RowVector3d x = model.cloud.positions.row(a);
-    if (x[2] < 1e-9) {
-      EXPECT_LT(covariance.row(a).norm(), 0.05) << "held";
-    }
-    if (model.conditions.measured->spread.row(a).norm() > 0) {
-      EXPECT_LT(covariance.row(a).leftCols(3).maxCoeff(), 0.25) << "no worse than the point itself";
-    }
-  }
-  fit.noise_factor = 2;
-  const double times = measured_covariance(model, quick(), fit, u).norm() / covariance.norm();
-  EXPECT_GE(times, 4);
-  EXPECT_LT(times, 6) << "of larger errors the answer tells less of their size";
-}
-
-TEST(MeasuredCovariance, IsThatOfTheLandmarksAtANodeInside) {
-  Model model = measured_box(0.5);
-  Eigen::Index middle = 0;
-  (model.cloud.positions.array() - model_side / 2).matrix().rowwise().norm().minCoeff(&middle);
-  model.conditions.measured->asked = model.cloud.positions.row(middle);
-  const SolveResult answer = solve(model, quick());
-  const MeasuredFit& fit = *answer.measures.measured;
-  const Eigen::RowVectorXd at_node = measured_covariance(model, quick(), fit, answer.solution.displacement).row(middle);
-  EXPECT_LT((at_node - fit.covariance.row(0)).norm(), 1e-9 * at_node.norm());
-}
-
-TEST(MeasuredCovariance, OfALandmarkFarOutsideIsNoReasonToRefuse) {
-  Model model = measured_box(0.5);
-  model.conditions.measured->asked = Points::Constant(1, 3, 10 * model_side);
-  EXPECT_TRUE(fit_measured(thinned_body(model, {}), model.conditions).covariance.allFinite());
-}
-
 TEST(WeighedConditions, HoldAnOpeningThatMovesAlikeAndAreSolvedAsTheyAre) {
   Model model = measured_box(0.5);
   Measurement& measured = *model.conditions.measured;
@@ -148,29 +107,6 @@ TEST(WeighedConditions, ExtendThePointsOfASmoothMotionAsAnExactLoadIs) {
   const Points weighed = weighed_conditions(conditions, fit).displacement;
   ASSERT_TRUE((weighed.array().isNaN() == exact.array().isNaN()).all());
   EXPECT_TRUE((exact.array().isNaN() || weighed.array() == exact.array()).all());
-}
-
-TEST(Outliers, AreThePointsThatContradictTheOthersAndNoneWhereAllAgree) {
-  Model model = measured_box(0.5);
-  EXPECT_TRUE(outliers(thinned_body(model, {}), model.conditions).empty());
-  Measurement& measured = *model.conditions.measured;
-  const Eigen::Index wrong = measured.cortex.rows() / 2;
-  measured.cortex_displacement.row(wrong) << 30, 0, -4;
-  const std::vector<Outlier> found = outliers(thinned_body(model, {}), model.conditions);
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].position, measured.cortex.row(wrong).transpose());
-  EXPECT_GT(found[0].deviations, 5);
-}
-
-/// Each makes the other less surprising.
-TEST(Outliers, AreTwoWrongNeighboursThatAgree) {
-  Model model = measured_box(0.5);
-  Measurement& measured = *model.conditions.measured;
-  const Eigen::Index wrong = measured.cortex.rows() / 2;
-  for (const Eigen::Index i : {wrong, wrong + 1}) {
-    measured.cortex_displacement.row(i) += Eigen::RowVector3d(8, 0, -6);
-  }
-  EXPECT_EQ(outliers(thinned_body(model, {}), model.conditions).size(), 2U);
 }
 
 TEST(SolveMeasured, RefusesWhatNoiseDoesNotGoWith) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve/run/measured_points.hpp"
+
+#include "solve/load/openings.hpp"
+#include "solve/load/spread_out.hpp"
+
+namespace brainshift::solve {
+
+Points stacked(const Points& above, const Points& below) {
+  Points both(above.rows() + below.rows(), 3);
+  both << above, below;
+  return both;
+}
+
+Points within_sight(Points places, const Points& nodes) {
+  constexpr double sight = 20;  // mm
+  for (Eigen::Index i = 0; i < places.rows(); ++i) {
+    Eigen::Index nearest = 0;
+    if ((nodes.rowwise() - places.row(i)).rowwise().norm().minCoeff(&nearest) > sight) {
+      places.row(i) = nodes.row(nearest);
+    }
+  }
+  return places;
+}
+
+MeasuredPoints::MeasuredPoints(const ThinnedBody& body, const Conditions& all)
+    : thinned(body), conditions(subset(all, body.node)), shape(body.shape()) {
+  const Seen seen(*all.measured);
+  row = spread_out(seen.positions, seen.positions.rows());
+  positions = seen.positions(row, Eigen::all);
+  displacement = seen.displacement(row, Eigen::all);
+  sigma = seen.sigma(row, Eigen::all);
+}
+
+Response MeasuredPoints::response(const ShapeRows& rows, const Points& places) const {
+  Response response = linear_response(thinned.stiff, conditions, rows);
+  if (conditions.measured->registration_unknown) {
+    response.rigid = rigid_motions(places, positions);
+  }
+  return response;
+}
+
+Response MeasuredPoints::response_and_motion(const ShapeRows& rows, const Points& places) const {
+  Response response = this->response(rows, places);
+  const Measurement& m = *conditions.measured;
+  if (m.registration_unknown || m.cortex.rows() == 0 || m.weight > 0) {
+    return response;
+  }
+  std::vector<Eigen::Index> on_cortex;  // rows
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] < m.cortex.rows()) {
+      on_cortex.push_back(static_cast<Eigen::Index>(i));
+    }
+  }
+  const StiffBody& body = thinned.stiff;
+  const ShapeRows at_nodes = shape.evaluate(body.cloud.positions, false);
+  const Carried carried = carried_motion(body, conditions, at_nodes, rows);
+  const auto own = static_cast<Eigen::Index>(on_cortex.size());
+  response.shortest = usual_distance(positions(on_cortex, Eigen::all));
+  response.sites = stacked(positions(on_cortex, Eigen::all), body.cloud.positions(carried.nodes, Eigen::all));
+  response.carry = Eigen::MatrixXd::Zero(response.compliance.rows(), 3 * response.sites.rows());
+  response.carry.rightCols(carried.motion.cols()) = carried.motion;
+  for (Eigen::Index i = 0; i < own; ++i) {
+    auto its_rows = response.carry.middleRows<3>(3 * on_cortex[static_cast<std::size_t>(i)]);
+    its_rows.setZero();
+    its_rows.middleCols<3>(3 * i).setIdentity();
+  }
+  return response;
+}
+
+}  // namespace brainshift::solve
