@@ -78,6 +78,12 @@ StageRecord finished_solve(const fs::path& run) {
   return *record;
 }
 
+constexpr std::string_view in_double = "double precision";  // which an update takes, too
+
+std::string took_of(const StageRecord& solved) {
+  return solved.entry.value("/measures/took"_json_pointer, "");
+}
+
 void refuse_what_cannot(const fs::path& run, const Scene& scene, const StageRecord& solved) {
   if (!is_ours(scene, StageId::solve)) {
     refuse(run, "the run cannot be updated: another program solved it");
@@ -94,8 +100,8 @@ void refuse_what_cannot(const fs::path& run, const Scene& scene, const StageReco
   if (scene.load->field && scene.load->noise) {
     refuse(run, "the run cannot be updated: its load is a field with noise; run a scene with the new one");
   }
-  const std::string took = solved.entry.value("/measures/took"_json_pointer, "");
-  if (!took.empty() && !took.ends_with(" load steps")) {  // an update has no load that comes slowly
+  const std::string took = took_of(solved);
+  if (!took.empty() && took != in_double && !took.ends_with(" load steps")) {  // an update's load does not come slowly
     refuse(run,
            "the run cannot be updated: it took " + took + ", which an update would not; run a scene with the new load");
   }
@@ -115,7 +121,10 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
     refuse(run_, "the scene or a file of the run has changed since it was solved; run the scene again");
   }
   key_ = sha256_of_text(solved.stamp + sha256_of_file(run_ / "solve" / "solution.vtu"));
-  const SolveJob job = solve_job(scene_, run_);
+  SolveJob job = solve_job(scene_, run_);
+  if (took_of(solved) == in_double) {
+    job.options.precision = solve::Precision::double_precision;
+  }
   how_ = *job.load;
   landmarks_ = job.landmarks.empty() ? Points(0, 3) : solve::read_markup_positions(job.landmarks);
   report(progress, 0, "reading");

@@ -20,8 +20,7 @@ namespace brainshift::pipelines {
 using Warnings = std::vector<std::string>;
 
 /// Of points that lie off the brain's surface, that are too few or lie on a line, do not move, move out of the head, or
-/// are lost. prescribed:
-/// what became of them.
+/// are lost. prescribed: what became of them.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed);
 
 /// The same of those on the cortex, and of many that count as inside the brain. conditions: what became of them.

@@ -180,6 +180,19 @@ TEST_F(Update, RefusesARunThatTookOtherOptionsThanItsScenes) {
   expect_refused(update(took, "--load " + quoted(new_load())), "it took linear shape functions");
 }
 
+TEST_F(Update, IsInDoublePrecisionWhereTheRunTookIt) {
+  const fs::path single = *scratch / "single", record = single / "solve/stage.json";
+  const ProgramResult ran = run_shell("brainshift run " + quoted(*scratch / "head/scene.xml") +
+                                      " --until solve --out " + quoted(single) + " --set discretise.nodes=900 --quiet");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const std::string text = contents_of(record), precision = "\"precision\": \"single\"";
+  ASSERT_NE(text.find(precision), std::string::npos);
+  write_text(record, std::string(text).replace(text.find(precision), 0, "\"took\": \"double precision\", "));
+  const ProgramResult updated = update(single, "--load " + quoted(new_load()));
+  ASSERT_EQ(updated.code, 0) << updated.err;
+  EXPECT_NE(contents_of(single / "update/new/solve/stage.json").find("\"precision\": \"double\""), std::string::npos);
+}
+
 TEST_F(Update, SaysThatWhatItPreparedCannotBeKept) {
   const fs::path copy = copy_with("full", "run.json", "{", "{");
   fs::remove_all(copy / "update");
