@@ -3,7 +3,6 @@
 // A finished run under a new load, through the program.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <memory>
 #include <sstream>
 #include <vector>
