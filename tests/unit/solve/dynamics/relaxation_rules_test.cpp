@@ -42,7 +42,7 @@ TEST(SinglePrecision, IsOutlastedSoonerByWhatMovesFartherOrIsWantedNearer) {
     }
     return n;
   };
-  EXPECT_NEAR(steps(10, 0.01), 1400, 40) << "a head takes up to 760";
+  EXPECT_NEAR(steps(10, 0.01), 1400, 40) << "a head takes up to 980";
   EXPECT_NEAR(steps(40, 0.01), steps(10, 0.01) / 2, 40);
   EXPECT_NEAR(steps(10, 0.0025), steps(10, 0.01) / 2, 40);
   EXPECT_FALSE(outlasts(Precision::double_precision, 1'000'000, 10, 0.01));
