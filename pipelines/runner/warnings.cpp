@@ -78,9 +78,9 @@ Warnings warnings_of_repeated(const solve::CraniotomyLoad& load) {
 
 /// How far the measured points move away from the middle of the surface in the mean, mm, where that is most of how they
 /// move and enough to be seen; else 0.
-double moved_out(const solve::CraniotomyLoad& load, const NodeCloud& cloud) {
+double moved_out(const solve::CraniotomyLoad& load, const Points& surface) {
   constexpr double seen = 1, most = 0.7;
-  const Eigen::RowVector3d middle = surface_of(cloud).colwise().mean();
+  const Eigen::RowVector3d middle = surface.colwise().mean();
   const Points outwards = (load.positions.rowwise() - middle).rowwise().normalized();
   const double out = load.displacement.cwiseProduct(outwards).rowwise().sum().mean();
   return out > std::max(seen, most * load.displacement.rowwise().norm().mean()) ? out : 0;
@@ -100,8 +100,8 @@ std::string listed(const Points& places) {
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed) {
   constexpr double usual_distance = 5.0;  // mm, of points on a cortex from the nodes of its surface
   Warnings warnings;
-  const Points places = distinct_points(load.positions);
-  const double distance = median_distance(places, surface_of(cloud));
+  const Points places = distinct_points(load.positions), surface = surface_of(cloud);
+  const double distance = median_distance(places, surface);
   if (distance > std::max(usual_distance, median(cloud.spacing))) {
     warnings.push_back("the measured points lie " + with_digits(distance) +
                        " mm off the brain's surface (median); are load and image in the same frame, and were the "
@@ -111,7 +111,7 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
   if (load.displacement.isZero(0)) {
     warnings.emplace_back("all measured displacements are 0");
   }
-  if (const double out = moved_out(load, cloud); out > 0) {
+  if (const double out = moved_out(load, surface); out > 0) {
     warnings.push_back("the measured points move out of the head, by " + with_digits(out) +
                        " mm in the mean, as those of a brain that swells; if it sank, turn the signs: a displacement "
                        "is where a point came to less where it was");

@@ -7,11 +7,19 @@
 
 namespace brainshift::solve {
 
-std::string not_converged(int steps, double error_bound, double tolerance) {
+namespace {
+
+std::string still_open(int steps, double error_bound, double tolerance) {
   std::ostringstream text;
   text << "not converged after " << steps << " steps: the error bound is " << error_bound << " mm, wanted " << tolerance
-       << " mm; allow more steps or a larger tolerance; it moves most";
+       << " mm";
   return text.str();
+}
+
+}  // namespace
+
+std::string not_converged(int steps, double error_bound, double tolerance) {
+  return still_open(steps, error_bound, tolerance) + "; allow more steps or a larger tolerance; it moves most";
 }
 
 std::string stands_still(int since, double error_bound, double tolerance, Precision precision) {
@@ -23,10 +31,8 @@ std::string stands_still(int since, double error_bound, double tolerance, Precis
 }
 
 std::string outlasts_single(int steps, double error_bound, double tolerance) {
-  std::ostringstream text;
-  text << "not converged after " << steps << " steps: the error bound is " << error_bound << " mm, wanted " << tolerance
-       << " mm, and single precision may not tell where so slow a body rests; take double precision";
-  return text.str();
+  return still_open(steps, error_bound, tolerance) +
+         ", and single precision may not tell where so slow a body rests; take double precision";
 }
 
 void report_window(const Progress& progress, int steps, double time, double error_bound, double tolerance,

@@ -233,25 +233,38 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
   return fit;
 }
 
-Posterior posterior(const Response& response, const Points& displacement, const Points& sigma, const MeasuredFit& fit) {
-  const Eigen::VectorXd d = stacked_rows(displacement), variance = stacked_rows(sigma).cwiseAbs2();
-  const Eigen::Index m = d.size(), rest = response.compliance.rows() - m;
-  const Eigen::MatrixXd rigid = response.rigid.topRows(m);
-  Eigen::MatrixXd their_rigid = response.rigid.bottomRows(rest);
-  if (!response.free) {
-    their_rigid.setZero();
+Posterior::Posterior(const Response& response, const Points& displacement, const Points& sigma, const MeasuredFit& fit)
+    : response_(response),
+      measured_(displacement.size()),
+      factor_(fit.noise_factor * fit.noise_factor),
+      likely_(response, fit.weight, fit.smooth),
+      careful_(response, fit.weight, fit.smooth, Alike::matern),
+      answer_(likely_.between(0, measured_, 0, measured_), response.rigid.topRows(measured_),
+              stacked_rows(displacement), stacked_rows(sigma).cwiseAbs2()),
+      doubt_(careful_.between(0, measured_, 0, measured_), response.rigid.topRows(measured_),
+             stacked_rows(displacement), stacked_rows(sigma).cwiseAbs2()) {}
+
+Eigen::MatrixXd Posterior::rigid_of(Eigen::Index first, Eigen::Index places) const {
+  Eigen::MatrixXd rigid = response_.rigid.middleRows(measured_ + 3 * first, 3 * places);
+  if (!response_.free) {
+    rigid.setZero();
   }
-  const Prior likely(response, fit.weight, fit.smooth), careful(response, fit.weight, fit.smooth, Alike::matern);
-  const MeasuredGaussian answer(likely.between(0, m, 0, m), rigid, d, variance);
-  const MeasuredGaussian doubt(careful.between(0, m, 0, m), rigid, d, variance);
-  Eigen::VectorXd mean = likely.between(m, rest, 0, m) * answer.push;
-  if (their_rigid.cols() > 0) {
-    mean += their_rigid * answer.motion;
+  return rigid;
+}
+
+Points Posterior::mean() const {
+  const Eigen::Index rest = response_.compliance.rows() - measured_;
+  Eigen::VectorXd mean = likely_.between(measured_, rest, 0, measured_) * answer_.push;
+  if (response_.rigid.cols() > 0) {
+    mean += rigid_of(0, rest / 3) * answer_.motion;
   }
-  const double factor = fit.noise_factor * fit.noise_factor;
-  return {.covariance =
-              factor * doubt.covariance(careful.between(m, rest, m, rest), careful.between(m, rest, 0, m), their_rigid),
-          .mean = Eigen::Map<const Points>(mean.data(), rest / 3, 3)};
+  return Eigen::Map<const Points>(mean.data(), rest / 3, 3);
+}
+
+Eigen::MatrixXd Posterior::covariance(Eigen::Index first, Eigen::Index places) const {
+  const Eigen::Index from = measured_ + 3 * first, size = 3 * places;
+  return factor_ * doubt_.covariance(careful_.between(from, size, from, size),
+                                     careful_.between(from, size, 0, measured_), rigid_of(first, places));
 }
 
 SixEntries six_entries(const Eigen::Matrix3d& c) {

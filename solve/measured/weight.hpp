@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "solve/interface/result.hpp"
+#include "solve/measured/gaussian.hpp"
 #include "solve/measured/response.hpp"
 
 namespace brainshift::solve {
@@ -18,17 +19,31 @@ namespace brainshift::solve {
 /// fix a rigid motion.
 MeasuredFit choose_weight(const Response& response, const Points& displacement, const Points& sigma, double weight = 0);
 
-/// What the linear body says of the displacements behind the measured points.
-struct Posterior {
-  Eigen::MatrixXd covariance;  ///< joint, (3a × 3a) mm²
-  Points mean;                 ///< (a × 3) mm
-};
+/// What the linear body says of the displacements at the a places behind the m measured points of a response, by the
+/// prior of a fit, with noise and prior as large as what was measured says (noise_factor). In the frame of the image:
+/// of a body that is held the rigid motion is the patient's, not the brain's.
+class Posterior {
+ public:
+  /// The response must outlive it. displacement, sigma: (m × 3) mm.
+  Posterior(const Response& response, const Points& displacement, const Points& sigma, const MeasuredFit& fit);
 
-/// Of all a places behind the m measured points of the response, by the prior of a fit, with noise and prior as large
-/// as what was measured says (noise_factor). displacement, sigma: (m × 3) mm. In the frame of the image: of a body that
-/// is held the rigid motion is the patient's, not the brain's. The mean is what the answer's prior finds. The
-/// covariance is to hold the truth, so it believes that the smooth motion is rougher, Alike::matern.
-Posterior posterior(const Response& response, const Points& displacement, const Points& sigma, const MeasuredFit& fit);
+  /// (a × 3) mm, what the answer's prior finds.
+  Points mean() const;
+
+  /// Joint, (3 places × 3 places) mm², of those from `first` on. It is to hold the truth, so it believes that the
+  /// smooth motion is rougher, Alike::matern.
+  Eigen::MatrixXd covariance(Eigen::Index first, Eigen::Index places) const;
+
+ private:
+  /// Of `places` from `first` on, (3 places × 6) or without columns.
+  Eigen::MatrixXd rigid_of(Eigen::Index first, Eigen::Index places) const;
+
+  const Response& response_;
+  Eigen::Index measured_;  // components
+  double factor_;
+  Prior likely_, careful_;
+  MeasuredGaussian answer_, doubt_;
+};
 
 /// xx, yy, zz, xy, yz, zx of a symmetric matrix: a row of a table of covariances.
 using SixEntries = Eigen::Matrix<double, 1, 6>;

@@ -10,7 +10,7 @@
 namespace brainshift::solve {
 
 /// What measured points say of the weight, the noise and a rigid motion, by the thinned body: choose_weight().
-/// conditions: at the nodes of the whole cloud. The covariance is posterior()'s. Throws as solve() does.
+/// conditions: at the nodes of the whole cloud. The covariance is the Posterior's. Throws as solve() does.
 MeasuredFit fit_measured(const ThinnedBody& thinned, const Conditions& conditions);
 
 /// Throws std::invalid_argument, naming it, with a part that noise does not go with: motion in time, the simplified

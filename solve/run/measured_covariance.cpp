@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/run/measured_covariance.hpp"
 
-#include <utility>
+#include <iterator>
 
 #include "solve/measured/inner_rows.hpp"
 #include "solve/measured/weight.hpp"
@@ -70,11 +70,11 @@ bool is_held(const Conditions& conditions, Eigen::Index node) {
 }  // namespace
 
 void add_posterior(const MeasuredPoints& measured, const Response& response, MeasuredFit& fit) {
-  Posterior there = posterior(response, measured.displacement, measured.sigma, fit);
-  fit.linear = std::move(there.mean);
+  const Posterior there(response, measured.displacement, measured.sigma, fit);
+  fit.linear = there.mean();
   fit.covariance.resize(fit.linear.rows(), 6);
   for (Eigen::Index a = 0; a < fit.linear.rows(); ++a) {
-    fit.covariance.row(a) = six_entries(there.covariance.block<3, 3>(3 * a, 3 * a));
+    fit.covariance.row(a) = six_entries(there.covariance(a, 1));
   }
 }
 
@@ -94,11 +94,11 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
   ShapeRows rows = inner_rows(measured.shape, measured.positions);
   append_nodes(thinned.node.size(), rows);
   const Points places = stacked(measured.positions, thinned.stiff.cloud.positions);
-  const Posterior of_nodes =
-      posterior(measured.response_and_motion(rows, places), measured.displacement, measured.sigma, fit);
+  const Response response = measured.response_and_motion(rows, places);
+  const Posterior of_nodes(response, measured.displacement, measured.sigma, fit);
   const ShapeRows at_all = inner_rows(measured.shape, model.cloud.positions);
-  Eigen::MatrixXd covariance = covariance_of(at_all, of_nodes.covariance);
-  say(values_of(at_all, of_nodes.mean), answered_at(at_all, thinned, measured.shape, displacement), covariance);
+  Eigen::MatrixXd covariance = covariance_of(at_all, of_nodes.covariance(0, std::ssize(thinned.node)));
+  say(values_of(at_all, of_nodes.mean()), answered_at(at_all, thinned, measured.shape, displacement), covariance);
   for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
     if (is_held(model.conditions, a)) {
       covariance.row(a).setZero();  // a ball about it reaches past the body

@@ -11,7 +11,7 @@
 
 namespace brainshift::solve {
 
-/// Fills `linear` and `covariance` of a fit with the posterior() at the places that were asked for, which follow the
+/// Fills `linear` and `covariance` of a fit with the Posterior at the places that were asked for, which follow the
 /// measured points in the response.
 void add_posterior(const MeasuredPoints& measured, const Response& response, MeasuredFit& fit);
 

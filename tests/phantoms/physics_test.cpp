@@ -38,7 +38,7 @@ class Physics : public testing::Test {
                                            at("cells.vtu") + " --out " + at("out") + " " + options);
     ASSERT_EQ(result.code, 0) << result.err;
   }
-  static auto history() { return read_history(at("out/history.csv")); }
+  static auto history() { return read_table(at("out/history.csv")); }
   static nlohmann::json measures() {
     return nlohmann::json::parse(contents_of(at("out/stage.json")))["entry"]["measures"];
   }

@@ -38,12 +38,13 @@ std::string contents_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::vector<std::map<std::string, double>> read_history(const fs::path& file) {
+std::vector<std::map<std::string, double>> read_table(const fs::path& file) {
   std::ifstream stream(file);
   const auto fields = [&stream] {
     std::vector<std::string> found;
     std::string line, field;
-    std::getline(stream, line);
+    while (std::getline(stream, line) && line.starts_with('#')) {
+    }
     for (std::istringstream rest(line); std::getline(rest, field, ',');) {
       found.push_back(field);
     }

@@ -43,8 +43,7 @@ class Problem:
         self.basis = self.one_of(("modified_quadratic", "modified_quadratic", "linear"))
         self.plane = self.one_of(("strain", "stress")) if self.dimensions == 2 else ""
         draw = random.Random(7919 * self.seed + 3).random  # its own, so that all else of a seed stays
-        powers = [ALPHA[int(draw() * len(ALPHA))] for _ in self.tissues]
-        self.powers = powers if self.laws else [None] * len(self.tissues)
+        self.powers = [ALPHA[int(draw() * len(ALPHA))] if self.laws else None for _ in self.tissues]
 
     def one_of(self, choices):
         return choices[int(self.random() * len(choices))]

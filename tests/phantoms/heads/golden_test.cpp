@@ -113,7 +113,7 @@ TEST(Golden, TheJacobianAccountsForTheVolumeThatTheSurfaceLoses) {
 // The opening's forces pay for the strain energy and for what the damping takes: they cannot get more out than they
 // put in.
 TEST(Golden, StrainEnergyIsPaidForByExternalWork) {
-  const auto history = read_history(oblique_run().folder / "solve/history.csv");
+  const auto history = read_table(oblique_run().folder / "solve/history.csv");
   ASSERT_FALSE(history.empty());
   const double work = history.back().at("external_work_mJ");
   EXPECT_GT(work, 0);

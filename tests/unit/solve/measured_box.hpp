@@ -34,6 +34,14 @@ inline Model measured_box(double sigma) {
   return model;
 }
 
+/// Linear shape functions, to 0.002 mm.
+inline SolveOptions linear_options() {
+  SolveOptions options;
+  options.shape.basis = Basis::linear;
+  options.tolerance = 0.002;
+  return options;
+}
+
 /// With points inside, each measured to have moved sideways.
 inline Model with_inner(Model model, int points) {
   Measurement& measured = *model.conditions.measured;

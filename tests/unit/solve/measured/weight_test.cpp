@@ -99,11 +99,11 @@ TEST(Weight, EllipsoidsHoldTheTruthAsOftenAsTheySay) {
     v.diagonal().array() += 0.25;
     const Points measured = truth.topRows(known) + noise;
     const Eigen::VectorXd push = v.llt().solve(Eigen::Map<const Eigen::VectorXd>(measured.data(), 3 * known));
-    const Posterior said = posterior(response, measured, Points::Constant(known, 3, 0.5), fit);
+    const Posterior said(response, measured, Points::Constant(known, 3, 0.5), fit);
     for (int a = 0; a < asked; ++a) {
       const Eigen::Vector3d mean =
           millijoule * fit.weight * response.compliance.block(3 * (known + a), 0, 3, 3 * known) * push;
-      const Eigen::Matrix3d covariance = said.covariance.block<3, 3>(3 * a, 3 * a);
+      const Eigen::Matrix3d covariance = said.covariance(a, 1);
       const Eigen::Vector3d error = truth.row(known + a).transpose() - mean;
       inside += error.dot(covariance.llt().solve(error)) <= 7.815 ? 1 : 0;
     }
@@ -173,10 +173,10 @@ TEST(SmoothMotion, TakesNoiseOutOfThePointsAndItsEllipsoidsHoldTheTruth) {
     Eigen::MatrixXd v = prior.between(0, 3 * known, 0, 3 * known);
     v.diagonal().array() += 0.25;
     const Eigen::VectorXd push = v.llt().solve(stacked_rows(d));
-    const Posterior said = posterior(response, d, sigma, fit);
+    const Posterior said(response, d, sigma, fit);
     for (int a = 0; a < asked; ++a) {
       const Eigen::Vector3d mean = prior.between(3 * (known + a), 3, 0, 3 * known) * push;
-      const Eigen::Matrix3d covariance = said.covariance.block<3, 3>(3 * a, 3 * a);
+      const Eigen::Matrix3d covariance = said.covariance(a, 1);
       const Eigen::Vector3d error = truth.row(known + a).transpose() - mean;
       inside += error.dot(covariance.llt().solve(error)) <= 7.815 ? 1 : 0;
     }
@@ -198,11 +198,15 @@ TEST(Posterior, MeasuresTheRigidMotionOfAFreeBodyAndLeavesThatOfAHeldOneOut) {
   for (const bool free : {false, true}) {
     response.free = free;
     const MeasuredFit fit = choose_weight(response, still, sigma);
-    const Posterior one = posterior(response, still, sigma, fit), other = posterior(response, moved, sigma, fit);
-    ASSERT_EQ(one.covariance.rows(), 3 * asked);
-    EXPECT_LT((one.covariance - one.covariance.transpose()).norm(), 1e-9 * one.covariance.norm());
+    const Posterior one(response, still, sigma, fit), other(response, moved, sigma, fit);
+    const Eigen::MatrixXd joint = one.covariance(0, asked);
+    ASSERT_EQ(joint.rows(), 3 * asked);
+    EXPECT_LT((joint - joint.transpose()).norm(), 1e-9 * joint.norm());
+    for (int a = 0; a < asked; ++a) {
+      EXPECT_LT((joint.block<3, 3>(3 * a, 3 * a) - one.covariance(a, 1)).norm(), 1e-9 * joint.norm());
+    }
     const Points apart = Eigen::Map<const Points>(motion.data(), places.rows(), 3).bottomRows(asked);
-    EXPECT_LT((other.mean - one.mean - (free ? 1 : 0) * apart).norm(), 1e-6);
+    EXPECT_LT((other.mean() - one.mean() - (free ? 1 : 0) * apart).norm(), 1e-6);
   }
 }
 

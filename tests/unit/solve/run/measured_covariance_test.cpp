@@ -8,20 +8,13 @@
 
 namespace brainshift::solve::measured_covariance_test {
 
-SolveOptions quick() {
-  SolveOptions options;
-  options.shape.basis = Basis::linear;
-  options.tolerance = 0.002;
-  return options;
-}
-
 TEST(MeasuredCovariance, IsTheNoisesNearThePointsAndThePriorsFarOffAndGrowsWithBoth) {
   const Model model = with_weight(measured_box(0.5), 0.05);
-  const SolveResult answer = solve(model, quick());
+  const SolveResult answer = solve(model, linear_options());
   MeasuredFit fit = *answer.measures.measured;
   fit.noise_factor = 1;
   const Points& u = answer.solution.displacement;
-  const Eigen::MatrixXd covariance = measured_covariance(model, quick(), fit, u);
+  const Eigen::MatrixXd covariance = measured_covariance(model, linear_options(), fit, u);
   ASSERT_EQ(covariance.rows(), model.cloud.positions.rows());
   EXPECT_GE(covariance.leftCols(3).minCoeff(), 0);
   for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
@@ -34,7 +27,7 @@ TEST(MeasuredCovariance, IsTheNoisesNearThePointsAndThePriorsFarOffAndGrowsWithB
     }
   }
   fit.noise_factor = 2;
-  const double times = measured_covariance(model, quick(), fit, u).norm() / covariance.norm();
+  const double times = measured_covariance(model, linear_options(), fit, u).norm() / covariance.norm();
   EXPECT_GE(times, 4);
   EXPECT_LT(times, 6) << "of larger errors the answer tells less of their size";
 }
@@ -44,9 +37,10 @@ TEST(MeasuredCovariance, IsThatOfTheLandmarksAtANodeInside) {
   Eigen::Index middle = 0;
   (model.cloud.positions.array() - model_side / 2).matrix().rowwise().norm().minCoeff(&middle);
   model.conditions.measured->asked = model.cloud.positions.row(middle);
-  const SolveResult answer = solve(model, quick());
+  const SolveResult answer = solve(model, linear_options());
   const MeasuredFit& fit = *answer.measures.measured;
-  const Eigen::RowVectorXd at_node = measured_covariance(model, quick(), fit, answer.solution.displacement).row(middle);
+  const Eigen::RowVectorXd at_node =
+      measured_covariance(model, linear_options(), fit, answer.solution.displacement).row(middle);
   EXPECT_LT((at_node - fit.covariance.row(0)).norm(), 1e-9 * at_node.norm());
 }
 

@@ -15,18 +15,11 @@ namespace brainshift::solve::measured_test {
 
 using test::refusal;
 
-SolveOptions quick() {
-  SolveOptions options;
-  options.shape.basis = Basis::linear;
-  options.tolerance = 0.002;
-  return options;
-}
-
 TEST(SolveMeasured, BecomesTheExactImpositionAsTheNoiseVanishes) {
   Model model = measured_box(0.001);
-  const SolveResult soft = solve(model, quick());
+  const SolveResult soft = solve(model, linear_options());
   model.conditions.measured.reset();
-  const SolveResult exact = solve(model, quick());
+  const SolveResult exact = solve(model, linear_options());
   ASSERT_TRUE(soft.failure.empty()) << soft.failure;
   EXPECT_LE((soft.solution.displacement - exact.solution.displacement).rowwise().norm().maxCoeff(), 0.01);
 }
@@ -35,7 +28,7 @@ TEST(SolveMeasured, RestsWhereVarianceTimesForceIsWhatIsLeftOfTheMisfit) {
   Model model = measured_box(1);
   model.conditions.measured->weight = 0.05;
   model.conditions.at_nodes_alone = true;  // where displacements are told
-  const SolveResult result = solve(model, quick());
+  const SolveResult result = solve(model, linear_options());
   ASSERT_TRUE(result.failure.empty()) << result.failure;
   double largest = 0;
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
@@ -59,7 +52,7 @@ TEST(SolveMeasured, IsDrawnByAPointInside) {
   measured.inner_displacement(0, 0) = 3;
   measured.inner_sigma = Points::Constant(1, 3, 0.01);
   measured.asked = place;
-  const SolveResult result = solve(model, quick());
+  const SolveResult result = solve(model, linear_options());
   ASSERT_TRUE(result.failure.empty()) << result.failure;
   const ShapeFunctions shape(model.cloud.positions, model.cloud.spacing, result.solution.shape);
   const Points parameters = parameters_from_displacement(shape, model.cloud.positions, result.solution.displacement);
@@ -82,9 +75,9 @@ TEST(WeighedConditions, HoldAnOpeningThatMovesAlikeAndAreSolvedAsTheyAre) {
   measured.inner_sigma = Points::Constant(1, 3, 0.5);
   const MeasuredFit fit = fit_measured(thinned_body(model, {}), model.conditions);
   ASSERT_GT(fit.smooth.length, 0);
-  const SolveResult whole = solve(model, quick());
+  const SolveResult whole = solve(model, linear_options());
   model.conditions = weighed_conditions(model.conditions, fit);
-  const SolveResult again = solve(model, quick());
+  const SolveResult again = solve(model, linear_options());
   ASSERT_TRUE(again.failure.empty()) << again.failure;
   EXPECT_LT((whole.solution.displacement - again.solution.displacement).cwiseAbs().maxCoeff(), 1e-9);
 }
@@ -111,13 +104,13 @@ TEST(WeighedConditions, ExtendThePointsOfASmoothMotionAsAnExactLoadIs) {
 
 TEST(SolveMeasured, RefusesWhatNoiseDoesNotGoWith) {
   const Model model = measured_box(0.5);
-  SolveOptions options = quick();
+  SolveOptions options = linear_options();
   options.dynamics = Dynamics::transient;
   EXPECT_NE(refusal([&] { solve(model, options); }).find("motion in time"), std::string::npos);
-  options = quick();
+  options = linear_options();
   options.imposition = Imposition::simplified;
   EXPECT_NE(refusal([&] { solve(model, options); }).find("simplified"), std::string::npos);
-  options = quick();
+  options = linear_options();
   options.region = 1;
   EXPECT_NE(refusal([&] { solve(model, options); }).find("a region"), std::string::npos);
 }
