@@ -75,9 +75,7 @@ std::string run_checked(const Scene& scene, const RunArguments& arguments, const
 }
 
 void run_scene(RunArguments arguments, const Settings& settings) {
-  std::vector<std::string> overrides = preset_overrides(arguments.preset);
-  overrides.insert(overrides.end(), arguments.overrides.begin(), arguments.overrides.end());
-  const Scene scene = parse_scene(arguments.scene, overrides);
+  const Scene scene = parse_scene(arguments.scene, preset_overrides(arguments.preset, arguments.overrides));
   check_scene(scene);
   arguments.options.until = stage_from_name(arguments.until);
   const std::string failure = run_checked(scene, arguments, settings);

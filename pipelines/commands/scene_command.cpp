@@ -13,6 +13,7 @@
 #include "pipelines/scene/new_scene.hpp"
 #include "pipelines/scene/options_page.hpp"
 #include "pipelines/scene/parse_scene.hpp"
+#include "pipelines/scene/presets.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -26,11 +27,12 @@ struct SceneArguments {
   FilesAtHand files;
   std::filesystem::path after;
   std::optional<double> within;
+  std::string preset;
   std::vector<std::string> overrides;
 };
 
-Scene checked(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  Scene scene = parse_scene(file, overrides);
+Scene checked(const std::filesystem::path& file, const SceneArguments& arguments) {
+  Scene scene = parse_scene(file, preset_overrides(arguments.preset, arguments.overrides));
   check_scene(scene);
   return scene;
 }
@@ -76,12 +78,12 @@ void look_at_scene(const SceneArguments& arguments, const Settings& settings) {
       }
     }
   } else if (!arguments.check.empty()) {
-    checked(arguments.check, arguments.overrides);
+    checked(arguments.check, arguments);
     if (!settings.quiet) {
       std::cout << arguments.check.string() << ": no fault found\n";
     }
   } else {
-    explain_all(checked(arguments.explain, arguments.overrides), arguments, settings);
+    explain_all(checked(arguments.explain, arguments), arguments, settings);
   }
   std::cout.flush();
   if (!std::cout && errno != EPIPE) {  // who reads may have had enough, as head has
@@ -132,6 +134,8 @@ void add_scene_command(CLI::App& program, const Settings& settings) {
       ->type_name("MM")
       ->check(CLI::PositiveNumber)
       ->needs(after);
+  command->add_option("--preset", arguments->preset, "settings that the scene's run was given")
+      ->type_name(preset_names());
   command->add_option("--set", arguments->overrides, "override an option of the scene")
       ->type_name("PATH=VALUE")
       ->take_all()

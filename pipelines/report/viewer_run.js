@@ -131,8 +131,16 @@ const mm = (value) => `${value.toFixed(Math.abs(value) < 1 ? 2 : 1)} mm`;
 const directions = (u) => [["to the left", "to the right"], ["backwards", "forwards"], ["up", "down"]]
   .map(([plus, minus], axis) => `${mm(Math.abs(u[axis]))} ${u[axis] < 0 ? minus : plus}`).join(", ");
 
+const labelAt = (run, source) => run.labels.length > 0 && nearest(run.images, run.labels[0], source);
+
+function isTakenOut(run, source) {
+  const labels = run.options.resection?.labels.split(/[ ,]+/) ?? [];
+  return labels.includes(String(labelAt(run, source)));
+}
+
 function wordsOfTissue(run, source, after) {
   if (!(valueAt(run.fields, run.brain, source) > 0)) return ["outside the brain, where nothing is predicted."];
+  if (isTakenOut(run, source)) return ["what lay here is taken out."];
   const u = run.displacementAt(source);
   const tissue = after ? "the tissue that lies here came" : "the tissue here moves"; // that of its surface, too
   return [`${tissue} ${mm(length(u))}: ${directions(u)}.`,
@@ -140,7 +148,7 @@ function wordsOfTissue(run, source, after) {
 }
 
 function wordsOfLabel(run, source) {
-  const label = run.labels.length > 0 && nearest(run.images, run.labels[0], source);
+  const label = labelAt(run, source);
   const name = run.label_names[label];
   return label ? [`label ${label}${name ? ` (${name})` : ""}.`] : [];
 }

@@ -304,11 +304,8 @@ Warnings warnings_of_pressure(const solve::SolveMeasures& measures) {
           "that the tissue does not allow? Take a smaller load, a smaller Poisson ratio, or more nodes"};
 }
 
-/// A cube that swells by a fifth in a skull that leaves it no room folds within, and sheds its pressure by that: 7 % of
-/// it are then pressed so far.
 Warnings warnings_of_compression(const solve::SolveMeasures& measures) {
-  constexpr double much = 0.05;
-  if (measures.compressed_share < much) {
+  if (measures.compressed_share < solve::much_compressed) {
     return {};
   }
   return {

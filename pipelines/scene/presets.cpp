@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/scene/presets.hpp"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -38,19 +39,20 @@ std::string preset_help() {
   return help;
 }
 
-std::vector<std::string> preset_overrides(const std::string& name) {
-  if (name.empty()) {
-    return {};
-  }
-  for (const Preset& preset : presets) {
-    if (name == preset.name) {
-      return {"discretise.spacing=",        std::string("discretise.nodes=") + preset.nodes,
-              "solve.points_per_cell=auto", "solve.integration_tolerance=0",
-              "solve.basis=linear",         "solve.derivatives=full",
-              "solve.precision=single",     std::string("solve.tolerance=") + preset.tolerance};
+std::vector<std::string> preset_overrides(const std::string& name, const std::vector<std::string>& given) {
+  std::vector<std::string> overrides;
+  if (!name.empty()) {
+    const auto* preset = std::ranges::find(presets, name, &Preset::name);
+    if (preset == presets.end()) {
+      throw std::invalid_argument("--preset is '" + name + "', but must be " + preset_names());
     }
+    overrides = {"discretise.spacing=",        std::string("discretise.nodes=") + preset->nodes,
+                 "solve.points_per_cell=auto", "solve.integration_tolerance=0",
+                 "solve.basis=linear",         "solve.derivatives=full",
+                 "solve.precision=single",     std::string("solve.tolerance=") + preset->tolerance};
   }
-  throw std::invalid_argument("--preset is '" + name + "', but must be " + preset_names());
+  overrides.insert(overrides.end(), given.begin(), given.end());
+  return overrides;
 }
 
 }  // namespace brainshift::pipelines

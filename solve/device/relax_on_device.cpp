@@ -146,7 +146,7 @@ class Relaxation {
       on_.backend().copy(to, displacement(1), 4 * on_.nodes() * sizeof(double));
     }
     fraction_ = fraction_before_ = time_ = 1;
-    books_.looks_before = 2;
+    books_.start();
     pace_.skip();
   }
 
@@ -322,7 +322,7 @@ class Relaxation {
     const PointState state = point_state();
     const double two = of[LookSums::inertia_two], alpha = order_.alpha, beta = order_.beta;
     const double kinetic = kinetic_energy(alpha, beta, two, of[LookSums::inertia_now], of[LookSums::inertia_before]);
-    books_.look(state.strain_energy + kinetic);
+    books_.look(state.strain_energy, kinetic);
     constexpr double newton = 1e-6;  // µN to N
     HistoryRow row{.step = result_.steps, .time = time_};
     row.external_work = books_.external_work * energy_unit;

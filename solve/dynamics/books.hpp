@@ -10,7 +10,6 @@ namespace brainshift::solve {
 struct Books {
   double external_work = 0, dissipated = 0;
   double largest_work = 0;  ///< |external work| at a look, mJ
-  int looks_before = 0;     ///< until energies count
 
   /// A step over which the load's fraction moved on by so much before it. rate: of the work of the reactions by the
   /// fraction; force_work: of the forces over this step; lost: in damping and contact. By the trapezoidal rule.
@@ -40,17 +39,26 @@ struct Books {
     lost_ = steps.lost_last;
   }
 
-  /// At a look. What the first steps of a start take is no linear body's, off by a twentieth: until energies count as
-  /// much work was done as the body holds.
-  void look(double energy_held) {
-    if (looks_before > 0) {
-      --looks_before;
-      external_work = energy_held;
+  /// From here on under the full load.
+  void start() { looks_left_ = most_looks; }
+
+  /// At a look, 1e-9 J. The quick motions that a start begins with are no linear body's, and put the balance off by a
+  /// fortieth. Until they have died down as much work was done as the body holds.
+  void look(double strain, double kinetic) {
+    constexpr double quick = 1e-3;  // kinetic energy over strain energy
+    if (looks_left_ > 0) {
+      external_work = strain + kinetic;
       dissipated = 0;
+      --looks_left_;
+      if (looks_left_ <= most_looks - fewest_looks && kinetic <= quick * strain) {
+        looks_left_ = 0;
+      }
     }
   }
 
  private:
+  static constexpr int most_looks = 5, fewest_looks = 2;  // of a start, until energies count
+  int looks_left_ = 0;
   double rate_ = 0;
   double force_work_ = 0;
   double lost_ = 0;  // from the middle of the step before to that of the last

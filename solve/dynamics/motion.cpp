@@ -150,7 +150,7 @@ void Motion::start_from(const NodalVectors& parameters, double smallest_jacobian
   body.essential.apply(fraction_, now);
   before = next = good_ = now;
   squeezed_to_ = smallest_jacobian;
-  books_.looks_before = 2;
+  books_.start();
 }
 
 bool Motion::squeezed() {
@@ -172,7 +172,7 @@ void Motion::note_broken_point(double smallest_jacobian) {
 bool Motion::look(const PointLaws& laws, std::span<const double> mass, double most_imbalance) {
   const PointState state = point_state(body.points, laws, scratch);
   const double kinetic = kinetic_energy(mass);
-  books_.look(state.strain_energy + kinetic);
+  books_.look(state.strain_energy, kinetic);
   const HistoryRow latest = row(kinetic, state);
   books_.largest_work = std::max(books_.largest_work, std::abs(latest.external_work));
   const double motion = inertia(mass, now, next) * (1 + beta_) / (16 * alpha_) * energy_unit;

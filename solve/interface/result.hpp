@@ -123,6 +123,10 @@ struct MeasuredFit {
 /// Below this stretch a free face of soft matter creases under uniaxial compression (Hong, Zhao & Suo 2009).
 inline constexpr double crease_stretch = 0.56;
 
+/// A share of the volume below it with which a body folds. A cube that swells by a fifth in a skull that leaves it no
+/// room folds within, and sheds its pressure by that: 7 % of it are then pressed so far.
+inline constexpr double much_compressed = 0.05;
+
 /// Over the shear modulus: pressures of patches above it may move points to where they should not go. Measured on
 /// blocks all of whose surface is prescribed, two hundred nodes: at 5 exact, at 10 wrong by a fifth of what is imposed.
 inline constexpr double most_pressure = 6;

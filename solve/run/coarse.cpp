@@ -20,9 +20,10 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double coarser = 2;            // spacing over that of the cloud
-constexpr double least_distance = 1.41;  // of chosen nodes, over the cloud's spacing: leaves about an eighth
-constexpr double looser = 0.1;           // stop, over the region's displacement
+constexpr double less_coarse = 1.5;        // spacing over that of the cloud, where few nodes are left of it else
+constexpr double least_distance = 0.705;   // of chosen nodes, over their own spacing
+constexpr double looser = 0.1;             // stop, over the region's displacement
+constexpr std::size_t small_cloud = 1000;  // nodes
 
 /// Loaded nodes first, then the surface, then the inside; each in the cloud's order.
 std::vector<std::int32_t> by_importance(const NodeCloud& cloud, const Conditions& conditions) {
@@ -39,6 +40,20 @@ std::vector<std::int32_t> by_importance(const NodeCloud& cloud, const Conditions
   return order;
 }
 
+Eigen::SparseMatrix<double, Eigen::RowMajor> shape_at(const ShapeFunctions& shape, const Points& positions,
+                                                      Eigen::Index nodes) {
+  std::vector<std::int32_t> all(static_cast<std::size_t>(positions.rows()));
+  std::iota(all.begin(), all.end(), 0);
+  return shape_matrix(shape.evaluate(positions, false), all, nodes);
+}
+
+/// Forces on all nodes, (n × 3) N, as they act on the coarse ones: their sum and their moments stay.
+Points forces_on_coarse(const Points& force, const Points& positions, const NodeCloud& coarse,
+                        const ShapeOptions& options) {
+  const ShapeFunctions shape(coarse.positions, coarse.spacing, options);
+  return shape_at(shape, positions, coarse.positions.rows()).transpose() * force;
+}
+
 /// All free surface nodes of the cloud may touch the skull, moved by the coarse parameters: coarse nodes alone would
 /// let the surface between them through, and the body sink by tenths of a millimetre.
 void touch_with_whole_surface(const Model& model, const NodeCloud& coarse, const ShapeOptions& options, Body& body) {
@@ -51,9 +66,7 @@ void touch_with_whole_surface(const Model& model, const NodeCloud& coarse, const
   body.contact.emplace(std::shared_ptr(body.contact->skull()), positions, ordinal, shape.evaluate(positions, false));
 }
 
-}  // namespace
-
-std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud, const Conditions& conditions) {
+std::vector<std::int32_t> nodes_apart(const NodeCloud& cloud, const Conditions& conditions, double wider) {
   const SupportSearch search(cloud.positions, cloud.spacing);
   std::vector<std::uint8_t> excluded(cloud.size(), 0);
   std::vector<std::int32_t> chosen;
@@ -63,7 +76,7 @@ std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud, const Conditions&
       continue;
     }
     chosen.push_back(a);
-    search.find(cloud.positions.row(a), least_distance, near);
+    search.find(cloud.positions.row(a), least_distance * wider, near);
     for (const std::int32_t node : near) {
       excluded[static_cast<std::size_t>(node)] = 1;
     }
@@ -72,14 +85,20 @@ std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud, const Conditions&
   return chosen;
 }
 
+}  // namespace
+
+std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud, const Conditions& conditions) {
+  return nodes_apart(cloud, conditions, coarser);
+}
+
 CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& model, const SolveOptions& given,
-                       const Progress& progress, bool keep_parts) {
+                       const Progress& progress, bool keep_parts, double wider) {
   CoarseBody coarse{.model = model, .options = given, .measures = {}, .prepared = {}};
   coarse.model.cloud = subset(model.cloud, nodes);
   coarse.model.conditions = subset(model.conditions, nodes);
   coarse.model.conditions.at_nodes_alone = true;
   for (double& spacing : coarse.model.cloud.spacing) {
-    spacing *= coarser;
+    spacing *= wider;
   }
   if (is_planar(model.cells.kind)) {  // the coarse surface nodes tell less of the body's outline
     if (Surface boundary = known_boundary(model); boundary.triangles.rows() > 0) {
@@ -92,6 +111,10 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
   coarse.options.region = 0;
   coarse.options.points_per_cell = 1;
   coarse.options.shape = {.basis = Basis::linear, .derivatives = given.shape.derivatives, .planar = given.shape.planar};
+  if (model.conditions.force.rows() > 0) {
+    coarse.model.conditions.force =
+        forces_on_coarse(model.conditions.force, model.cloud.positions, coarse.model.cloud, coarse.options.shape);
+  }
   coarse.options.snapshot_every = 0;
   coarse.options.tolerance = std::max(given.tolerance, looser * given.region);
   coarse.prepared = prepare(coarse.model, coarse.options, {}, coarse.measures, progress, keep_parts);
@@ -120,17 +143,6 @@ Points from_coarse(const ShapeFunctions& shape, const NodeCloud& coarse, const P
   return as_prescribed(shape.interpolate(model.cloud.positions, parameters), model.conditions);
 }
 
-namespace {
-
-Eigen::SparseMatrix<double, Eigen::RowMajor> shape_at(const ShapeFunctions& shape, const Points& positions,
-                                                      Eigen::Index nodes) {
-  std::vector<std::int32_t> all(static_cast<std::size_t>(positions.rows()));
-  std::iota(all.begin(), all.end(), 0);
-  return shape_matrix(shape.evaluate(positions, false), all, nodes);
-}
-
-}  // namespace
-
 FromCoarse::FromCoarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Model& model)
     : model_(model),
       at_coarse_(shape_at(shape, coarse.positions, coarse.positions.rows())),
@@ -142,33 +154,32 @@ Points FromCoarse::operator()(const Points& displacement) const {
 
 namespace {
 
-std::optional<CoarseSolution> solved_on(const std::vector<std::int32_t>& nodes, const Model& model,
+std::optional<CoarseSolution> solved_on(const std::vector<std::int32_t>& nodes, double wider, const Model& model,
                                         const SolveOptions& given, const Progress& progress) {
-  auto [coarse, options, measures, prepared] = coarse_body(nodes, model, given, progress);
+  auto [coarse, options, measures, prepared] = coarse_body(nodes, model, given, progress, false, wider);
   const SolveResult result = step_to_end(coarse, options, std::move(prepared), measures, {}, progress);
   if (result.rounded) {
     SolveOptions doubled = given;
     doubled.precision = Precision::double_precision;
-    return solved_on(nodes, model, doubled, progress);
+    return solved_on(nodes, wider, model, doubled, progress);
   }
   if (!result.failure.empty()) {
     return std::nullopt;
   }
   const ShapeFunctions shape(coarse.cloud.positions, coarse.cloud.spacing, result.solution.shape);
   return CoarseSolution{from_coarse(shape, coarse.cloud, result.solution.displacement, model),
-                        result.measures.error_bound, result.measures.steps};
+                        result.measures.error_bound, result.measures.steps, wider};
 }
 
-}  // namespace
-
-std::optional<CoarseSolution> coarse_solution(const Model& model, const SolveOptions& options,
-                                              const Progress& progress) {
-  const std::vector<std::int32_t> nodes = coarse_nodes(model.cloud, model.conditions);
+/// Empty as coarse_solution().
+std::optional<CoarseSolution> solved_with(double wider, const Model& model, const SolveOptions& options,
+                                          const Progress& progress) {
+  const std::vector<std::int32_t> nodes = nodes_apart(model.cloud, model.conditions, wider);
   if (nodes.size() < fewest_coarse_nodes) {
     return std::nullopt;
   }
   try {
-    return solved_on(nodes, model, options, progress);
+    return solved_on(nodes, wider, model, options, progress);
   } catch (const device::DeviceFault&) {
     throw;  // nothing of the coarse cloud
   } catch (const std::logic_error&) {
@@ -176,6 +187,14 @@ std::optional<CoarseSolution> coarse_solution(const Model& model, const SolveOpt
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }
+}
+
+}  // namespace
+
+std::optional<CoarseSolution> coarse_solution(const Model& model, const SolveOptions& options,
+                                              const Progress& progress) {
+  std::optional<CoarseSolution> solution = solved_with(coarser, model, options, progress);
+  return solution || model.cloud.size() > small_cloud ? solution : solved_with(less_coarse, model, options, progress);
 }
 
 std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress) {

@@ -17,7 +17,10 @@ namespace brainshift::solve {
 /// chosen first, then those on the surface, then the inner ones. Ascending.
 std::vector<std::int32_t> coarse_nodes(const NodeCloud& cloud, const Conditions& conditions);
 
-/// A model on its coarse nodes, their spacing doubled, with linear shape functions and one point a cell.
+/// Spacing of coarse nodes over that of the cloud.
+inline constexpr double coarser = 2;
+
+/// A model on its coarse nodes, their spacing so many times as wide, with linear shape functions and one point a cell.
 struct CoarseBody {
   Model model;
   SolveOptions options;
@@ -27,7 +30,7 @@ struct CoarseBody {
 
 /// Throws as prepare() does, which sees keep_parts.
 CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& model, const SolveOptions& options,
-                       const Progress& progress, bool keep_parts = false);
+                       const Progress& progress, bool keep_parts = false, double wider = coarser);
 
 /// A cloud with fewer coarse nodes is not solved on them.
 inline constexpr std::size_t fewest_coarse_nodes = 24;
@@ -57,10 +60,12 @@ struct CoarseSolution {
   Points displacement;     ///< at all nodes, (n × 3) mm, prescribed components as prescribed
   double error_bound = 0;  ///< mm, of the coarse relaxation
   int steps = 0;           ///< that it took
+  double wider = coarser;  ///< its spacing over that of the cloud
 };
 
-/// The solution on the coarse nodes, their spacing doubled, with linear shape functions and one point a cell. Empty
-/// when that cannot be solved: too few nodes, or refused, or not converged.
+/// The solution on the coarse nodes with linear shape functions and one point a cell; of a small cloud where that
+/// cannot be solved, on about a third of its nodes. Empty when neither can: too few nodes, or refused, or not
+/// converged.
 std::optional<CoarseSolution> coarse_solution(const Model& model, const SolveOptions& options,
                                               const Progress& progress);
 

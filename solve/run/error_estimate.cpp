@@ -4,22 +4,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/run/coarse.hpp"
 #include "solve/shape/support_search.hpp"
 
 namespace brainshift::solve {
 
 namespace {
 
+constexpr double within = 2;  // spacings
+
 /// 1/(2^p − 1) with p = 1.5, as `--tolerance` takes, is 0.55; but the coarse solution has linear shape functions and
 /// one point a cell, and is further off than half the order says (measured: verification, error_estimate).
-constexpr double of_coarse = 0.8;
-constexpr double within = 2;  // spacings
+double share_of_distance(double wider) {
+  constexpr double of_coarse = 0.8, order = 1.5;
+  return of_coarse * ((std::pow(coarser, order) - 1) / (std::pow(wider, order) - 1));
+}
 
 }  // namespace
 
-std::vector<double> estimated_error(const NodeCloud& cloud, const Points& displacement, const Points& coarse) {
+std::vector<double> estimated_error(const NodeCloud& cloud, const Points& displacement, const Points& coarse,
+                                    double wider) {
   const Eigen::VectorXd squared = (displacement - coarse).rowwise().squaredNorm();
   const SupportSearch search(cloud.positions, cloud.spacing);
+  const double share = share_of_distance(wider);
   std::vector<double> error(cloud.size());
 #pragma omp parallel
   {
@@ -31,7 +38,7 @@ std::vector<double> estimated_error(const NodeCloud& cloud, const Points& displa
       for (const std::int32_t node : near) {
         sum += squared[node];
       }
-      error[a] = of_coarse * std::sqrt(sum / static_cast<double>(near.size()));
+      error[a] = share * std::sqrt(sum / static_cast<double>(near.size()));
     }
   }
   return error;

@@ -54,6 +54,7 @@ class Run:
         entry = record.get("entry", record)
         self.measures = entry.get("measures", {})
         self.sizes = entry.get("sizes", {})
+        self.doubted = any("may be all wrong" in note for note in entry.get("notes", []))
 
     def solution(self):
         return vtu.read_solution(self.out / "solution.vtu")
@@ -76,7 +77,7 @@ def distances(a, b, dimensions):
 
 
 def reference(problem, folder, program, arguments, seconds):
-    """(what it is, displacement as a function of the place or None)."""
+    """(what it is, displacement as a function of the place or None: of what the program itself doubts, too)."""
     exact = problem.exact()
     if exact:
         return "paper", exact
@@ -88,6 +89,8 @@ def reference(problem, folder, program, arguments, seconds):
     run = Run(program, more, folder / "finer" / "solved", seconds)
     if run.exit != 0:
         return f"finer: exit {run.exit}", None
+    if run.doubted:
+        return "finer: doubted", None
     values = run.solution()["displacement"]
     return "finer", lambda x: grid.interpolate(values, x)
 

@@ -13,6 +13,14 @@ TEST(Presets, AreKnownByName) {
   EXPECT_THROW(preset_overrides("quick"), std::invalid_argument);
 }
 
+TEST(Presets, GiveWayToWhatIsGiven) {
+  const std::vector<std::string> given = {"solve.tolerance=1", "solve.basis=linear"};
+  EXPECT_EQ(preset_overrides("", given), given);
+  const std::vector<std::string> all = preset_overrides("fast", given);
+  EXPECT_EQ(all.size(), preset_overrides("fast").size() + 2);
+  EXPECT_EQ(all.back(), given.back());
+}
+
 /// A brain that only sinks has no opening to be finer at.
 TEST_F(SceneFile, PresetsGoWithAndWithoutALoad) {
   write_image(folder_ / "labels.nii.gz", block_labels());

@@ -35,6 +35,20 @@ TEST(CoarseNodes, HoldTheLoadedOnesFirst) {
   EXPECT_TRUE(std::ranges::is_sorted(nodes));
 }
 
+TEST(CoarseBody, TakesAllForcesWithTheirMoments) {
+  Model model = uniaxial(1, 7);
+  const Points& x = model.cloud.positions;
+  model.conditions.force = (x.array() * x.array().rowwise().sum().sin().replicate(1, 3)).matrix();
+  const NodeCloud coarse = subset(model.cloud, coarse_nodes(model.cloud, model.conditions));
+  const Points on_coarse =
+      coarse_body(coarse_nodes(model.cloud, model.conditions), model, {}, {}).model.conditions.force;
+  ASSERT_EQ(on_coarse.rows(), coarse.positions.rows());
+  const Points& force = model.conditions.force;
+  EXPECT_LE((on_coarse.colwise().sum() - force.colwise().sum()).norm(), 1e-9 * force.norm());
+  const Eigen::Matrix3d moments = coarse.positions.transpose() * on_coarse;
+  EXPECT_LE((moments - x.transpose() * force).norm(), 1e-9 * force.norm() * model_side);
+}
+
 TEST(CoarseDisplacement, IsNearTheSolutionAndAsPrescribedWhereItIs) {
   const Model model = uniaxial(1.1, 11);
   const auto coarse = coarse_displacement(model, {}, {});

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "solve/output/field_difference.hpp"
 #include "tests/unit/solve/models.hpp"
 
@@ -14,8 +16,11 @@ constexpr double side = 60;
 TEST(ErrorEstimate, IsAShareOfAnEvenDifference) {
   const NodeCloud cloud = test::irregular_box(5, side);
   const Points fine = Points::Zero(cloud.positions.rows(), 3), coarse = fine.rowwise() + Eigen::RowVector3d(0, 2, 0);
-  for (const double error : estimated_error(cloud, fine, coarse)) {
+  for (const double error : estimated_error(cloud, fine, coarse, 2)) {
     EXPECT_NEAR(error, 0.8 * 2, 1e-12);
+  }
+  for (const double error : estimated_error(cloud, fine, coarse, 1.5)) {
+    EXPECT_NEAR(error, 0.8 * 2 * (std::pow(2, 1.5) - 1) / (std::pow(1.5, 1.5) - 1), 1e-12);
   }
 }
 
@@ -25,7 +30,7 @@ TEST(ErrorEstimate, DoesNotVanishWhereTheFieldsCross) {
   const Points fine = Points::Zero(cloud.positions.rows(), 3);
   Points coarse = fine;
   coarse.col(0) = (cloud.positions.col(0).array() - side / 2) / (side / 2);  // 1 mm at the ends
-  const std::vector<double> error = estimated_error(cloud, fine, coarse);
+  const std::vector<double> error = estimated_error(cloud, fine, coarse, 2);
   for (std::size_t a = 0; a < cloud.size(); ++a) {
     const double apart = std::abs(coarse(static_cast<Eigen::Index>(a), 0));
     EXPECT_GE(error[a], 0.1) << apart;
