@@ -43,7 +43,7 @@
 #include "solve/output/solution_file.hpp"
 #include "solve/run/coarse.hpp"
 #include "solve/run/prepare.hpp"
-#include "solve/run/whole_body.hpp"
+#include "solve/run/attempt.hpp"
 #include "solve/update/kept_run.hpp"
 #include "tests/benchmark/problems.hpp"
 
