@@ -31,7 +31,8 @@ class Motion {
   /// Notes the first point that turned inside out.
   bool squeezed();
 
-  /// Goes on from û under the full load, at rest. Energies count as Books::look() says. smallest_jacobian: J down to which squeezed() is not true yet. After weigh().
+  /// Goes on from û under the full load, at rest. Energies count as Books::look() says. smallest_jacobian: J down to
+  /// which squeezed() is not true yet. After weigh().
   void start_from(const NodalVectors& parameters, double smallest_jacobian = 1);
 
   /// f_int at `now`, of tissues swollen by the fraction of the load there.

@@ -135,6 +135,13 @@ class Relaxation {
     }
   }
 
+  /// Of the steps to come, up to the next look.
+  double beta() const {
+    const bool started = !course_.start.empty() && !course_.settled;
+    const int looked = motion_.result.steps / window_ * window_;
+    return critical_beta(started ? damped_eigenvalue(lowest_, looked) : lowest_);
+  }
+
   bool no_change_is_left() const { return !course_.change || course_.change.is_done(); }
 
   /// Between two windows, so that no difference over steps has a change of the body in it.
@@ -167,7 +174,7 @@ class Relaxation {
     }
     const double time = pace_.go_on(calm_ >= rows_of_rest);
     const double fraction = course_.curve.at(time * course_.curve.duration());
-    motion_.step(laws(), mass_, alpha, critical_beta(lowest_), time, fraction);
+    motion_.step(laws(), mass_, alpha, beta(), time, fraction);
     if (motion_.squeezed()) {
       follow_stiffness();
     }
@@ -194,7 +201,7 @@ class Relaxation {
     look_at_stiff_parts();
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     estimate_lowest_eigenvalue(moved);
-    bound_.add(moved, std::sqrt(critical_beta(lowest_)), motion_.time >= 1, rounding());
+    bound_.add(moved, slowest_rate(beta(), lowest_), motion_.time >= 1, rounding());
     spans_.add(seen);
     find_error_bound();
     if (only_glances()) {
@@ -206,7 +213,7 @@ class Relaxation {
       follow_stiffness();
     }
     if (motion_.time >= 1 && !cautious_ && (motion_.rigid_modes || bound_.value() > far_from_rest * tolerance())) {
-      quickening_.look(motion_, mass_, critical_beta(lowest_), lowest_);
+      quickening_.look(motion_, mass_, beta(), lowest_);
     }
   }
 
@@ -304,10 +311,9 @@ class Relaxation {
   /// squares: what of it can be in a sum of reactions does then not depend on how many nodes there are.
   double residual() {
     const Motion& m = motion_;
-    const double beta = critical_beta(lowest_);
     NodalVectors step = m.now;
     for (std::size_t a = 0; a < nodes(); ++a) {
-      at(step, a) -= at(m.before, a) + beta * (at(m.before, a) - at(m.next, a));
+      at(step, a) -= at(m.before, a) + beta() * (at(m.before, a) - at(m.next, a));
     }
     m.multiply_by_masses(mass_, step);
     const double push = sum_over_nodes(nodes(), [&](std::size_t a) { return at(step, a).norm(); }) / alpha;
@@ -341,7 +347,7 @@ class Relaxation {
 
   void weigh() {
     motion_.weigh(mass_, alpha);
-    quickening_.weigh(motion_, mass_, critical_beta(lowest_));
+    quickening_.weigh(motion_, mass_, beta());
   }
 
   SteppingResult finish() {

@@ -41,6 +41,7 @@ class Ensemble {
     const Numbers tightness = bound_tightness_of_each(motion_.force_law, mass_);
     for (std::size_t m = 0; m < members; ++m) {
       way_[m].bound = ErrorBound(usual_window, margin_of(bound));
+      way_[m].started = !loads.front().start.empty();
       way_[m].mass_scale = tightness[static_cast<Eigen::Index>(m)];
     }
     for (NumberOfEach<double>& of_node : mass_) {

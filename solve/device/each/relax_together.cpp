@@ -180,6 +180,7 @@ class Ensemble {
       work_[m].external = record_.energy[m];
       load_[m].time = load_[m].fraction = load_[m].fraction_before = 1;
       load_[m].pace.skip();
+      ways_[m].started = true;
     });
     follow_stiffness(active_);
   }

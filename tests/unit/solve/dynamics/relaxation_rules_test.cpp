@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 #include "solve/material/material_table.hpp"
 
 namespace brainshift::solve::relaxation_rules_test {
@@ -32,6 +35,27 @@ TEST(StepsOfLoad, AreMoreWhereShearIsSlowerUpToABound) {
 
 TEST(StepsOfLoad, AreThoseThatAreAskedForInPlaneStress) {
   EXPECT_EQ(steps({0.4999}, true), 400);
+}
+
+/// Steps until a mode of this eigenvalue stays within a thousandth of where it started, in a body of this A_0.
+int steps_of_mode(double eigenvalue, double lowest, bool quick_ones_first) {
+  double now = 1, before = 1;
+  int last = 0;
+  for (int n = 0; n < 20'000; ++n) {
+    const int looked = n / usual_window * usual_window;
+    const double beta = critical_beta(quick_ones_first ? damped_eigenvalue(lowest, looked) : lowest);
+    const double next = now + beta * (now - before) - relaxation_alpha * eigenvalue * now;
+    before = std::exchange(now, next);
+    last = std::abs(now) > 1e-3 ? n : last;
+  }
+  return last;
+}
+
+TEST(DampedEigenvalue, LetsQuickMotionsDieFirstAndHoldsTheSlowestUpByATenthAtMost) {
+  constexpr double lowest = 1e-6;
+  EXPECT_LT(4 * steps_of_mode(1e-2, lowest, true), steps_of_mode(1e-2, lowest, false));
+  EXPECT_LT(2 * steps_of_mode(1e-3, lowest, true), steps_of_mode(1e-3, lowest, false));
+  EXPECT_LT(steps_of_mode(lowest, lowest, true), 1.1 * steps_of_mode(lowest, lowest, false));
 }
 
 TEST(SinglePrecision, IsOutlastedSoonerByWhatMovesFartherOrIsWantedNearer) {
