@@ -51,7 +51,8 @@ struct Way {
     return true;
   }
 
-  /// How it ends after a look, if it does. spans: value() of its SpanBound, and reset(). patient: a slow one stays.
+  /// How it ends after a look, if it does. spans: value() of its SpanBound, and reset(). patient: a slow one stays, be
+  /// it rounded.
   template <class Spans>
   std::optional<MemberResult::End> end(double tolerance, bool loaded, bool patient, Precision precision, Spans& spans) {
     using End = MemberResult::End;
@@ -62,7 +63,7 @@ struct Way {
     if (loaded && bound.with_spans(spans.value()) <= wanted) {
       return End::rest;
     }
-    if (outlasts(precision, bound.loaded_steps(), farthest, wanted)) {
+    if (!patient && outlasts(precision, bound.loaded_steps(), farthest, wanted)) {
       return End::left;
     }
     if (!bound.stands_still(rounding_of_step(farthest, precision))) {

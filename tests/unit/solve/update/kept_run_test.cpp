@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <random>
@@ -142,6 +143,17 @@ TEST(KeptRun, AnswersTheSameLoadAgainInSinglePrecision) {
     EXPECT_LE(distance(answer.solution.displacement, before), single.tolerance) << again;
     EXPECT_FALSE(answer.history.empty());
   }
+}
+
+/// They are solved to a fiftieth of the tolerance, which rounding does not leave to slow bodies.
+TEST(KeptRun, KnowsItsResponsesInSinglePrecision) {
+  Model model = pressed_bar(8);
+  model.conditions.displacement *= 2;
+  SolveOptions single = quick();
+  single.precision = Precision::single_precision;
+  const KeptRun run = kept(model, single);
+  ASSERT_EQ(run.options.precision, Precision::single_precision);
+  EXPECT_EQ(run.responses.count(), std::min<std::size_t>(16, run.responses.nodes.size()));
 }
 
 /// Measured anew: more of the same, and other noise.
