@@ -111,6 +111,19 @@ NodalVectors near_start(const Model& model, const SolveOptions& options, const s
   return coarse && starts_coarse(model, options) ? in_body_order(coarse->displacement, body.original) : NodalVectors();
 }
 
+/// coarse: if it could be solved.
+void estimate_error(const Model& model, const SolveOptions& options, std::optional<CoarseSolution> coarse,
+                    SolveResult& result) {
+  if (!coarse && has_coarse(model, options)) {
+    coarse = less_coarse_solution(model, of_coarse_start(options), {});
+  }
+  if (coarse) {
+    result.solution.estimated_error =
+        estimated_error(model.cloud, result.solution.displacement, coarse->displacement, coarse->wider);
+    result.measures.estimated_error_95 = percentile_95(result.solution.estimated_error);
+  }
+}
+
 }  // namespace
 
 SolveResult attempt(const Model& model, const SolveOptions& options, const SolveMeasures& known,
@@ -149,13 +162,11 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
       return by_load;
     }
   }
-  if (coarse && result.failure.empty()) {
-    if (starts_coarse(model, options)) {
+  if (result.failure.empty()) {
+    if (coarse && starts_coarse(model, options)) {
       result.measures.error_bound = std::max(result.measures.error_bound, left_by_coarse(*coarse, result.measures));
     }
-    result.solution.estimated_error =
-        estimated_error(model.cloud, result.solution.displacement, coarse->displacement, coarse->wider);
-    result.measures.estimated_error_95 = percentile_95(result.solution.estimated_error);
+    estimate_error(model, options, coarse, result);
   }
   return result;
 }

@@ -20,10 +20,8 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double less_coarse = 1.5;        // spacing over that of the cloud, where few nodes are left of it else
-constexpr double least_distance = 0.705;   // of chosen nodes, over their own spacing
-constexpr double looser = 0.1;             // stop, over the region's displacement
-constexpr std::size_t small_cloud = 1000;  // nodes
+constexpr double least_distance = 0.705;  // of chosen nodes, over their own spacing
+constexpr double looser = 0.1;            // stop, over the region's displacement
 
 /// Loaded nodes first, then the surface, then the inside; each in the cloud's order.
 std::vector<std::int32_t> by_importance(const NodeCloud& cloud, const Conditions& conditions) {
@@ -193,8 +191,14 @@ std::optional<CoarseSolution> solved_with(double wider, const Model& model, cons
 
 std::optional<CoarseSolution> coarse_solution(const Model& model, const SolveOptions& options,
                                               const Progress& progress) {
-  std::optional<CoarseSolution> solution = solved_with(coarser, model, options, progress);
-  return solution || model.cloud.size() > small_cloud ? solution : solved_with(less_coarse, model, options, progress);
+  return solved_with(coarser, model, options, progress);
+}
+
+std::optional<CoarseSolution> less_coarse_solution(const Model& model, const SolveOptions& options,
+                                                   const Progress& progress) {
+  constexpr std::size_t small_cloud = 1000;  // nodes
+  constexpr double wider = 1.5;
+  return model.cloud.size() <= small_cloud ? solved_with(wider, model, options, progress) : std::nullopt;
 }
 
 std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress) {

@@ -172,7 +172,7 @@ TEST_F(RunTest, TellsAndRecordsItsWarnings) {
   const std::vector<StageId> thrice(3, StageId::solve);
   EXPECT_EQ(told(Kind::note), thrice);
   ASSERT_EQ(outcome.record["stages"]["solve"]["notes"].size(), 3U);
-  expect_parts(outcome.record["stages"]["solve"]["notes"][0], {"nothing says how far off", "the moved patch"});
+  expect_parts(outcome.record["stages"]["solve"]["notes"][0], {"farther off than is estimated", "the moved patch"});
   expect_parts(outcome.record["stages"]["solve"]["notes"][1], {"measured at 3 places"});
   expect_parts(outcome.record["stages"]["solve"]["notes"][2], {"nothing but the load holds"});
   run_ball({"load.margin=8"});
