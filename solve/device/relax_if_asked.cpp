@@ -16,7 +16,7 @@ namespace brainshift::solve::device {
 SteppingResult go_on(SteppingResult left, const Course& course, SolveOptions options, const Progress& progress) {
   report(progress, 0, "slow; the processor goes on, which makes rigid motions quicker");
   options.max_steps -= left.steps;
-  Course rest{.curve = course.curve, .start = std::move(left.parameters)};
+  Course rest{.curve = course.curve, .start = std::move(left.parameters), .goes_on = true};
   if (course.settled) {
     rest.settled = std::move(left.settled);
   }

@@ -171,18 +171,12 @@ class Relaxation {
     }
   }
 
-  /// As Relaxation's: of the steps to come, up to the next look.
-  double beta() const {
-    const bool started = !course_.start.empty() && !course_.settled;
-    return critical_beta(started ? damped_eigenvalue(lowest_, result_.steps) : lowest_);
-  }
-
   bool only_glances(int steps) const { return course_.settled && solve::only_glances(steps, options_.max_steps); }
 
   /// So many steps of a window, and the look at its end.
   void advance(int steps) {
     const double beta_before = order_.beta;
-    order_.beta = beta();
+    order_.beta = critical_beta(course_.starts_roughly() ? damped_eigenvalue(lowest_, result_.steps) : lowest_);
     order_.glance = only_glances(result_.steps + steps);
     for (int done = 0; done < steps; done += record_.steps) {
       const LoadPace pace_before = pace_;
@@ -272,7 +266,9 @@ class Relaxation {
     }
     farthest_ = std::max(farthest_, of[LookSums::farthest]);
     estimate_lowest_eigenvalue(moved());
-    bound_.add(moved(), slowest_rate(beta(), lowest_), time_ >= 1, rounding_of_step(farthest_, precision()));
+    const double slowest = course_.starts_roughly() ? damped_rate(lowest_, result_.steps - window_) : 0;
+    bound_.add(moved(), std::sqrt(critical_beta(lowest_)), time_ >= 1, rounding_of_step(farthest_, precision()),
+               slowest);
     find_error_bound();
     if (order_.glance) {
       return;

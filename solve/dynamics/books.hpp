@@ -43,7 +43,7 @@ struct Books {
   void start() { looks_left_ = most_looks; }
 
   /// At a look, 1e-9 J. The quick motions that a start begins with are no linear body's, and put the balance off by a
-  /// fortieth. Until they have died down as much work was done as the body holds.
+  /// fortieth. Until they have died down, for five looks at most, as much work was done as the body holds.
   void look(double strain, double kinetic) {
     constexpr double quick = 1e-3;  // kinetic energy over strain energy
     if (looks_left_ > 0) {

@@ -63,7 +63,7 @@ double ErrorBound::largest_bound(double rate) const {
   return largest;
 }
 
-void ErrorBound::add(double moved, double damping_rate, bool loaded, double rounding) {
+void ErrorBound::add(double moved, double damping_rate, bool loaded, double rounding, double slowest) {
   moved_.push_back(moved);
   rates_.push_back(damping_rate);
   bounds_.push_back(std::numeric_limits<double>::infinity());
@@ -71,9 +71,9 @@ void ErrorBound::add(double moved, double damping_rate, bool loaded, double roun
   if (loaded_ > recent_windows) {  // a rate while the load comes is the load's
     const double earlier = *(moved_.end() - 1 - recent_windows);
     const double measured = moved > rounding ? std::pow(moved / earlier, 1.0 / (recent_windows * window_)) : 0.0;
-    const double slowest = slowest_rate(), rate = std::max(measured, slowest);
+    const double damped = slowest_rate(), rate = std::max({measured, damped, slowest});
     bounds_.back() = rate < 1 ? rate / (1 - rate) * moved : bounds_.back();
-    value_ = fall_of_eigenvalue() * largest_bound(slowest);
+    value_ = fall_of_eigenvalue() * largest_bound(damped);
   }
 }
 

@@ -18,9 +18,10 @@ class ErrorBound {
   /// window: steps between two calls of add(). margin: what the bound is multiplied by.
   explicit ErrorBound(int window, double margin = 1) : window_(window), margin_(margin) {}
 
-  /// moved: the longest way of a node, |u⁺ − u| or |û⁺ − û|, in the last step, mm; damping_rate: √β; loaded: the whole
-  /// load is on; rounding: what no longer moves than this, mm, has no rate that could be measured.
-  void add(double moved, double damping_rate, bool loaded, double rounding = 0);
+  /// moved: the longest way of a node, |u⁺ − u| or |û⁺ − û|, in the last step, mm; damping_rate: √β of A_0; loaded: the
+  /// whole load is on; rounding: what no longer moves than this, mm, has no rate that could be measured; slowest: rate
+  /// of A_0's motion where the damping is for quicker ones.
+  void add(double moved, double damping_rate, bool loaded, double rounding = 0, double slowest = 0);
 
   /// mm; infinite until there are enough windows under the whole load.
   double value() const { return margin_ * value_; }

@@ -81,6 +81,7 @@ class Relaxation {
 
   SteppingResult run(const Progress& progress) {
     SteppingResult& result = motion_.result;
+    damp();
     while (result.failure.empty() && result.steps < options_.max_steps) {
       if (result.steps % window_ == 0) {
         change_if_due();
@@ -88,6 +89,7 @@ class Relaxation {
       step();
       if (result.steps % window_ == 0) {
         look();
+        damp();
         report_window(progress, result.steps, motion_.time, error_bound_, tolerance(), done_);
         if (motion_.time >= 1 && error_bound_ <= tolerance() && no_change_is_left() && ends_soundly()) {
           return finish();
@@ -135,11 +137,9 @@ class Relaxation {
     }
   }
 
-  /// Of the steps to come, up to the next look.
-  double beta() const {
-    const bool started = !course_.start.empty() && !course_.settled;
-    const int looked = motion_.result.steps / window_ * window_;
-    return critical_beta(started ? damped_eigenvalue(lowest_, looked) : lowest_);
+  /// For the steps up to the next look.
+  void damp() {
+    beta_ = critical_beta(course_.starts_roughly() ? damped_eigenvalue(lowest_, motion_.result.steps) : lowest_);
   }
 
   bool no_change_is_left() const { return !course_.change || course_.change.is_done(); }
@@ -174,7 +174,7 @@ class Relaxation {
     }
     const double time = pace_.go_on(calm_ >= rows_of_rest);
     const double fraction = course_.curve.at(time * course_.curve.duration());
-    motion_.step(laws(), mass_, alpha, beta(), time, fraction);
+    motion_.step(laws(), mass_, alpha, beta_, time, fraction);
     if (motion_.squeezed()) {
       follow_stiffness();
     }
@@ -201,7 +201,8 @@ class Relaxation {
     look_at_stiff_parts();
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     estimate_lowest_eigenvalue(moved);
-    bound_.add(moved, slowest_rate(beta(), lowest_), motion_.time >= 1, rounding());
+    const double slowest = course_.starts_roughly() ? damped_rate(lowest_, motion_.result.steps - window_) : 0;
+    bound_.add(moved, std::sqrt(critical_beta(lowest_)), motion_.time >= 1, rounding(), slowest);
     spans_.add(seen);
     find_error_bound();
     if (only_glances()) {
@@ -213,7 +214,7 @@ class Relaxation {
       follow_stiffness();
     }
     if (motion_.time >= 1 && !cautious_ && (motion_.rigid_modes || bound_.value() > far_from_rest * tolerance())) {
-      quickening_.look(motion_, mass_, beta(), lowest_);
+      quickening_.look(motion_, mass_, beta_, lowest_);
     }
   }
 
@@ -313,7 +314,7 @@ class Relaxation {
     const Motion& m = motion_;
     NodalVectors step = m.now;
     for (std::size_t a = 0; a < nodes(); ++a) {
-      at(step, a) -= at(m.before, a) + beta() * (at(m.before, a) - at(m.next, a));
+      at(step, a) -= at(m.before, a) + beta_ * (at(m.before, a) - at(m.next, a));
     }
     m.multiply_by_masses(mass_, step);
     const double push = sum_over_nodes(nodes(), [&](std::size_t a) { return at(step, a).norm(); }) / alpha;
@@ -347,7 +348,7 @@ class Relaxation {
 
   void weigh() {
     motion_.weigh(mass_, alpha);
-    quickening_.weigh(motion_, mass_, beta());
+    quickening_.weigh(motion_, mass_, beta_);
   }
 
   SteppingResult finish() {
@@ -366,6 +367,7 @@ class Relaxation {
   std::vector<double> mass_;
   double mass_scale_ = 1;
   double lowest_ = 1e-4;                                       // A_0: a guess until there are increments
+  double beta_ = 1;                                            // of the steps since the last look
   double of_parts_ = std::numeric_limits<double>::infinity();  // A_0 of stiff parts that conditions see
   int next_look_at_parts_ = 0;
   double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow

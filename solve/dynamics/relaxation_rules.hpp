@@ -36,6 +36,11 @@ inline double slowest_rate(double beta, double eigenvalue) {
   return square > 0 ? half + std::sqrt(square) : std::sqrt(beta);
 }
 
+/// A_0 within what β allows: above the upper bound it is too small for α.
+inline double bounded_eigenvalue(double eigenvalue) {
+  return std::clamp(eigenvalue, smallest_eigenvalue, 0.028);
+}
+
 /// The eigenvalue that the steps after the nth of a start under the full load are damped for. Such a start is full of
 /// quick motions. Damped for a slow A_0 at once they outlast it, so each is damped first while it takes to die down: an
 /// L of two layers, 144 : 1, ν = 0.4999, comes to rest after 36,460 steps in place of 65,480.
@@ -44,9 +49,9 @@ inline double damped_eigenvalue(double lowest, int n) {
   return std::max(lowest, frequency * frequency);
 }
 
-/// A_0 within what β allows: above the upper bound it is too small for α.
-inline double bounded_eigenvalue(double eigenvalue) {
-  return std::clamp(eigenvalue, smallest_eigenvalue, 0.028);
+/// Rate a step of the slowest motion under that damping.
+inline double damped_rate(double lowest, int n) {
+  return slowest_rate(critical_beta(damped_eigenvalue(lowest, n)), lowest);
 }
 
 /// What the slowest rigid motion has still to go where the damping is for quicker ones, by what it went in the last

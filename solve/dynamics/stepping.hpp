@@ -43,6 +43,10 @@ struct Course {
   /// Of the same body at rest under another load: the start is then near the end. Absent: not known yet.
   std::optional<Settled> settled = {};
   BoundOf bound = BoundOf::displacement;
+  bool goes_on = false;  ///< from where another relaxation has come to: the start's quick motions have died down
+
+  /// Whether the start is full of quick motions.
+  bool starts_roughly() const { return !start.empty() && !settled && !goes_on; }
 };
 
 /// What time stepping leaves behind.

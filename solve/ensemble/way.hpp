@@ -29,9 +29,9 @@ struct Way {
   double farthest = 0;     // largest |û| on the way, mm
   double squeezed_to = 1;  // J
   bool started = false;    // under the full load
-  int looks = 0;
+  int steps = 0;           // up to the last look
 
-  double beta() const { return critical_beta(started ? damped_eigenvalue(lowest, looks * usual_window) : lowest); }
+  double beta() const { return critical_beta(started ? damped_eigenvalue(lowest, steps) : lowest); }
 
   /// The farthest that it has been, with what is seen now.
   double farthest_with(double seen) const { return std::max(farthest, seen); }
@@ -42,12 +42,13 @@ struct Way {
       return false;
     }
     squeezed_to = seen.smallest_jacobian;
-    ++looks;
     if (seen.lowest > 0) {
       lowest = bounded_eigenvalue(seen.lowest);
     }
     farthest = farthest_with(seen.farthest);
-    bound.add(seen.moved, slowest_rate(beta(), lowest), loaded, rounding_of_step(farthest, precision));
+    bound.add(seen.moved, std::sqrt(critical_beta(lowest)), loaded, rounding_of_step(farthest, precision),
+              started ? damped_rate(lowest, steps) : 0);
+    steps += usual_window;
     return true;
   }
 

@@ -2,6 +2,7 @@
 #include "solve/run/attempt.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -31,14 +32,14 @@ bool may_start_near(const Model& model, const SolveOptions& options) {
 
 /// Whether a coarse solution is made: as the start, or to tell the error.
 bool has_coarse(const Model& model, const SolveOptions& options) {
-  return ends_alike(model, options) && !model.septum && !model.resection;
+  return ends_alike(model, options) && !model.septum;
 }
 
 }  // namespace
 
 /// In the plane it is not: a strip pressed by a quarter at ν = 0.499 folded on the way from it.
 bool starts_coarse(const Model& model, const SolveOptions& options) {
-  return has_coarse(model, options) && may_start_near(model, options) && model.plane == Plane::none;
+  return has_coarse(model, options) && may_start_near(model, options) && model.plane == Plane::none && !model.resection;
 }
 
 SolveOptions of_coarse_start(SolveOptions options) {
@@ -115,7 +116,9 @@ NodalVectors near_start(const Model& model, const SolveOptions& options, const s
 void estimate_error(const Model& model, const SolveOptions& options, std::optional<CoarseSolution> coarse,
                     SolveResult& result) {
   if (!coarse && has_coarse(model, options)) {
+    const Stopwatch begin;
     coarse = less_coarse_solution(model, of_coarse_start(options), {});
+    result.measures.seconds_coarse += begin.seconds();
   }
   if (coarse) {
     result.solution.estimated_error =
@@ -157,10 +160,7 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
     report(progress, 0, "tissue creases; once more from rest");
     SolveOptions rest = options;
     rest.start = Start::rest;
-    SolveResult by_load = with(rest, "the load from rest, as the tissue creases");
-    if (by_load.failure.empty()) {
-      return by_load;
-    }
+    return with(rest, "the load from rest, as the tissue creases");
   }
   if (result.failure.empty()) {
     if (coarse && starts_coarse(model, options)) {

@@ -45,7 +45,8 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> shape_at(const ShapeFunctions& shap
   return shape_matrix(shape.evaluate(positions, false), all, nodes);
 }
 
-/// Forces on all nodes, (n × 3) N, as they act on the coarse ones: their sum and their moments stay.
+/// Forces on all nodes, (n × 3) N, at the coarse ones: their sum and their moments stay. The coarse shape functions
+/// spread them once more, as all forces on nodes.
 Points forces_on_coarse(const Points& force, const Points& positions, const NodeCloud& coarse,
                         const ShapeOptions& options) {
   const ShapeFunctions shape(coarse.positions, coarse.spacing, options);
@@ -105,6 +106,9 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
     if (std::optional<BackgroundCells> cells = with_missing_octants(model.cells, model.boundary, model.cloud)) {
       coarse.model.cells = std::move(*cells);
     }
+  }
+  if (model.resection) {
+    coarse.measures.resection.emplace();
   }
   coarse.options.region = 0;
   coarse.options.points_per_cell = 1;

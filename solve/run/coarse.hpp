@@ -68,12 +68,12 @@ struct CoarseSolution {
 std::optional<CoarseSolution> coarse_solution(const Model& model, const SolveOptions& options,
                                               const Progress& progress);
 
-/// Of a small cloud, on about a third of its nodes: it tells the error where the coarse one has none, and is no start.
-/// From it a cube pressed to 0.7 came to rest folded.
+/// Of a small cloud, on about a third of its nodes: it tells the error where the coarse one cannot be solved. It is no
+/// start, as from it a cube pressed to 0.7 came to rest folded.
 std::optional<CoarseSolution> less_coarse_solution(const Model& model, const SolveOptions& options,
                                                    const Progress& progress);
 
-/// The displacement of that alone.
+/// The displacement of coarse_solution() alone.
 std::optional<Points> coarse_displacement(const Model& model, const SolveOptions& options, const Progress& progress);
 
 }  // namespace brainshift::solve

@@ -69,6 +69,15 @@ bool holds(const MemberResult& result, const Body& body) {
   return result.end == MemberResult::End::rest && !(body.contact && body.contact->measure(result.parameters).lost);
 }
 
+/// Whether tissue creases there: attempt() then takes the way from rest.
+bool is_creased(const MemberResult& result, const Body& body, const PointLaws& laws) {
+  ForceScratch scratch(body.points, laws);
+  scratch.swell(laws, 1);
+  NodalVectors force(result.parameters.size());
+  internal_force(body.points, laws, result.parameters, scratch, force);
+  return point_state(body.points, laws, scratch).compressed_share >= much_compressed;
+}
+
 /// What together(options, constants) finds of those constants that single precision serves, and of those that want
 /// double.
 template <class Together>
@@ -198,10 +207,12 @@ Displacements whole_together(const Model& model, const SolveOptions& given, std:
     }
     const std::vector<MemberResult> results = relax_all(prepared.body, chosen, model.curve, options, progress);
     for (std::size_t i = 0; i < some.size(); ++i) {
-      if (holds(results[i], prepared.body)) {
+      const bool held = holds(results[i], prepared.body);
+      const bool creased = held && !chosen[i].start.empty() && is_creased(results[i], prepared.body, chosen[i].laws);
+      if (held && !creased) {
         displacements[some[i]] =
             nodal_displacement(prepared.body.nodal_rows, results[i].parameters, prepared.body.original);
-      } else if (results[i].end == MemberResult::End::left) {
+      } else if (creased || results[i].end == MemberResult::End::left) {
         displacements[some[i]] = one(with_constants(model, constants[some[i]]));
       }
     }

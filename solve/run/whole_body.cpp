@@ -2,6 +2,7 @@
 #include "solve/run/whole_body.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 

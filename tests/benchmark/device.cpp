@@ -41,9 +41,9 @@
 #include "solve/force/stiffness_bound.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/output/solution_file.hpp"
+#include "solve/run/attempt.hpp"
 #include "solve/run/coarse.hpp"
 #include "solve/run/prepare.hpp"
-#include "solve/run/attempt.hpp"
 #include "solve/update/kept_run.hpp"
 #include "tests/benchmark/problems.hpp"
 

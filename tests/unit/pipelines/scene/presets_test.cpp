@@ -14,7 +14,7 @@ TEST(Presets, AreKnownByName) {
 }
 
 TEST(Presets, GiveWayToWhatIsGiven) {
-  const std::vector<std::string> given = {"solve.tolerance=1", "solve.basis=linear"};
+  const std::vector<std::string> given = {"solve.tolerance=1", "solve.basis=modified_quadratic"};
   EXPECT_EQ(preset_overrides("", given), given);
   const std::vector<std::string> all = preset_overrides("fast", given);
   EXPECT_EQ(all.size(), preset_overrides("fast").size() + 2);

@@ -78,6 +78,8 @@ TEST(WalledResection, LeavesAHollowBallThatAnEvenPressureShrinksEvenly) {
   const double spacing = std::cbrt(volume(ball) / static_cast<double>(model.cloud.size()));
   EXPECT_LT((result.solution.displacement - expected).rowwise().norm().maxCoeff(), 0.01 * spacing);
   EXPECT_NEAR(*result.measures.resection->volume / volume(wall), std::pow(1 + strain, 3), 1e-3);
+  EXPECT_EQ(result.solution.estimated_error.size(), result.measures.nodes);
+  EXPECT_LT(result.measures.estimated_error_95.value(), 0.02 * spacing) << "a coarse cloud has that state, too";
 }
 
 /// Two plates, farther apart than a support is wide, pressed together: they carry what one block of both would.

@@ -113,6 +113,19 @@ TEST(CoarseStart, IsFromRestWhereTheLoadDoesNotEndInFull) {
 }
 
 /// Held at three neighbours, of which a coarse cloud has one.
+TEST(CoarseStart, IsFromRestWhereTissueCreases) {
+  const Model model = uniaxial(0.5, 6);
+  SolveOptions options;
+  options.start = Start::coarse;
+  const SolveResult result = solve_whole_body(model, options, {});
+  ASSERT_GT(result.measures.compressed_share, much_compressed);
+  EXPECT_EQ(result.measures.took, "the load from rest, as the tissue creases");
+  options.start = Start::rest;
+  const SolveResult from_rest = solve_whole_body(model, options, {});
+  EXPECT_EQ(from_rest.measures.took, "");
+  EXPECT_EQ(result.solution.displacement, from_rest.solution.displacement);
+}
+
 TEST(CoarseStart, IsFromRestWhereTheCoarseCloudIsNotHeld) {
   Model model = pressed_bar();
   const Eigen::Index corner = 9 * 9 * 20;
