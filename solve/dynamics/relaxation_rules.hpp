@@ -43,7 +43,7 @@ inline double bounded_eigenvalue(double eigenvalue) {
 
 /// The eigenvalue that the steps after the nth of a start under the full load are damped for. Such a start is full of
 /// quick motions. Damped for a slow A_0 at once they outlast it, so each is damped first while it takes to die down: an
-/// L of two layers, 144 : 1, ν = 0.4999, comes to rest after 36,460 steps in place of 65,480.
+/// L of two layers, 144 : 1, ν = 0.4999, comes to rest after 36,500 steps in place of 65,480.
 inline double damped_eigenvalue(double lowest, int n) {
   const double frequency = 1.0 / (n + usual_window);
   return std::max(lowest, frequency * frequency);
