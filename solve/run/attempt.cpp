@@ -30,16 +30,11 @@ bool may_start_near(const Model& model, const SolveOptions& options) {
   return options.start == Start::coarse && options.snapshot_every == 0 && ends_alike(model, options);
 }
 
-/// Whether a coarse solution is made: as the start, or to tell the error.
-bool has_coarse(const Model& model, const SolveOptions& options) {
-  return ends_alike(model, options) && !model.septum;
-}
-
 }  // namespace
 
 /// In the plane it is not: a strip pressed by a quarter at ν = 0.499 folded on the way from it.
 bool starts_coarse(const Model& model, const SolveOptions& options) {
-  return has_coarse(model, options) && may_start_near(model, options) && model.plane == Plane::none && !model.resection;
+  return may_start_near(model, options) && model.plane == Plane::none && !model.septum && !model.resection;
 }
 
 SolveOptions of_coarse_start(SolveOptions options) {
@@ -115,14 +110,13 @@ NodalVectors near_start(const Model& model, const SolveOptions& options, const s
 /// coarse: if it could be solved.
 void estimate_error(const Model& model, const SolveOptions& options, std::optional<CoarseSolution> coarse,
                     SolveResult& result) {
-  if (!coarse && has_coarse(model, options)) {
+  if (!coarse && ends_alike(model, options)) {
     const Stopwatch begin;
     coarse = less_coarse_solution(model, of_coarse_start(options), {});
     result.measures.seconds_coarse += begin.seconds();
   }
   if (coarse) {
-    result.solution.estimated_error =
-        estimated_error(model.cloud, result.solution.displacement, coarse->displacement, coarse->wider);
+    result.solution.estimated_error = estimated_error(result.solution, coarse->displacement, coarse->wider);
     result.measures.estimated_error_95 = percentile_95(result.solution.estimated_error);
   }
 }
@@ -146,7 +140,7 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
   }
   measures.seconds_setup = start.seconds();
   std::optional<CoarseSolution> coarse;
-  if (has_coarse(model, options)) {
+  if (ends_alike(model, options)) {
     const Stopwatch begin;
     report(progress, 0, "solving a coarse cloud");
     coarse = coarse_solution(model, of_coarse_start(options), {});

@@ -9,6 +9,7 @@
 
 #include "solve/cut/boundary_normals.hpp"
 #include "solve/device/device_fault.hpp"
+#include "solve/output/field_difference.hpp"
 #include "solve/quadrature/missing_octants.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
@@ -55,13 +56,17 @@ Points forces_on_coarse(const Points& force, const Points& positions, const Node
 
 /// All free surface nodes of the cloud may touch the skull, moved by the coarse parameters: coarse nodes alone would
 /// let the surface between them through, and the body sink by tenths of a millimetre.
-void touch_with_whole_surface(const Model& model, const NodeCloud& coarse, const ShapeOptions& options, Body& body) {
+void touch_with_whole_surface(const Model& model, const ShapeOptions& options,
+                              std::shared_ptr<const Visibility> visibility, Body& body) {
   const std::vector<std::int32_t> surface = free_surface_nodes(model.cloud, model.conditions);
   std::vector<std::int32_t> ordinal(surface.size());
   std::iota(ordinal.begin(), ordinal.end(), 0);
   const Points positions = model.cloud.positions(surface, Eigen::all);
-  const NodeCloud ordered = subset(coarse, body.original);
-  const ShapeFunctions shape(ordered.positions, ordered.spacing, options);
+  std::vector<double> spacing;
+  for (const std::int32_t a : body.original) {
+    spacing.push_back(body.spacing[static_cast<std::size_t>(a)]);
+  }
+  const ShapeFunctions shape(body.positions(body.original, Eigen::all), spacing, options, std::move(visibility));
   body.contact.emplace(std::shared_ptr(body.contact->skull()), positions, ordinal, shape.evaluate(positions, false));
 }
 
@@ -121,7 +126,8 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
   coarse.options.tolerance = std::max(given.tolerance, looser * given.region);
   coarse.prepared = prepare(coarse.model, coarse.options, {}, coarse.measures, progress, keep_parts);
   if (coarse.prepared.body.contact) {
-    touch_with_whole_surface(model, coarse.model.cloud, coarse.options.shape, coarse.prepared.body);
+    touch_with_whole_surface(model, coarse.options.shape,
+                             coarse.prepared.cut ? coarse.prepared.cut->visibility : nullptr, coarse.prepared.body);
   }
   return coarse;
 }
@@ -137,12 +143,6 @@ Points as_prescribed(Points displacement, const Conditions& conditions) {
     }
   }
   return displacement;
-}
-
-Points from_coarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Points& displacement,
-                   const Model& model) {
-  const Points parameters = parameters_from_displacement(shape, coarse.positions, displacement);
-  return as_prescribed(shape.interpolate(model.cloud.positions, parameters), model.conditions);
 }
 
 FromCoarse::FromCoarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Model& model)
@@ -168,8 +168,7 @@ std::optional<CoarseSolution> solved_on(const std::vector<std::int32_t>& nodes, 
   if (!result.failure.empty()) {
     return std::nullopt;
   }
-  const ShapeFunctions shape(coarse.cloud.positions, coarse.cloud.spacing, result.solution.shape);
-  return CoarseSolution{from_coarse(shape, coarse.cloud, result.solution.displacement, model),
+  return CoarseSolution{as_prescribed(displacement_at(result.solution, model.cloud.positions), model.conditions),
                         result.measures.error_bound, result.measures.steps, wider};
 }
 

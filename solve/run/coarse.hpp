@@ -38,11 +38,8 @@ inline constexpr std::size_t fewest_coarse_nodes = 24;
 /// A displacement of the coarse solution at all nodes, with what is prescribed exactly as it is prescribed.
 Points as_prescribed(Points displacement, const Conditions& conditions);
 
-/// A displacement of the coarse nodes, mm, at all nodes, as as_prescribed() has it. shape: of the coarse cloud.
-Points from_coarse(const ShapeFunctions& shape, const NodeCloud& coarse, const Points& displacement,
-                   const Model& model);
-
-/// The same of many displacements, to rounding: what the two clouds have to do with each other is found once and kept.
+/// Displacements of the coarse nodes, mm, at all nodes, as as_prescribed() has them: what the two clouds have to do
+/// with each other is found once and kept.
 class FromCoarse {
  public:
   /// shape: of the coarse cloud. The model must outlive this.

@@ -20,25 +20,41 @@ double share_of_distance(double wider) {
   return of_coarse * ((std::pow(coarser, order) - 1) / (std::pow(wider, order) - 1));
 }
 
+/// NaN where a node's face is not known.
+Eigen::VectorXd squared_distances(const Solution& solution, const Points& coarse, const SupportSearch& search) {
+  constexpr double same_place = 1e-6;  // spacings
+  const Eigen::Index nodes = solution.positions.rows(), known = coarse.rows();
+  Eigen::VectorXd squared(nodes);
+  squared.head(known) = (solution.displacement.topRows(known) - coarse).rowwise().squaredNorm();
+  std::vector<std::int32_t> faces;
+  for (Eigen::Index a = known; a < nodes; ++a) {
+    search.find(solution.positions.row(a), same_place, faces);
+    for (const std::int32_t node : faces) {
+      squared[node] = std::nan("");
+    }
+  }
+  return squared;
+}
+
 }  // namespace
 
-std::vector<double> estimated_error(const NodeCloud& cloud, const Points& displacement, const Points& coarse,
-                                    double wider) {
-  const Eigen::VectorXd squared = (displacement - coarse).rowwise().squaredNorm();
-  const SupportSearch search(cloud.positions, cloud.spacing);
+std::vector<double> estimated_error(const Solution& solution, const Points& coarse, double wider) {
+  const SupportSearch search(solution.positions, solution.spacing);
+  const Eigen::VectorXd squared = squared_distances(solution, coarse, search);
   const double share = share_of_distance(wider);
-  std::vector<double> error(cloud.size());
+  std::vector<double> error(solution.spacing.size());
 #pragma omp parallel
   {
     std::vector<std::int32_t> near;
 #pragma omp for schedule(static)
     for (std::size_t a = 0; a < error.size(); ++a) {
-      search.find(cloud.positions.row(static_cast<Eigen::Index>(a)), within, near);
+      search.find(solution.positions.row(static_cast<Eigen::Index>(a)), within, near);
+      std::erase_if(near, [&](std::int32_t node) { return std::isnan(squared[node]); });
       double sum = 0;
       for (const std::int32_t node : near) {
         sum += squared[node];
       }
-      error[a] = share * std::sqrt(sum / static_cast<double>(near.size()));
+      error[a] = share * std::sqrt(sum / static_cast<double>(std::max<std::size_t>(near.size(), 1)));
     }
   }
   return error;

@@ -65,6 +65,7 @@ TEST_F(Septum, FromAFileHoldsTheOtherSideBack) {
   EXPECT_LT(mean_beyond(centre + 13), 0.8 * without);
   EXPECT_EQ(read_surface(at("out/solve/septum.vtp")).triangles.rows(), 2);
   EXPECT_GT(measures()["septum"]["face_nodes"], 20);
+  EXPECT_GT(measures()["estimated_error_95_mm"], 0.0);
   EXPECT_LT(measures()["septum"]["largest_penetration_mm"], 0.1);
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "solve/output/field_difference.hpp"
@@ -13,13 +14,22 @@ namespace brainshift::solve::error_estimate_test {
 
 constexpr double side = 60;
 
+Solution resting(const NodeCloud& cloud) {
+  Solution solution;
+  solution.positions = cloud.positions;
+  solution.spacing = cloud.spacing;
+  solution.displacement = Points::Zero(cloud.positions.rows(), 3);
+  return solution;
+}
+
 TEST(ErrorEstimate, IsAShareOfAnEvenDifference) {
   const NodeCloud cloud = test::irregular_box(5, side);
-  const Points fine = Points::Zero(cloud.positions.rows(), 3), coarse = fine.rowwise() + Eigen::RowVector3d(0, 2, 0);
-  for (const double error : estimated_error(cloud, fine, coarse, 2)) {
+  const Solution fine = resting(cloud);
+  const Points coarse = fine.displacement.rowwise() + Eigen::RowVector3d(0, 2, 0);
+  for (const double error : estimated_error(fine, coarse, 2)) {
     EXPECT_NEAR(error, 0.8 * 2, 1e-12);
   }
-  for (const double error : estimated_error(cloud, fine, coarse, 1.5)) {
+  for (const double error : estimated_error(fine, coarse, 1.5)) {
     EXPECT_NEAR(error, 0.8 * 2 * (std::pow(2, 1.5) - 1) / (std::pow(1.5, 1.5) - 1), 1e-12);
   }
 }
@@ -27,15 +37,32 @@ TEST(ErrorEstimate, IsAShareOfAnEvenDifference) {
 /// Where two fields cross, the nodes about tell that they lie apart.
 TEST(ErrorEstimate, DoesNotVanishWhereTheFieldsCross) {
   const NodeCloud cloud = test::irregular_box(9, side);
-  const Points fine = Points::Zero(cloud.positions.rows(), 3);
-  Points coarse = fine;
+  const Solution fine = resting(cloud);
+  Points coarse = fine.displacement;
   coarse.col(0) = (cloud.positions.col(0).array() - side / 2) / (side / 2);  // 1 mm at the ends
-  const std::vector<double> error = estimated_error(cloud, fine, coarse, 2);
+  const std::vector<double> error = estimated_error(fine, coarse, 2);
   for (std::size_t a = 0; a < cloud.size(); ++a) {
     const double apart = std::abs(coarse(static_cast<Eigen::Index>(a), 0));
     EXPECT_GE(error[a], 0.1) << apart;
     EXPECT_LE(error[a], 0.8 * (apart + 0.5));
   }
+}
+
+TEST(ErrorEstimate, OfTheFacesOfASeptumIsThatOfTheNodesAbout) {
+  const NodeCloud cloud = test::irregular_box(5, side);
+  Solution fine = resting(cloud);
+  const Eigen::Index nodes = cloud.positions.rows(), split = nodes / 2;
+  fine.positions.conservativeResize(nodes + 1, 3);
+  fine.positions.row(nodes) = fine.positions.row(split);
+  fine.spacing.push_back(cloud.spacing[static_cast<std::size_t>(split)]);
+  fine.displacement = Points::Zero(nodes + 1, 3);
+  Points coarse = Points::Zero(nodes, 3);
+  coarse.col(1).setConstant(2);
+  coarse(split, 1) = 100;  // of the other face
+  const std::vector<double> error = estimated_error(fine, coarse, 2);
+  ASSERT_EQ(error.size(), static_cast<std::size_t>(nodes + 1));
+  EXPECT_NEAR(*std::ranges::max_element(error), 0.8 * 2, 1e-12);
+  EXPECT_NEAR(error.back(), 0.8 * 2, 1e-12);
 }
 
 /// Against a cloud of eight times the nodes.
