@@ -22,8 +22,8 @@ bool may_go_together(const Body& body, std::span<const Member> loads, const Solv
 /// Each has masses, damping, error bound and end of its own, so that each ends, to rounding, where and when relax()
 /// would have ended it alone; a member that has ended is kept as it was. One that proves unstable, or is so slow that
 /// relax() would quicken it, leaves. All members start from rest, or all from their start. The result does not depend
-/// on the number of threads, nor a member's on the others. patient: a slow one stays, be it
-/// rounded. Throws as EssentialConditions::factorise() does.
+/// on the number of threads, nor a member's on the others. patient: a slow one stays, be
+/// it rounded. Throws as EssentialConditions::factorise() does.
 std::vector<MemberResult> relax_together(const Body& body, std::span<const Member> loads, const LoadCurve& curve,
                                          const SolveOptions& options, const Progress& progress, bool patient = false,
                                          BoundOf bound = BoundOf::displacement);

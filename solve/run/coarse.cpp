@@ -113,7 +113,7 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
     }
   }
   if (model.resection) {
-    coarse.measures.resection.emplace();
+    coarse.measures.resection.emplace();  // stepping measures the wall into it
   }
   coarse.options.region = 0;
   coarse.options.points_per_cell = 1;
