@@ -176,7 +176,7 @@ class Relaxation {
   /// So many steps of a window, and the look at its end.
   void advance(int steps) {
     const double beta_before = order_.beta;
-    order_.beta = critical_beta(course_.starts_roughly() ? damped_eigenvalue(lowest_, result_.steps) : lowest_);
+    order_.beta = critical_beta(damped_eigenvalue(lowest_, result_.steps, course_.starts_roughly()));
     order_.glance = only_glances(result_.steps + steps);
     for (int done = 0; done < steps; done += record_.steps) {
       const LoadPace pace_before = pace_;
@@ -266,7 +266,7 @@ class Relaxation {
     }
     farthest_ = std::max(farthest_, of[LookSums::farthest]);
     estimate_lowest_eigenvalue(moved());
-    const double slowest = course_.starts_roughly() ? damped_rate(lowest_, result_.steps - window_) : 0;
+    const double slowest = damped_rate(lowest_, result_.steps - window_, course_.starts_roughly());
     bound_.add(moved(), std::sqrt(critical_beta(lowest_)), time_ >= 1, rounding_of_step(farthest_, precision()),
                slowest);
     find_error_bound();

@@ -138,9 +138,7 @@ class Relaxation {
   }
 
   /// For the steps up to the next look.
-  void damp() {
-    beta_ = critical_beta(course_.starts_roughly() ? damped_eigenvalue(lowest_, motion_.result.steps) : lowest_);
-  }
+  void damp() { beta_ = critical_beta(damped_eigenvalue(lowest_, motion_.result.steps, course_.starts_roughly())); }
 
   bool no_change_is_left() const { return !course_.change || course_.change.is_done(); }
 
@@ -201,7 +199,7 @@ class Relaxation {
     look_at_stiff_parts();
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     estimate_lowest_eigenvalue(moved);
-    const double slowest = course_.starts_roughly() ? damped_rate(lowest_, motion_.result.steps - window_) : 0;
+    const double slowest = damped_rate(lowest_, motion_.result.steps - window_, course_.starts_roughly());
     bound_.add(moved, std::sqrt(critical_beta(lowest_)), motion_.time >= 1, rounding(), slowest);
     spans_.add(seen);
     find_error_bound();

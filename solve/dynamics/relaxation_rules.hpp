@@ -41,17 +41,17 @@ inline double bounded_eigenvalue(double eigenvalue) {
   return std::clamp(eigenvalue, smallest_eigenvalue, 0.028);
 }
 
-/// The eigenvalue that the steps after the nth of a start under the full load are damped for. Such a start is full of
+/// The eigenvalue that the steps after the nth are damped for. rough: of a start under the full load, which is full of
 /// quick motions. Damped for a slow A_0 at once they outlast it, so each is damped first while it takes to die down: an
 /// L of two layers, 144 : 1, ν = 0.4999, comes to rest after 36,500 steps in place of 65,480.
-inline double damped_eigenvalue(double lowest, int n) {
-  const double frequency = 1.0 / (n + usual_window);
+inline double damped_eigenvalue(double lowest, int n, bool rough) {
+  const double frequency = rough ? 1.0 / (n + usual_window) : 0;
   return std::max(lowest, frequency * frequency);
 }
 
-/// Rate a step of the slowest motion under that damping.
-inline double damped_rate(double lowest, int n) {
-  return slowest_rate(critical_beta(damped_eigenvalue(lowest, n)), lowest);
+/// Rate a step of the slowest motion under that damping; 0 where it is its own, which √β tells.
+inline double damped_rate(double lowest, int n, bool rough) {
+  return rough ? slowest_rate(critical_beta(damped_eigenvalue(lowest, n, rough)), lowest) : 0;
 }
 
 /// What the slowest rigid motion has still to go where the damping is for quicker ones, by what it went in the last

@@ -31,7 +31,7 @@ struct Way {
   bool started = false;    // under the full load
   int steps = 0;           // up to the last look
 
-  double beta() const { return critical_beta(started ? damped_eigenvalue(lowest, steps) : lowest); }
+  double beta() const { return critical_beta(damped_eigenvalue(lowest, steps, started)); }
 
   /// The farthest that it has been, with what is seen now.
   double farthest_with(double seen) const { return std::max(farthest, seen); }
@@ -47,7 +47,7 @@ struct Way {
     }
     farthest = farthest_with(seen.farthest);
     bound.add(seen.moved, std::sqrt(critical_beta(lowest)), loaded, rounding_of_step(farthest, precision),
-              started ? damped_rate(lowest, steps) : 0);
+              damped_rate(lowest, steps, started));
     steps += usual_window;
     return true;
   }

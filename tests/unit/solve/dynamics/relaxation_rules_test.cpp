@@ -43,7 +43,7 @@ int steps_of_mode(double eigenvalue, double lowest, bool quick_ones_first) {
   int last = 0;
   for (int n = 0; n < 20'000; ++n) {
     const int looked = n / usual_window * usual_window;
-    const double beta = critical_beta(quick_ones_first ? damped_eigenvalue(lowest, looked) : lowest);
+    const double beta = critical_beta(damped_eigenvalue(lowest, looked, quick_ones_first));
     const double next = now + beta * (now - before) - relaxation_alpha * eigenvalue * now;
     before = std::exchange(now, next);
     last = std::abs(now) > 1e-3 ? n : last;
