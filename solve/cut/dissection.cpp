@@ -156,6 +156,9 @@ std::optional<ChangedBody> Dissection::tear(const Tear& tear, const Body& body) 
     return advance(facets_between(std::span(cuts_).last(1), from_the_start, until_), body);
   } catch (const TooFewNodes&) {
     cuts_.pop_back();
+    if (tear.meets) {
+      closed_.pop_back();
+    }
     tearing_->arrest(tear.segment.vertices.row(0));
     return std::nullopt;
   }

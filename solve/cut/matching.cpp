@@ -54,6 +54,9 @@ void Matching::agree_in_gradient(const ShapeRows& before, const ShapeRows& after
 }
 
 void Matching::factorise() {
+  if (nodes_.empty()) {
+    return;  // the cut has not come to the body
+  }
   const auto count = static_cast<Eigen::Index>(unknown_.size());
   before_.resize(rows_, count);
   before_.setFromTriplets(before_entries_.begin(), before_entries_.end());
@@ -82,6 +85,9 @@ void Matching::factorise() {
 }
 
 NodalVectors Matching::operator()(const NodalVectors& before) const {
+  if (nodes_.empty()) {
+    return before;
+  }
   const Points old = points_of(before, static_cast<Eigen::Index>(unknown_.size()));
   const Eigen::MatrixXd wanted = before_ * old, left = wanted - after_ * old;
   const auto count = static_cast<Eigen::Index>(nodes_.size());

@@ -74,6 +74,14 @@ TEST(Dissection, EndsWhereTheBodyCutBeforeEnds) {
             on_the_way.measures.cut->advances * on_the_way.measures.integration_points / 3);
 }
 
+/// The first advances touch no node.
+TEST(Dissection, MayBeginFarOutsideTheBody) {
+  const SolveResult near = solve(cut_on_the_way({{14.6, -0.5}, {14.6, 9.2}}, {1, 2}), test::plane_options());
+  const SolveResult far = solve(cut_on_the_way({{14.6, -29.6}, {14.6, 9.2}}, {0, 2}), test::plane_options());
+  ASSERT_EQ(far.failure, "");
+  EXPECT_NEAR(far.history.back().reaction.x() / near.history.back().reaction.x(), 1, 0.02);
+}
+
 TEST(Dissection, KeepsMassAndEnergyInTime) {
   Model model = cut_on_the_way({{14.6, -0.5}, {14.6, 9.2}}, {0.6, 1.2});
   model.curve = LoadCurve({0, 0.5, 1.5}, {0, 1, 1}, LoadCurve::Join::smooth);
