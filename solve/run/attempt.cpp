@@ -107,14 +107,22 @@ NodalVectors near_start(const Model& model, const SolveOptions& options, const s
   return coarse && starts_coarse(model, options) ? in_body_order(coarse->displacement, body.original) : NodalVectors();
 }
 
-/// coarse: if it could be solved.
+/// coarse: if it was solved. A tear's way hangs on single nodes: there is none on others to hold it against.
 void estimate_error(const Model& model, const SolveOptions& options, std::optional<CoarseSolution> coarse,
-                    SolveResult& result) {
-  if (!coarse && ends_alike(model, options)) {
-    const Stopwatch begin;
-    coarse = less_coarse_solution(model, of_coarse_start(options), {});
-    result.measures.seconds_coarse += begin.seconds();
+                    SolveResult& result, const Progress& progress) {
+  if (model.rupture) {
+    return;
   }
+  const Stopwatch begin;
+  const SolveOptions of_coarse = of_coarse_start(options);
+  if (!coarse && !ends_alike(model, options)) {
+    report(progress, 1, "estimating the error on a coarse cloud");
+    coarse = coarse_solution(model, of_coarse, {});
+  }
+  if (!coarse) {
+    coarse = less_coarse_solution(model, of_coarse, {});
+  }
+  result.measures.seconds_coarse += begin.seconds();
   if (coarse) {
     result.solution.estimated_error = estimated_error(result.solution, coarse->displacement, coarse->wider);
     result.measures.estimated_error_95 = percentile_95(result.solution.estimated_error);
@@ -160,7 +168,7 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
     if (coarse && starts_coarse(model, options)) {
       result.measures.error_bound = std::max(result.measures.error_bound, left_by_coarse(*coarse, result.measures));
     }
-    estimate_error(model, options, coarse, result);
+    estimate_error(model, options, std::move(coarse), result, progress);
   }
   return result;
 }

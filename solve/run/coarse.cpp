@@ -132,14 +132,14 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
   return coarse;
 }
 
-Points as_prescribed(Points displacement, const Conditions& conditions) {
+Points as_prescribed(Points displacement, const Conditions& conditions, double fraction) {
   if (conditions.measured) {
     return displacement;  // what was measured gives way
   }
   const Points& prescribed = conditions.displacement;
   for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
     if (!std::isnan(prescribed.data()[i])) {
-      displacement.data()[i] = prescribed.data()[i];
+      displacement.data()[i] = fraction * prescribed.data()[i];
     }
   }
   return displacement;
@@ -168,8 +168,10 @@ std::optional<CoarseSolution> solved_on(const std::vector<std::int32_t>& nodes, 
   if (!result.failure.empty()) {
     return std::nullopt;
   }
-  return CoarseSolution{as_prescribed(displacement_at(result.solution, model.cloud.positions), model.conditions),
-                        result.measures.error_bound, result.measures.steps, wider};
+  const double fraction = model.curve.at(model.curve.duration());
+  return CoarseSolution{
+      as_prescribed(displacement_at(result.solution, model.cloud.positions), model.conditions, fraction),
+      result.measures.error_bound, result.measures.steps, wider};
 }
 
 /// Empty as coarse_solution().

@@ -35,8 +35,9 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
 /// A cloud with fewer coarse nodes is not solved on them.
 inline constexpr std::size_t fewest_coarse_nodes = 24;
 
-/// A displacement of the coarse solution at all nodes, with what is prescribed exactly as it is prescribed.
-Points as_prescribed(Points displacement, const Conditions& conditions);
+/// A displacement of the coarse solution at all nodes, with what is prescribed exactly as it is prescribed, or a
+/// fraction of that.
+Points as_prescribed(Points displacement, const Conditions& conditions, double fraction = 1);
 
 /// Displacements of the coarse nodes, mm, at all nodes, as as_prescribed() has them: what the two clouds have to do
 /// with each other is found once and kept.
@@ -54,7 +55,7 @@ class FromCoarse {
 };
 
 struct CoarseSolution {
-  Points displacement;     ///< at all nodes, (n × 3) mm, prescribed components as prescribed
+  Points displacement;     ///< at all nodes, (n × 3) mm, at the end of the load's curve
   double error_bound = 0;  ///< mm, of the coarse relaxation
   int steps = 0;           ///< that it took
   double wider = coarser;  ///< its spacing over that of the cloud

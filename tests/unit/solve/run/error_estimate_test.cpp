@@ -65,25 +65,34 @@ TEST(ErrorEstimate, OfTheFacesOfASeptumIsThatOfTheNodesAbout) {
   EXPECT_NEAR(error.back(), 0.8 * 2, 1e-12);
 }
 
-/// Against a cloud of eight times the nodes.
-TEST(ErrorEstimate, ComesWithEverySolutionAtRest) {
-  Model coarse = uniaxial(0.8, 6), fine = uniaxial(0.8, 11);
-  for (Model* model : {&coarse, &fine}) {
-    for (Eigen::Index a = 0; a < model->cloud.positions.rows(); ++a) {
-      if (model->cloud.positions(a, 2) < 1e-9 || model->cloud.positions(a, 2) > side - 1e-9) {
-        model->conditions.displacement.row(a).head<2>().setZero();  // bonded: no homogeneous state
-      }
+/// Held at its ends: no homogeneous state.
+Model bonded(double stretch, int n) {
+  Model model = uniaxial(stretch, n);
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    if (model.cloud.positions(a, 2) < 1e-9 || model.cloud.positions(a, 2) > side - 1e-9) {
+      model.conditions.displacement.row(a).head<2>().setZero();
     }
   }
+  return model;
+}
+
+/// Of the coarse model's answer, against one of eight times the nodes.
+void expect_honest(const SolveResult& result, const SolveResult& finer) {
+  ASSERT_EQ(result.failure + finer.failure, "");
+  ASSERT_EQ(result.solution.estimated_error.size(), result.solution.spacing.size());
+  const double true_95 = field_difference(result.solution, finer.solution).percentile_95;
+  testing::Test::RecordProperty("estimate",
+                                std::to_string(*result.measures.estimated_error_95) + " of " + std::to_string(true_95));
+  EXPECT_GE(*result.measures.estimated_error_95, 0.5 * true_95);
+  EXPECT_LE(*result.measures.estimated_error_95, 5 * true_95);
+}
+
+TEST(ErrorEstimate, ComesWithEverySolutionAtRest) {
+  const Model coarse = bonded(0.8, 6);
   SolveOptions options;
   options.start = Start::coarse;
   const SolveResult result = solve(coarse, options);
-  ASSERT_EQ(result.failure, "");
-  ASSERT_EQ(result.solution.estimated_error.size(), coarse.cloud.size());
-  const double true_95 = field_difference(result.solution, solve(fine, options).solution).percentile_95;
-  RecordProperty("estimate", std::to_string(*result.measures.estimated_error_95) + " of " + std::to_string(true_95));
-  EXPECT_GE(*result.measures.estimated_error_95, 0.5 * true_95);
-  EXPECT_LE(*result.measures.estimated_error_95, 5 * true_95);
+  expect_honest(result, solve(bonded(0.8, 11), options));
 
   options.start = Start::rest;
   options.snapshot_every = 50;
@@ -92,6 +101,28 @@ TEST(ErrorEstimate, ComesWithEverySolutionAtRest) {
   EXPECT_NEAR(*from_rest.measures.estimated_error_95, *result.measures.estimated_error_95, 2 * options.tolerance);
   options.max_steps = 50;
   EXPECT_TRUE(solve(coarse, options).solution.estimated_error.empty()) << "it has not come to rest";
+}
+
+/// Half through, open, from the start or on the way.
+TEST(ErrorEstimate, ComesWithACutBody) {
+  Cut cut{.name = "cut", .vertices = Points(4, 3), .triangles = Triangles(2, 3), .time = {}};
+  cut.vertices << -5, -5, 29, 32, -5, 29, 32, 65, 29, -5, 65, 29;
+  cut.triangles << 0, 1, 2, 0, 2, 3;
+  Model coarse = bonded(1.2, 7), fine = bonded(1.2, 13);
+  coarse.cuts = fine.cuts = {cut};
+  SolveOptions quick;
+  quick.shape.basis = Basis::linear;
+  const SolveResult finer = solve(fine, quick);
+  expect_honest(solve(coarse, quick), finer);
+  coarse.cuts[0].time = {0.1, 0.9, 0.9, 0.1};
+  expect_honest(solve(coarse, quick), finer);
+}
+
+TEST(ErrorEstimate, ComesWithAMotionInTimeThatEndsOnItsWay) {
+  Model coarse = bonded(1.3, 6), fine = bonded(1.3, 11);
+  coarse.curve = fine.curve = LoadCurve({0, 0.05}, {0, 0.7}, LoadCurve::Join::smooth);
+  const SolveOptions options = in_time(5);
+  expect_honest(solve(coarse, options), solve(fine, options));
 }
 
 TEST(ErrorEstimate, TellsBelowWhatMostValuesLie) {
