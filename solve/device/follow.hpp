@@ -286,7 +286,7 @@ BRAINSHIFT_ON_DEVICE void follow_stiffness(const Team& team, const View<Scalar>&
     }
     const double mass = v.mass[a];
     v.stiffer_mass[a] = std::max(mass, order.mass_margin * order.mass_scale * bound);
-    of[FollowSums::stiffer] = larger(of[FollowSums::stiffer], order.mass_scale * bound > mass ? 1 : 0);
+    of[FollowSums::stiffer] = larger(of[FollowSums::stiffer], order.mass_scale * bound / mass);
     for (std::int64_t i = 4 * static_cast<std::int64_t>(a); i < 4 * static_cast<std::int64_t>(a) + 3; ++i) {
       const double moved = m.now[i] - m.before[i];
       of[FollowSums::inertia] += mass * moved * moved;

@@ -19,6 +19,7 @@
 #include "solve/dynamics/rigid_part.hpp"
 #include "solve/dynamics/soundness.hpp"
 #include "solve/dynamics/span_bound.hpp"
+#include "solve/dynamics/stiffening.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 
 namespace brainshift::solve::device {
@@ -71,7 +72,7 @@ class Relaxation {
     while (result_.failure.empty() && result_.steps < options_.max_steps) {
       const int steps = std::min(window_, options_.max_steps - result_.steps);
       advance(steps);
-      if (steps < window_) {
+      if (steps < window_ || !result_.failure.empty()) {
         break;
       }
       look();
@@ -164,7 +165,9 @@ class Relaxation {
     on_.perform(Task::follow, order_);
     const FollowSums sums = on_.record().follow;
     mass_jacobian_ = -sums.of[FollowSums::minus_jacobian];
-    if (sums.of[FollowSums::stiffer] > 0) {
+    if (stiffens_too_much(sums.of[FollowSums::stiffer])) {
+      mark_unstable(inside_out_or_nearly, time_, fraction_, where(false), result_);
+    } else if (sums.of[FollowSums::stiffer] > 1) {
       books_.dissipated +=
           (1 + order_.beta) / (4 * order_.alpha) * (sums.of[FollowSums::inertia] - sums.of[FollowSums::inertia_then]);
       weigh();
@@ -207,6 +210,9 @@ class Relaxation {
       if (record_.halted != 0) {
         squeezed_to_ = record_.jacobian[record_.steps - 1];
         follow_stiffness();
+        if (!result_.failure.empty()) {
+          return;
+        }
         if (done + record_.steps == steps) {
           on_.perform(Task::look, order_);
           record_.look = on_.record().look;

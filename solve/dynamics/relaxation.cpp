@@ -16,6 +16,7 @@
 #include "solve/dynamics/slow_parts.hpp"
 #include "solve/dynamics/soundness.hpp"
 #include "solve/dynamics/span_bound.hpp"
+#include "solve/dynamics/stiffening.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/force/stiffness_bound.hpp"
 #include "solve/shape/nodal_displacement.hpp"
@@ -24,7 +25,6 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double most_stiffening = 1e6;       // of a node at once; more is of a state that no body comes to
 constexpr double rate_of_stiff_parts = 0.97;  // slowest of a node in a span, where there are some
 constexpr double alpha = relaxation_alpha;
 
@@ -327,11 +327,12 @@ class Relaxation {
     const std::vector<double> bound = stiffness_bound(points(), laws(), motion_.scratch);
     mass_jacobian_ = jacobian_range(motion_.scratch).smallest;
     double stiffer = 0;  // than the masses allow for: times
-    for (std::size_t a = 0; a < nodes(); ++a) {
-      stiffer = std::isfinite(bound[a]) ? std::max(stiffer, mass_scale_ * bound[a] / mass_[a]) : most_stiffening;
+    for (std::size_t a = 0; a < nodes() && !stiffens_too_much(stiffer); ++a) {
+      const double times = mass_scale_ * bound[a] / mass_[a];
+      stiffer = times <= stiffer ? stiffer : times;
     }
-    if (stiffer >= most_stiffening) {
-      mark_unstable("points have turned inside out or nearly", motion_.time,
+    if (stiffens_too_much(stiffer)) {
+      mark_unstable(inside_out_or_nearly, motion_.time,
                     course_.curve.at(motion_.time * course_.curve.duration()),
                     restless_node({motion_.now, motion_.before, motion_.next}), motion_.result);
     } else if (stiffer > 1) {

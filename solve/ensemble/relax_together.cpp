@@ -11,6 +11,7 @@
 #include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/dynamics/soundness.hpp"
 #include "solve/dynamics/span_bound.hpp"
+#include "solve/dynamics/stiffening.hpp"
 #include "solve/ensemble/each_conditions.hpp"
 #include "solve/ensemble/each_contact.hpp"
 #include "solve/ensemble/each_displacement.hpp"
@@ -190,10 +191,18 @@ class Ensemble {
       return;
     }
     const EachNumbers bound = motion_.force_law.stiffness_bound(asked);
-    Chosen stiffer = {};
+    Chosen stiffer = {}, too_stiff = {};
     for (std::size_t a = 0; a < mass_.size(); ++a) {
       for (std::size_t m = 0; m < members; ++m) {
-        stiffer[m] = stiffer[m] || (asked[m] && way_[m].mass_scale * bound[a].of[m] > mass_[a].of[m]);
+        const double times = way_[m].mass_scale * bound[a].of[m] / mass_[a].of[m];
+        stiffer[m] = stiffer[m] || (asked[m] && times > 1);
+        too_stiff[m] = too_stiff[m] || (asked[m] && stiffens_too_much(times));
+      }
+    }
+    for (std::size_t m = 0; m < members; ++m) {
+      if (too_stiff[m]) {
+        stiffer[m] = false;
+        end(m, MemberResult::End::left);
       }
     }
     if (std::find(stiffer.begin(), stiffer.end(), true) == stiffer.end()) {

@@ -206,7 +206,7 @@ BRAINSHIFT_ON_DEVICE void follow_stiffness(const Team& team, const ViewOfEach<Sc
       const std::int64_t i = at_member(a, m);
       const double mass = v.mass[i], wanted = order.mass_scale[m] * bound;
       v.stiffer_mass[i] = std::max(mass, order.mass_margin * wanted);
-      stiffer.at(0, m) = larger(stiffer.at(0, m), wanted > mass ? 1 : 0);
+      stiffer.at(0, m) = larger(stiffer.at(0, m), wanted / mass);
     });
   }
   leave_each<0>(team, stiffer, v.partial);

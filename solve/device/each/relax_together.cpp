@@ -13,6 +13,7 @@
 #include "solve/dynamics/load_pace.hpp"
 #include "solve/dynamics/soundness.hpp"
 #include "solve/dynamics/span_bound.hpp"
+#include "solve/dynamics/stiffening.hpp"
 #include "solve/ensemble/way.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 
@@ -214,7 +215,13 @@ class Ensemble {
     perform(TaskOfEach::follow, asked, order_);
     on_.read(record_);
     Members stiffer = 0;
-    for_each(asked, [&](std::size_t m) { stiffer |= record_.stiffer[m] > 0 ? bit_of(m) : 0; });
+    for_each(asked, [&](std::size_t m) {
+      if (stiffens_too_much(record_.stiffer[m])) {
+        end(m, MemberResult::End::left);
+      } else if (record_.stiffer[m] > 1) {
+        stiffer |= bit_of(m);
+      }
+    });
     if (stiffer != 0) {
       weigh(stiffer);
     }
@@ -230,7 +237,7 @@ class Ensemble {
   /// So many steps of a window, and the look at its end. A member that is squeezed halts all.
   void advance(int steps) {
     for_each(active_, [&](std::size_t m) { order_.beta[m] = ways_[m].beta(); });
-    for (int done = 0; done < steps;) {
+    for (int done = 0; done < steps && active_ != 0;) {
       done += advance_until_halt(steps - done);
       const Members halted = record_.halted;
       if (halted == 0) {
@@ -389,10 +396,8 @@ std::vector<MemberResult> relax_all(const Backend& backend, const Body& body, st
   while (results.size() < loads.size()) {
     const std::span<const Member> some =
         loads.subspan(results.size(), std::min<std::size_t>(most_members, loads.size() - results.size()));
-    const double before = static_cast<double>(results.size()), these = static_cast<double>(some.size());
-    const auto of_these = [&](double done, std::string_view what) {
-      report(progress, (before + done * these) / static_cast<double>(loads.size()), what);
-    };
+    const auto all = static_cast<double>(loads.size()), before = static_cast<double>(results.size());
+    const Progress of_these = part_of(progress, before / all, (before + static_cast<double>(some.size())) / all);
     const auto ensemble = std::make_unique<Ensemble<Scalar>>(on, body, some, curve, options);  // large for a stack
     for (MemberResult& result : ensemble->run(of_these)) {
       results.push_back(std::move(result));

@@ -90,7 +90,7 @@ struct RecordOfEach {
   int steps;
   Members halted;                   ///< those whose J fell to the order's `halt_below`
   int singular[most_members];       ///< of weigh: conditions repeat each other
-  double stiffer[most_members];     ///< of follow: 1 where the masses must be made anew
+  double stiffer[most_members];     ///< of follow: than the masses allow for, times
   double eigenvalue[most_members];  ///< the largest, of measure_tightness
   double energy[most_members];      ///< of measure_energy: strain energy, 1e-9 J
   StepOfEach step[most_steps + 1];  ///< as Record::step

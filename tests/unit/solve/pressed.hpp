@@ -9,6 +9,7 @@
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/ensemble/relax_together.hpp"
 #include "solve/interface/constants.hpp"
+#include "solve/material/named_materials.hpp"
 #include "solve/run/prepare.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/models.hpp"
@@ -53,6 +54,18 @@ struct Pressed {
       const Model with = with_constants(model, constants(m));
       result.push_back({.laws = laws_with(body(), with.materials),
                         .external = external_force(with, *prepared.parts, Dynamics::relaxation)});
+    }
+    return result;
+  }
+  /// Of Ogden tissue, which then has a stiffness that is no number.
+  std::vector<Member> loads_of_which_the_last_starts_inside_out(std::size_t count) const {
+    std::vector<Member> result = loads(count);
+    for (Member& load : result) {
+      load.laws = laws_with(body(), {{1, named_material("brain_ogden").value()}});
+      load.start.assign(4 * body().nodes(), 0.0);
+    }
+    for (std::size_t a = 0; a < body().nodes(); ++a) {
+      at(result.back().start, a).head<3>() = -1.5 * body().positions.row(body().original[a]).transpose();
     }
     return result;
   }

@@ -140,6 +140,12 @@ TEST_P(RelaxTogetherOnDevice, LeavesAMemberThatFailsToBeSolvedAloneAndTheOthersA
   }
 }
 
+TEST_P(RelaxTogetherOnDevice, LeavesAMemberWhoseStartTurnsPointsInsideOut) {
+  const Pressed pressed(0.003);
+  const std::vector<Member> loads = pressed.loads_of_which_the_last_starts_inside_out(2);
+  EXPECT_EQ(on_device(pressed, loads)[1].end, MemberResult::End::left);
+}
+
 TEST_P(RelaxTogetherOnDevice, BringsTheLoadOfEachAtAPaceOfItsOwn) {
   const Pressed pressed(1e-6);
   std::vector<Member> loads = pressed.loads(2);

@@ -67,6 +67,11 @@ TEST(RelaxTogether, LeavesAMemberThatFailsToBeSolvedAloneAndTheOthersAsTheyAre) 
   }
 }
 
+TEST(RelaxTogether, LeavesAMemberWhoseStartTurnsPointsInsideOut) {
+  const Pressed pressed(0.003);
+  EXPECT_EQ(pressed.together(pressed.loads_of_which_the_last_starts_inside_out(2))[1].end, MemberResult::End::left);
+}
+
 TEST(RelaxTogether, IsTheSameBitForBitForAnyNumberOfThreads) {
   const Pressed pressed(0.003);
   const std::vector<Member> loads = pressed.loads(2);
