@@ -12,10 +12,12 @@
 #include <cstdlib>
 #include <initializer_list>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <vector>
 
 #include "segmentation/files/make_folder.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/image/dicom_series.hpp"
 #include "segmentation/image/gdcm_bridge.hpp"
@@ -232,9 +234,10 @@ std::string write_derived_series(const fs::path& folder, const ScalarImage& imag
     write_slices(folder, common, image.geometry, stored,
                  uid_of(name_of(text_of(header, series_uid), derivation, image.geometry, stored)));
     read_dicom_series(folder);  // what was written must be there
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
-    throw std::runtime_error(folder.string() +
-                             ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(folder);
   }
   return {};
 }

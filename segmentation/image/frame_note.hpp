@@ -6,8 +6,8 @@
 
 namespace brainshift {
 
-/// Of a NIfTI file whose sform and qform place its voxels differently: which was taken, and by how much they differ, as
-/// a sentence. Empty where they agree, where there is one of them, and for any other image or no name. Throws
+/// What was taken for the place of the voxels, as a sentence: of a NIfTI file whose sform and qform place them
+/// differently, or that has neither, and of a NRRD that names no space. Empty for any other image or no name. Throws
 /// std::invalid_argument as read_image() does.
 std::string frame_note(const std::filesystem::path& file);
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift {
@@ -149,7 +150,7 @@ void write_gzip(const std::filesystem::path& file, const std::filesystem::path& 
   if (!out || !whole) {
     std::error_code ignored;
     std::filesystem::remove(file, ignored);
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

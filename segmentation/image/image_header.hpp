@@ -21,7 +21,7 @@ struct ImageHeader {
   std::uint64_t voxels_at = 0;                              ///< where the voxels begin, bytes; uncompressed in .nii.gz
   bool compressed = false;
   bool swapped = false;         ///< the other byte order than this machine's; NIfTI and MGH alone
-  std::string frame_note = {};  ///< what in the file contradicts itself on the place, and which was taken; or empty
+  std::string frame_note = {};  ///< where the file contradicts itself on the place or tells none: what was taken
   bool floating = false;        ///< values are floating-point numbers; NIfTI and MGH alone
 
   std::uint64_t values() const;
@@ -34,8 +34,14 @@ ImageHeader read_nifti_header(const std::filesystem::path& file);
 ImageHeader read_mgh_header(const std::filesystem::path& file);
 /// Of a .mha, with the voxels in the same file.
 ImageHeader read_meta_header(const std::filesystem::path& file);
-/// Of a .nrrd, with the voxels in the same file.
+/// Of a .nrrd, with the voxels in the same file. Refuses frames other than LPS and RAS: ITK places one in LAS wrongly.
 ImageHeader read_nrrd_header(const std::filesystem::path& file);
+
+inline constexpr const char* no_frame = "which side is left is not known, as ";
+inline constexpr const char* taken_as_stored = "its axes were taken as they are stored, in LPS";
+
+/// Throws std::invalid_argument unless the vectors of a .nrrd are in LPS, as its grid is then.
+void check_nrrd_vectors(const std::filesystem::path& file);
 
 /// Throws std::invalid_argument, naming the file, unless it promises one 3-D volume of so many values a voxel, not more
 /// than fit into memory, with finite lengths and an orthonormal direction.

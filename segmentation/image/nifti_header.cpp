@@ -200,6 +200,8 @@ void read_nifti_geometry(const fs::path& file, const NiftiFields& fields, ImageH
   }
   if (fields.qform_code() > 0 && fields.sform_code() > 0) {
     header.frame_note = note_forms(fields, by_qform, header);
+  } else if (fields.qform_code() == 0 && fields.sform_code() == 0) {
+    header.frame_note = std::string(no_frame) + "neither sform nor qform is set; " + taken_as_stored;
   }
 }
 
@@ -234,6 +236,9 @@ ImageHeader read_nifti_header(const fs::path& file) {
 
 std::string frame_note(const fs::path& file) {
   const std::string name = in_lower_case(file.filename().string());
+  if (name.ends_with(".nrrd")) {
+    return read_nrrd_header(file).frame_note;
+  }
   return name.ends_with(".nii") || name.ends_with(".nii.gz") ? read_nifti_header(file).frame_note : "";
 }
 

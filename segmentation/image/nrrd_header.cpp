@@ -155,6 +155,23 @@ void read_nrrd_geometry(const fs::path& file, const HeaderFields& fields, std::o
   set_axes(header, axes);
 }
 
+// ITK turns RAS into LPS. It takes LAS for another frame, and all else for LPS.
+void check_nrrd_frame(const fs::path& file, const HeaderFields& fields, ImageHeader& header) {
+  static const std::set<std::string> known = {"left-posterior-superior", "lps", "right-anterior-superior", "ras"};
+  const std::string space = in_lower_case(fields.value("space"));
+  if (space.empty()) {
+    header.frame_note = std::string(no_frame) + "no space is named; " + taken_as_stored;
+  } else if (!known.contains(space)) {
+    refuse(file, "the header's space is " + space + "; save the image in left-posterior-superior, as 3D Slicer does");
+  }
+  std::istringstream units(in_lower_case(fields.value("space units")));
+  for (std::string unit; units >> unit;) {
+    if (unit != "\"mm\"" && unit != "\"\"") {
+      refuse(file, "the header's unit of length is " + unit + ", not \"mm\"; save the image in mm");
+    }
+  }
+}
+
 void check_nrrd_storage(const fs::path& file, const HeaderFields& fields) {
   const auto is_zero = [&](const char* name) { return fields.value(name).empty() || fields.value(name) == "0"; };
   if (!fields.value("data file").empty() || !fields.value("datafile").empty() || !is_zero("line skip") ||
@@ -187,12 +204,26 @@ ImageHeader read_nrrd_header(const fs::path& file) {
     header.size.erase(header.size.begin() + static_cast<std::ptrdiff_t>(*components));
   }
   if (header.size.size() >= 3) {
+    check_nrrd_frame(file, fields, header);
     read_nrrd_geometry(file, fields, components, header);
   }
   check_nrrd_storage(file, fields);
   header.voxels_at = fields.length;
   header.compressed = is_compressed_nrrd(file, in_lower_case(fields.value("encoding")));
   return header;
+}
+
+void check_nrrd_vectors(const fs::path& file) {
+  const HeaderFields fields = read_nrrd_fields(file);
+  const std::string frame = fields.value("measurement frame");
+  const auto axes = vectors_in(file, "measurement frame", frame);
+  bool turned = !frame.empty() && axes.size() != 3;
+  for (std::size_t i = 0; i < axes.size() && !turned; ++i) {
+    turned = !axes[i] || !axes[i]->isApprox(Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i)));
+  }
+  if (turned || in_lower_case(fields.value("space")).starts_with("r")) {
+    refuse(file, "its vectors are not in LPS, by the header's space or measurement frame; save the field in LPS");
+  }
 }
 
 }  // namespace brainshift

@@ -35,6 +35,10 @@ using Pointer = typename itk::Image<Pixel, 3>::Pointer;
 
 // What the library makes of a file must be what we checked.
 void check_agreement(const fs::path& file, const itk::ImageIOBase& io, const ImageHeader& header) {
+  if (io.GetNumberOfComponents() == 1 && header.components == 3) {
+    refuse(file,
+           "holds three values a voxel, but is no field of vectors in LPS: save it with NIfTI's intent code 1007");
+  }
   bool same = io.GetNumberOfComponents() == header.components && io.GetNumberOfDimensions() >= 2;
   for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis) {
     same = same && io.GetDimensions(axis) == (axis < header.size.size() ? header.size[axis] : 1);
@@ -283,6 +287,10 @@ std::vector<LabelMap> read_layers(const fs::path& file) {
 }
 
 VectorImage read_vector_image(const fs::path& file) {
+  std::error_code unknown;
+  if (!fs::is_directory(file, unknown) && image_format(file) == ImageFormat::nrrd) {
+    naming_faults(file, [&] { check_nrrd_vectors(file); });
+  }
   const auto image = from_itk<std::array<float, 3>>(*read_any<itk::Vector<float, 3>>(file, 3));
   const std::span<const float> values(image.voxels.front().data(), 3 * image.voxels.size());
   check_finite(file, image.geometry, values, 3);

@@ -10,8 +10,10 @@
 #include <cerrno>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
 #include "segmentation/image/image_series.hpp"
@@ -78,9 +80,15 @@ void write_itk(const fs::path& file, const ItkImageType& image) {
       write_gzip(file, written);
       fs::remove(written, ignored);
     }
+  } catch (const std::bad_alloc&) {
+    fs::remove(written, ignored);
+    throw;
+  } catch (const itk::MemoryAllocationError&) {
+    fs::remove(written, ignored);
+    throw std::bad_alloc();
   } catch (const std::exception&) {
     fs::remove(written, ignored);
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

@@ -56,6 +56,11 @@ std::string nrrd_text(const std::string& changes, const std::string& encoding = 
 
 const std::string voxels(60, '\1');
 
+/// A file with that in its header.
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to) + voxels;
+}
+
 std::string fault_of(const std::filesystem::path& file) {
   return refusal([&] { read_label_map(file); });
 }
@@ -200,9 +205,6 @@ TEST(ImageHeader, ANrrdGeometryOrStorageThatCannotBeIsRefused) {
 
 TEST(ImageHeader, ThatPromisesMoreThanTheFileHoldsIsRefusedBeforeAnythingIsAllocated) {
   const ScratchFolder folder;
-  const auto changed = [](std::string text, const std::string& from, const std::string& to) {
-    return text.replace(text.find(from), from.size(), to) + voxels;
-  };
   EXPECT_TRUE(refused(folder.write("a.mha", changed(meta_text("CompressedData = True\n"), "3 4 5", "800 800 800")),
                       {"truncated", "512000000"}));
   EXPECT_TRUE(refused(folder.write("a.nrrd", changed(nrrd_text(""), "3 4 5", "800 800 800")), {"truncated"}));
@@ -251,6 +253,53 @@ TEST(ImageHeader, AFileWithoutPermissionIsSaidToBeThat) {
     GTEST_SKIP() << "this user may read every file";
   }
   EXPECT_TRUE(refused(file, {"a.mha", "permission"}));
+}
+
+TEST(ImageHeader, ANrrdIsReadInLpsAndRasAlone) {
+  const ScratchFolder folder;
+  const auto in_space = [&](const std::string& space) {
+    return folder.write("a.nrrd", changed(nrrd_text(""), "left-posterior-superior", space));
+  };
+  for (const std::string space : {"RAS", "right-anterior-superior", "LPS"}) {
+    EXPECT_EQ(fault_of(in_space(space)), "");
+    EXPECT_EQ(frame_note(in_space(space)), "");
+  }
+  for (const std::string space : {"left-anterior-superior", "LAS", "scanner-xyz", "3D-left-handed"}) {
+    EXPECT_TRUE(refused(in_space(space), {"a.nrrd", "left-posterior-superior"})) << space;
+  }
+  const std::string none = changed(nrrd_text(""), "space: left-posterior-superior\n", "");
+  EXPECT_EQ(fault_of(folder.write("a.nrrd", none)), "");
+  EXPECT_NE(frame_note(folder / "a.nrrd").find("no space is named"), std::string::npos);
+  const auto in_units = [&](const std::string& unit) {
+    const std::string units = "space units: \"" + unit + "\" \"" + unit + "\" \"" + unit + "\"\n";
+    return fault_of(folder.write("a.nrrd", nrrd_text(units) + voxels));
+  };
+  EXPECT_EQ(in_units("mm"), "");
+  EXPECT_NE(in_units("m").find("in mm"), std::string::npos);
+}
+
+TEST(ImageHeader, VectorsOfANrrdAreInLps) {
+  const ScratchFolder folder;
+  const auto field = [&](const std::string& space, const std::string& frame) {
+    const std::string text = "NRRD0004\ntype: float\ndimension: 4\nspace: " + space +
+                             "\nsizes: 3 2 2 2\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n" + frame +
+                             "kinds: vector domain domain domain\nendian: little\nencoding: raw\n\n";
+    return folder.write("field.nrrd", text + std::string(4 * 24, '\0'));
+  };
+  const auto fault = [&](const std::filesystem::path& file) { return refusal([&] { read_vector_image(file); }); };
+  EXPECT_EQ(fault(field("left-posterior-superior", "")), "");
+  EXPECT_EQ(fault(field("LPS", "measurement frame: (1,0,0) (0,1,0) (0,0,1)\n")), "");
+  EXPECT_NE(fault(field("LPS", "measurement frame: (-1,0,0) (0,-1,0) (0,0,1)\n")).find("in LPS"), std::string::npos);
+  EXPECT_NE(fault(field("RAS", "")).find("in LPS"), std::string::npos);
+}
+
+TEST(ImageHeader, ANiftiWithoutAFormIsToldOf) {
+  const ScratchFolder folder;
+  std::string bytes = nifti_bytes();
+  put<std::int16_t>(bytes, 252, 0);
+  put<std::int16_t>(bytes, 254, 0);
+  EXPECT_EQ(fault_of(folder.write("a.nii", bytes)), "");
+  EXPECT_NE(frame_note(folder / "a.nii").find("which side is left"), std::string::npos);
 }
 
 }  // namespace brainshift::test::image_header_test
