@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/solve.hpp"
 
+#include "solve/body/check_model.hpp"
 #include "solve/interface/option_table.hpp"
 #include "solve/region/region.hpp"
 #include "solve/run/measured.hpp"
@@ -10,6 +11,7 @@ namespace brainshift::solve {
 
 SolveResult solve(const Model& model, const SolveOptions& options, const Progress& progress) {
   check_options(options);
+  check_input(model);
   if (model.conditions.measured) {
     return solve_measured(model, options, progress);
   }

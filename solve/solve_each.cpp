@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "solve/body/check_model.hpp"
 #include "solve/body/stiff_parts.hpp"
 #include "solve/interface/option_table.hpp"
 #include "solve/interface/unfit_parts.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 void check_each(const Model& model, const SolveOptions& options, std::span<const Constants> constants) {
   check_options(options);
+  check_input(model);
   refuse_unfit("many constants at once do not go",
                {
                    {model.conditions.measured.has_value(), "a load with noise"},

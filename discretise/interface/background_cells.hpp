@@ -52,12 +52,16 @@ struct BackgroundCells {
   int corners() const { return corner_count(kind); }
 };
 
+/// Throws std::invalid_argument, naming the cell, where the cells are not what BackgroundCells says: arrays of other
+/// lengths, a vertex that is none, a cell that is inverted (planar: clockwise), flat or there twice, planar cells with
+/// a vertex off z = 0, a fraction outside (0, 1], octants of more volume than their cell or with a centroid outside it,
+/// numbers that are not finite.
+void check_cells(const BackgroundCells& cells);
+
 /// cells.vtu: cell arrays inside_fraction, label and, where cells are cut, octant_volume (8) and octant_centroid (24; 0
 /// where there is no volume). On reading, inside_fraction may be absent (1), label too (1) and the octant arrays (a cut
 /// cell's points are then those of the whole cell, weighted by its fraction). Throws std::invalid_argument, naming file
-/// and cell, on a file that is none, no cell, mixed or other kinds of cell, an inverted (planar: clockwise) or flat
-/// cell, planar cells with a vertex off z = 0, a fraction outside (0, 1], octants of more volume than their cell or
-/// with a centroid outside it, non-finite numbers.
+/// and cell, on a file that is none, mixed or other kinds of cell, and as check_cells() does.
 BackgroundCells read_background_cells(const std::filesystem::path& file);
 void write_background_cells(const std::filesystem::path& file, const BackgroundCells& cells);
 

@@ -28,16 +28,28 @@ void check_distinct(const std::filesystem::path& file, const NearestNeighbours& 
   }
 }
 
-void check_spacing(const std::filesystem::path& file, const std::vector<double>& spacing) {
-  for (std::size_t node = 0; node < spacing.size(); ++node) {
-    if (!(spacing[node] > 0 && std::isfinite(spacing[node]))) {
-      refuse(file, "node " + std::to_string(node) + " has spacing " + std::to_string(spacing[node]) +
-                       "; a positive length in mm is expected.");
+}  // namespace
+
+void check_nodes(const NodeCloud& cloud) {
+  const std::size_t nodes = cloud.size();
+  if (nodes < 2) {
+    throw std::invalid_argument("there are " + std::to_string(nodes) + " nodes; a cloud has at least two.");
+  }
+  if (cloud.spacing.size() != nodes || cloud.on_surface.size() != nodes) {
+    throw std::invalid_argument("of " + std::to_string(nodes) + " nodes spacing has " +
+                                std::to_string(cloud.spacing.size()) + " entries and on_surface " +
+                                std::to_string(cloud.on_surface.size()) + "; one a node is expected.");
+  }
+  for (std::size_t node = 0; node < nodes; ++node) {
+    if (!cloud.positions.row(static_cast<Eigen::Index>(node)).allFinite()) {
+      throw std::invalid_argument("the position of node " + std::to_string(node) + " is not finite.");
+    }
+    if (!(cloud.spacing[node] > 0 && std::isfinite(cloud.spacing[node]))) {
+      throw std::invalid_argument("node " + std::to_string(node) + " has spacing " +
+                                  std::to_string(cloud.spacing[node]) + "; a positive length in mm is expected.");
     }
   }
 }
-
-}  // namespace
 
 NodeCloud read_node_cloud(const std::filesystem::path& file) {
   const auto grid = vtu::read(file);
@@ -56,11 +68,15 @@ NodeCloud read_node_cloud(const std::filesystem::path& file) {
   if (cloud.spacing.empty()) {
     cloud.spacing = mean_distance;
   }
-  check_spacing(file, cloud.spacing);
   cloud.on_surface.assign(nodes, 0);
   const std::vector<double> on_surface = vtu::array(file, data, "on_surface", nodes);
   for (std::size_t node = 0; node < on_surface.size(); ++node) {
     cloud.on_surface[node] = on_surface[node] != 0 ? 1 : 0;
+  }
+  try {
+    check_nodes(cloud);
+  } catch (const std::invalid_argument& error) {
+    refuse(file, error.what());
   }
   return cloud;
 }

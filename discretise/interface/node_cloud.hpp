@@ -19,6 +19,10 @@ struct NodeCloud {
   std::size_t size() const { return static_cast<std::size_t>(positions.rows()); }
 };
 
+/// Throws std::invalid_argument, naming the node, where the arrays differ in length, there are less than two nodes, a
+/// coordinate is not finite or a spacing not positive.
+void check_nodes(const NodeCloud& cloud);
+
 /// The nodes on the surface, ascending.
 std::vector<std::int32_t> surface_nodes(const NodeCloud& cloud);
 
@@ -31,8 +35,7 @@ struct NodeVectors {
 /// nodes.vtu: unstructured grid of one vertex cell a node, point arrays spacing and on_surface. On reading, spacing may
 /// be absent (then it is the mean distance to the six nearest nodes), as may on_surface (then 0), and cells of other
 /// kinds are ignored: any mesh's points serve as a cloud. Throws std::invalid_argument, naming file and node, on a file
-/// that is none, no node, a non-finite coordinate, a spacing that is not positive, an array of the wrong size, or two
-/// nodes in one place.
+/// that is none, an array of the wrong size, two nodes in one place, and as check_nodes() does.
 NodeCloud read_node_cloud(const std::filesystem::path& file);
 
 /// Writes it, with more point arrays if wanted. Throws std::runtime_error, naming the file, when it cannot be written

@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "discretise/interface/background_cells.hpp"
 #include "solve/body/check_discretisation.hpp"
 #include "solve/body/joined_nodes.hpp"
 #include "solve/body/rigid_motions.hpp"
 #include "solve/boundary/wall_load.hpp"
 #include "solve/interface/option_table.hpp"
+#include "solve/material/check_material.hpp"
 
 namespace brainshift::solve {
 
@@ -54,6 +56,18 @@ std::vector<std::int32_t> parts_of(std::size_t nodes, const ShapeRows& rows) {
 }
 
 }  // namespace
+
+void check_input(const Model& model) {
+  check_nodes(model.cloud);
+  check_cells(model.cells);
+  check_conditions(model.conditions, model.cloud.size());
+  for (const auto& [label, material] : model.materials) {
+    check_material("the material of label " + std::to_string(label), material);
+  }
+  if (!model.gravity.allFinite()) {
+    throw std::invalid_argument("gravity is not finite; m/s² are expected");
+  }
+}
 
 void check_model(const Model& model) {
   if (model.resection) {

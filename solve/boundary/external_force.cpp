@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace brainshift::solve {
@@ -85,7 +87,13 @@ void add_body_force(const BodyForce& body_force, const IntegrationPoints& points
                     NodalVectors& total) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d position = points.positions.row(static_cast<Eigen::Index>(i));
-    spread(points.volume[i] * body_force(position, points.label[i]), rows, i, total);
+    const Eigen::Vector3d force = body_force(position, points.label[i]);
+    if (!force.allFinite()) {
+      std::ostringstream text;
+      text << "the body force at (" << position.transpose() << ") mm is not finite; N/mm³ are expected";
+      throw std::invalid_argument(text.str());
+    }
+    spread(points.volume[i] * force, rows, i, total);
   }
 }
 

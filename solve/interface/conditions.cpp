@@ -43,6 +43,27 @@ bool Conditions::is_pushed(Eigen::Index node) const {
   return force.rows() > 0 && !force.row(node).isZero();
 }
 
+void check_conditions(const Conditions& conditions, std::size_t nodes) {
+  for (const Points* const rows : {&conditions.displacement, &conditions.force}) {
+    if (rows->rows() > 0 && static_cast<std::size_t>(rows->rows()) != nodes) {
+      throw std::invalid_argument("the conditions have " + std::to_string(rows->rows()) + " rows for " +
+                                  std::to_string(nodes) + " nodes; one a node is expected.");
+    }
+  }
+  for (Eigen::Index a = 0; a < conditions.displacement.rows(); ++a) {
+    if (conditions.displacement.row(a).array().isInf().any()) {
+      throw std::invalid_argument("the prescribed_displacement of node " + std::to_string(a) +
+                                  " is infinite; a length in mm, or NaN for a free component, is expected.");
+    }
+  }
+  for (Eigen::Index a = 0; a < conditions.force.rows(); ++a) {
+    if (!conditions.force.row(a).allFinite()) {
+      throw std::invalid_argument("the force on node " + std::to_string(a) +
+                                  " is not finite; newtons are expected, 0 for none.");
+    }
+  }
+}
+
 std::vector<std::int32_t> prescribed_nodes(const Conditions& conditions) {
   std::vector<std::int32_t> nodes;
   for (Eigen::Index a = 0; a < conditions.displacement.rows(); ++a) {
@@ -82,16 +103,10 @@ Conditions read_conditions(const std::filesystem::path& file) {
   const auto grid = vtu::read(file);
   const Conditions conditions{.displacement = vectors(file, *grid, "prescribed_displacement"),
                               .force = vectors(file, *grid, "force")};
-  for (Eigen::Index a = 0; a < conditions.displacement.rows(); ++a) {
-    if (conditions.displacement.row(a).array().isInf().any()) {
-      refuse(file, "the prescribed_displacement of node " + std::to_string(a) +
-                       " is infinite; a length in mm, or NaN for a free component, is expected.");
-    }
-  }
-  for (Eigen::Index a = 0; a < conditions.force.rows(); ++a) {
-    if (!conditions.force.row(a).allFinite()) {
-      refuse(file, "the force on node " + std::to_string(a) + " is not finite; newtons are expected, 0 for none.");
-    }
+  try {
+    check_conditions(conditions, static_cast<std::size_t>(grid->GetNumberOfPoints()));
+  } catch (const std::invalid_argument& error) {
+    refuse(file, error.what());
   }
   return conditions;
 }

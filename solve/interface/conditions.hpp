@@ -53,6 +53,10 @@ struct Conditions {
   bool is_pushed(Eigen::Index node) const;
 };
 
+/// Throws std::invalid_argument, naming the node, where there is not one row a node, a displacement is infinite or a
+/// force not finite.
+void check_conditions(const Conditions& conditions, std::size_t nodes);
+
 /// Nodes, ascending, with a prescribed component.
 std::vector<std::int32_t> prescribed_nodes(const Conditions& conditions);
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "tests/unit/solve/models.hpp"
@@ -28,6 +31,34 @@ std::string refusal(const Model& model) {
     return error.what();
   }
   return {};
+}
+
+TEST(CheckInput, NamesWhatIsNotAsItMustBe) {
+  const std::pair<std::function<void(Model&)>, const char*> faults[] = {
+      {[](Model& m) { m.cloud.spacing.pop_back(); }, "one a node"},
+      {[](Model& m) { m.cloud.on_surface.clear(); }, "one a node"},
+      {[](Model& m) { m.cloud.spacing[7] = 0; }, "node 7 has spacing"},
+      {[](Model& m) { m.cloud.positions(7, 1) = std::nan(""); }, "node 7 is not finite"},
+      {[](Model& m) { m.cloud = {}; }, "at least two"},
+      {[](Model& m) { m.conditions.displacement.conservativeResize(10, 3); }, "10 rows for 64 nodes"},
+      {[](Model& m) { m.conditions.displacement(3, 1) = INFINITY; }, "node 3 is infinite"},
+      {[](Model& m) { m.conditions.force.setConstant(64, 3, std::nan("")); }, "force on node 0"},
+      {[](Model& m) { m.cells.connectivity[5] = 100000; }, "cell 0 has a corner"},
+      {[](Model& m) { m.materials[1].law = Law::own; }, "label 1"},
+      {[](Model& m) {
+         m.gravity = {0, std::nan(""), 0};
+       },
+       "gravity is not finite"},
+      {[](Model& m) {
+         m.body_force = [](const Eigen::Vector3d&, std::int32_t) -> Eigen::Vector3d { return {0, NAN, 0}; };
+       },
+       "body force at"},
+  };
+  for (const auto& [change, sentence] : faults) {
+    Model model = uniaxial(0.9, 4);
+    change(model);
+    EXPECT_NE(refusal(model).find(sentence), std::string::npos) << sentence << ": " << refusal(model);
+  }
 }
 
 TEST(CheckModel, WantsSomethingThatMovesAndSomethingThatHolds) {
