@@ -7,6 +7,7 @@
 
 #include "register/device/register_on_device.hpp"
 #include "register/field/brain_zones.hpp"
+#include "register/field/covers_brain.hpp"
 #include "register/field/forward_field.hpp"
 #include "register/field/jacobian.hpp"
 #include "register/field/measures.hpp"
@@ -48,13 +49,6 @@ void check(const RegisterInput& input, const RegisterOptions& options) {
   if (!input.landmarks.allFinite()) {
     throw std::invalid_argument("a landmark's position is not finite");
   }
-}
-
-Progress part_of(const Progress& progress, double begin, double end) {
-  if (!progress) {
-    return {};
-  }
-  return [=](double fraction, std::string_view what) { progress(begin + (end - begin) * fraction, what); };
 }
 
 /// The images that are warped, without what was taken out.
@@ -113,6 +107,7 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   const ImageGeometry& grid = input.t1.geometry;
   report(progress, 0.0, "distance to the brain's surface");
   const BrainZones zones = brain_zones(input.brain, grid, options.fade, input.cavity ? &input.cavity->wall : nullptr);
+  check_covers(input.solution, zones, grid);
   Registration result;
   std::size_t cavity_voxels = 0;
   const Emptied emptied(input, options, zones, cavity_voxels);

@@ -10,11 +10,11 @@
 #include <fstream>
 #include <future>
 #include <iomanip>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "register/files/transform_files.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/text_lines.hpp"
 
 namespace brainshift::registration {
@@ -60,7 +60,7 @@ void write_landmarks(const std::filesystem::path& file, const Registration& regi
     out << '\n';
   }
   if (!out.flush()) {
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

@@ -3,8 +3,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <system_error>
+
+#include "segmentation/files/not_written.hpp"
 
 namespace brainshift::registration {
 
@@ -33,8 +34,7 @@ class OutStream {
   void finish() {
     stream_.close();
     if (!stream_) {
-      throw std::runtime_error(file_.string() +
-                               ": could not be written whole; is the disk full or the folder read-only?");
+      fail_to_write(file_);
     }
     finished_ = true;
   }

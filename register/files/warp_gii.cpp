@@ -10,11 +10,11 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "register/files/gii_claims.hpp"
 #include "register/files/warped_name.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
 
@@ -135,7 +135,7 @@ Points move_arrays(const fs::path& file, gifti_image& surface, PointMover& mover
 void write_gifti(const fs::path& file, gifti_image& image) {
   // The library does not look whether the disk took all of it.
   if (gifti_write_image(&image, file.c_str(), 1) != 0 || !read_gifti(file, false)) {
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 
