@@ -28,8 +28,8 @@ double bulk_modulus(const Material& material) {
 }
 
 bool much_stiffer(double shear_modulus, double other) {
-  constexpr double much = 3;
-  return shear_modulus >= much * other;
+  constexpr double much = 3, rounding = 1e-9;  // exactly three times are so in any unit
+  return shear_modulus >= (1 - rounding) * much * other;
 }
 
 double stiffness_contrast(const std::map<std::int32_t, Material>& materials) {

@@ -20,6 +20,15 @@ TEST(Moduli, AreThoseOfLinearElasticity) {
   EXPECT_NEAR(bulk_modulus(ogden), 2000 * 1.49 / 0.06, 1e-9);
 }
 
+TEST(MuchStiffer, DoesNotDependOnTheUnit) {
+  for (const double unit : {1.0, 0.1, 1e-3, 7.0, 1e6}) {
+    const Material soft{.youngs_modulus = 3000 * unit}, stiff{.youngs_modulus = 9000 * unit},
+        less{.youngs_modulus = 8990 * unit};
+    EXPECT_TRUE(much_stiffer(shear_modulus(stiff), shear_modulus(soft))) << unit;
+    EXPECT_FALSE(much_stiffer(shear_modulus(less), shear_modulus(soft))) << unit;
+  }
+}
+
 TEST(LongTerm, KeepsTheBulkModulusAndLosesTheRelaxingShares) {
   for (const Law law : {Law::neo_hookean, Law::ogden, Law::saint_venant_kirchhoff, Law::linear_elastic}) {
     const Material material{.law = law, .ogden = {{900, 2}, {-100, 3}}, .prony = {{0.450, 0.50}, {0.365, 50}}};
