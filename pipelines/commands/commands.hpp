@@ -50,6 +50,9 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
 CLI::Option* add_scene_option(CLI::App& command, Scene& scene, const std::string& element, const std::string& name,
                               const std::string& other_flag = {});
 
+/// All options of a stage but the command that may stand for it.
+void add_stage_options(CLI::App& command, Scene& scene, const std::string& stage);
+
 /// "--device": what answers another load of a run, as the solve stage's option; absent: the run's own.
 CLI::Option* add_device_option(CLI::App& command, std::optional<solve::Device>& device);
 

@@ -41,11 +41,7 @@ void add_discretise_command(CLI::App& program, const Settings& settings) {
       ->capture_default_str();
   command->add_option("--craniotomy", arguments->craniotomy, "craniotomy.csv: where nodes are finer")
       ->type_name("FILE");
-  for (const char* name :
-       {"nodes", "spacing", "minimum_distance", "craniotomy_factor", "craniotomy_radius", "tumour_factor",
-        "tumour_label", "tissue_boundary_factor", "cells", "cells_per_node", "seed"}) {
-    add_scene_option(*command, arguments->scene, "discretise", name);
-  }
+  add_stage_options(*command, arguments->scene, "discretise");
   command->add_option("--out", arguments->out, "folder for the artefacts")->required()->type_name("DIR");
   command->callback([arguments, &settings] { discretise(*arguments, settings); });
 }

@@ -27,4 +27,12 @@ CLI::Option* add_scene_option(CLI::App& command, Scene& scene, const std::string
       defaults);
 }
 
+void add_stage_options(CLI::App& command, Scene& scene, const std::string& stage) {
+  for (const Option<Scene>& option : find_element(stage)->options) {
+    if (option.name != "command") {
+      add_scene_option(command, scene, stage, option.name);
+    }
+  }
+}
+
 }  // namespace brainshift::pipelines

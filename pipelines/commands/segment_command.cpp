@@ -44,9 +44,7 @@ void add_segment_command(CLI::App& program, const Settings& settings) {
        {"t1", "labels", "labels_are", "brain_mask", "tumour_mask", "tumour", "surface", "skull_label"}) {
     add_scene_option(*command, arguments->scene, "image", name);
   }
-  for (const char* name : {"edge_length", "closing", "tissue_surfaces", "classes", "ventricle_depth"}) {
-    add_scene_option(*command, arguments->scene, "segment", name);
-  }
+  add_stage_options(*command, arguments->scene, "segment");
   command
       ->add_option("--brain-labels", arguments->brain_labels,
                    "labels that are tissue of the brain; 1 2 3 where no table tells the labels")

@@ -209,34 +209,7 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
       ->type_name("FILE");
   command->add_option("--markups", arguments->markups, "markups before and after")->expected(2)->type_name("FILE");
   command->add_option("--surfaces", arguments->surfaces, "cortex before and after")->expected(2)->type_name("FILE");
-  for (const char* name : {"integration_tolerance",
-                           "integration_depth",
-                           "basis",
-                           "derivatives",
-                           "dilatation",
-                           "penalty",
-                           "volumetric",
-                           "nodes_per_patch",
-                           "integration",
-                           "imposition",
-                           "points_per_cell",
-                           "precision",
-                           "dynamics",
-                           "tolerance",
-                           "load_steps",
-                           "device",
-                           "start",
-                           "time_step",
-                           "damping",
-                           "duration",
-                           "curve",
-                           "curve_join",
-                           "gravity",
-                           "region",
-                           "max_steps",
-                           "snapshot_every"}) {
-    add_scene_option(*command, arguments->scene, "solve", name);
-  }
+  add_stage_options(*command, arguments->scene, "solve");
   add_scene_option(*command, arguments->scene, "gravity", "direction", "--gravity-direction");
   for (const char* name : {"fluid_level", "drained", "fluid_point", "fluid_density", "image_direction"}) {
     add_scene_option(*command, arguments->scene, "gravity", name);
