@@ -5,11 +5,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <stdexcept>
 
 #include "pipelines/phantom/phantom.hpp"
 #include "register/interface/options.hpp"
 #include "segmentation/files/make_folder.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/segment.hpp"
 
 namespace brainshift::pipelines {
@@ -25,7 +25,7 @@ void write_text(const fs::path& file, const std::string& text) {
   stream << text;
   stream.close();
   if (!stream) {
-    throw std::runtime_error("cannot write " + file.string() + ": is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

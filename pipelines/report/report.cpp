@@ -7,7 +7,6 @@
 #include <future>
 #include <iterator>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "pipelines/report/surface_figure.hpp"
 #include "pipelines/report/weight_figure.hpp"
 #include "segmentation/files/make_folder.hpp"
+#include "segmentation/files/not_written.hpp"
 
 namespace brainshift::pipelines {
 
@@ -29,7 +29,7 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
   stream << bytes;
   stream.close();
   if (!stream) {
-    throw std::runtime_error("cannot write " + file.string() + ": is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

@@ -18,11 +18,11 @@
 
 #include <cmath>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 #include "segmentation/files/legacy_vtk_claims.hpp"
 #include "segmentation/files/lower_case.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtk_claims.hpp"
@@ -161,7 +161,7 @@ void write_legacy_as(const fs::path& file, vtkPointSet& model, const fs::path& a
   out.write(writer->GetOutputString(), static_cast<std::streamsize>(writer->GetOutputStringLength()));
   out.close();
   if (!made || !out) {
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <stdexcept>
 
 #include "segmentation/files/lower_case.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
 
@@ -201,7 +201,7 @@ void write_point_table(const std::filesystem::path& out, const PointTable& table
     stream << line << '\n';
   }
   if (!stream.flush()) {
-    throw std::runtime_error(out.string() + ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(out);
   }
 }
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "segmentation/files/frame.hpp"
 #include "segmentation/files/lower_case.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/point_table.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
@@ -108,7 +108,7 @@ void write_json(const std::filesystem::path& out, const Json& document) {
   std::ofstream stream(out);
   stream << document.dump(2) << '\n';
   if (!stream.flush()) {
-    throw std::runtime_error(out.string() + ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(out);
   }
 }
 

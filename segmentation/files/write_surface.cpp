@@ -11,6 +11,8 @@
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/files/vtk_bridge.hpp"
 
+#include "segmentation/files/not_written.hpp"
+
 namespace brainshift {
 namespace {
 
@@ -108,7 +110,7 @@ void write_surface(const fs::path& file, const Surface& surface) {
   if (!out) {
     std::error_code ignored;
     fs::remove(file, ignored);
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

@@ -16,4 +16,12 @@ inline void report(const Progress& progress, double fraction, std::string_view w
   }
 }
 
+/// For a part of a stage's work: from its begin to its end, fractions of the whole.
+inline Progress part_of(const Progress& whole, double begin, double end) {
+  if (!whole) {
+    return {};
+  }
+  return [=](double fraction, std::string_view what) { whole(begin + fraction * (end - begin), what); };
+}
+
 }  // namespace brainshift

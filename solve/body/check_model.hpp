@@ -7,8 +7,8 @@
 
 namespace brainshift::solve {
 
-/// What must hold before anything of a model is read: arrays of one length, indices within them, finite numbers, materials
-/// within their range. Throws std::invalid_argument.
+/// What must hold before anything of a model is read: arrays of one length, indices within them, finite numbers,
+/// materials within their range. Throws std::invalid_argument.
 void check_input(const Model& model);
 
 /// Throws std::invalid_argument when plane, cells and materials do not go together, the resection is out of range, or

@@ -3,7 +3,6 @@
 #include <array>
 #include <charconv>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -12,6 +11,8 @@
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
 #include "solve/load/craniotomy_load.hpp"
+
+#include "segmentation/files/not_written.hpp"
 
 namespace brainshift::solve {
 
@@ -85,7 +86,7 @@ void write_craniotomy_csv(const std::filesystem::path& file, const CraniotomyLoa
   }
   stream.close();
   if (!stream) {
-    throw std::runtime_error(file.string() + ": cannot be written; is the disk full or the folder missing?");
+    fail_to_write(file);
   }
 }
 

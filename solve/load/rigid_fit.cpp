@@ -6,7 +6,8 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
+
+#include "segmentation/files/not_written.hpp"
 
 namespace brainshift::solve {
 
@@ -45,7 +46,7 @@ void write_rigid(const std::filesystem::path& file, const RigidMotion& motion) {
   }
   stream << ' ' << motion.translation.transpose() << "\nFixedParameters: 0 0 0\n";
   if (!stream.flush()) {
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

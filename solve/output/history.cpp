@@ -3,7 +3,8 @@
 
 #include <fstream>
 #include <iomanip>
-#include <stdexcept>
+
+#include "segmentation/files/not_written.hpp"
 
 namespace brainshift::solve {
 
@@ -18,7 +19,7 @@ void write_history(const std::filesystem::path& file, const std::vector<HistoryR
         << row.reaction.x() << ',' << row.reaction.y() << ',' << row.reaction.z() << '\n';
   }
   if (!out.flush()) {
-    throw std::runtime_error(file.string() + ": cannot be written; is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "segmentation/files/refuse.hpp"
@@ -87,12 +88,22 @@ Eigen::MatrixXd field_rows(const std::filesystem::path& file, vtkFieldData& data
       values.data(), static_cast<Eigen::Index>(rows), components);
 }
 
+/// The same of vertices' numbers, -1 for none.
+Eigen::MatrixXi vertex_rows(const std::filesystem::path& file, vtkFieldData& data, const char* name, int components) {
+  const Eigen::MatrixXd rows = field_rows(file, data, name, components);
+  constexpr double most = std::numeric_limits<std::int32_t>::max();
+  if (!(rows.array() >= -1 && rows.array() <= most).all()) {
+    refuse(file, std::string(name) + " holds what is no vertex's number.");
+  }
+  return rows.cast<int>();
+}
+
 /// The cut of the file; empty where it has none.
 solve::CutFacets cut_of(const std::filesystem::path& file, vtkFieldData& data) {
   solve::CutFacets cut;
   cut.vertices = field_rows(file, data, "cut_vertices", 3);
-  cut.facets = field_rows(file, data, "cut_facets", 3).cast<std::int32_t>();
-  const Eigen::MatrixXi front = field_rows(file, data, "cut_front", 2).cast<int>();
+  cut.facets = vertex_rows(file, data, "cut_facets", 3);
+  const Eigen::MatrixXi front = vertex_rows(file, data, "cut_front", 2);
   for (Eigen::Index i = 0; i < front.rows(); ++i) {
     cut.front.push_back({front(i, 0), front(i, 1)});
   }

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <iomanip>
 #include <sstream>
-#include <stdexcept>
 
 #include "segmentation/files/make_folder.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/vtu_file.hpp"
 #include "solve/output/cut_surface.hpp"
 
@@ -43,7 +43,7 @@ void write_steps(const std::filesystem::path& folder, const SolveResult& result)
   }
   out << "</Collection>\n</VTKFile>\n";
   if (!out.flush()) {
-    throw std::runtime_error(collection.string() + ": cannot be written; is the disk full or the folder read-only?");
+    fail_to_write(collection);
   }
 }
 

@@ -5,8 +5,8 @@
 #include <iomanip>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 
+#include "segmentation/files/not_written.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
@@ -65,7 +65,7 @@ void write_stress_strain(const std::filesystem::path& file, const std::vector<St
     out << r.time << ',' << r.elongation << ',' << r.stress << '\n';
   }
   if (!out.flush()) {
-    throw std::runtime_error(file.string() + ": cannot be written; is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

@@ -78,6 +78,10 @@ class ArchiveReader {
     Eigen::Index rows = 0, columns = 0;
     plain(rows);
     plain(columns);
+    if (columns == 0) {
+      matrix.resize(rows, 0);
+      return;
+    }
     const char* const first = take(static_cast<std::size_t>(rows), static_cast<std::size_t>(columns) * sizeof(double));
     matrix = Eigen::Map<const Eigen::MatrixXd>(reinterpret_cast<const double*>(first), rows, columns);
   }

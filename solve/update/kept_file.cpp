@@ -12,6 +12,8 @@
 #include "solve/update/kept_run.hpp"
 #include "solve/update/mapped_file.hpp"
 
+#include "segmentation/files/not_written.hpp"
+
 namespace brainshift::solve {
 namespace fs = std::filesystem;
 
@@ -252,7 +254,7 @@ void write_kept(const fs::path& file, const KeptRun& kept, const std::string& ke
   }
   if (!stream || fault) {
     fs::remove(unfinished, fault);
-    throw std::runtime_error(file.string() + ": cannot be written; is the disk full or the folder missing?");
+    fail_to_write(file);
   }
 }
 

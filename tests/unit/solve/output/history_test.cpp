@@ -55,7 +55,7 @@ TEST(History, ThatCannotBeWrittenIsAFaultThatNamesTheFile) {
       write_history(file, {HistoryRow()});
       FAIL() << file << " was written";
     } catch (const std::runtime_error& fault) {
-      EXPECT_EQ(std::string(fault.what()).find(file.string() + ": cannot be written"), 0U) << fault.what();
+      EXPECT_EQ(std::string(fault.what()).find(file.string() + ": could not be written whole"), 0U) << fault.what();
     }
   }
 }

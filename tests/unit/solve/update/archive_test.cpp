@@ -13,6 +13,7 @@ std::vector<char> written() {
   writer.many(std::vector<int>());
   writer.points(Points(0, 3));
   writer.points(Points::Constant(2, 3, 7.0));
+  writer.matrix(Eigen::MatrixXd(4, 0));
   return bytes;
 }
 
@@ -28,6 +29,10 @@ TEST(Archive, GivesBackWhatWasPutIn) {
   reader.many(none);
   reader.points(no_points);
   reader.points(points);
+  Eigen::MatrixXd no_columns;
+  reader.matrix(no_columns);
+  EXPECT_EQ(no_columns.rows(), 4);
+  EXPECT_EQ(no_columns.cols(), 0);
   EXPECT_EQ(number, 0.5);
   EXPECT_EQ(floats, (std::vector<float>{1, 2, 3}));
   EXPECT_TRUE(none.empty());
