@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <deque>
 #include <fstream>
 #include <iterator>
@@ -53,8 +55,10 @@ std::string last_lines(const std::filesystem::path& file) {
   setpgid(0, 0);
   std::signal(SIGPIPE, SIG_DFL);  // the program ignores them
   std::signal(SIGXFSZ, SIG_DFL);
+  const int nothing = open("/dev/null", O_RDONLY);  // a command that asks at the terminal would wait for ever
   const int file = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0 || chdir(directory) != 0) {
+  if (nothing < 0 || file < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(file, STDOUT_FILENO) < 0 ||
+      dup2(file, STDERR_FILENO) < 0 || chdir(directory) != 0) {
     _exit(126);
   }
   execl("/bin/sh", "sh", "-c", text, static_cast<char*>(nullptr));
@@ -90,9 +94,14 @@ void run_external_command(const ExternalCommand& command, Interruption& interrup
   setpgid(child, child);  // as the child does, so that it holds whoever comes first
   interruption.set_command(child);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  pid_t ended = 0;
+  do {
+    ended = waitpid(child, &status, 0);
+  } while (ended < 0 && errno == EINTR);
   interruption.set_command(0);
+  if (ended < 0) {  // where whoever started the program ignores the end of its children
+    throw std::runtime_error("the command '" + command.command + "' ended, but not how: " + std::strerror(errno));
+  }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     const std::string said = last_lines(log);

@@ -71,7 +71,8 @@ void make_external(StagePlan& plan, const Scene& scene, const fs::path& folder, 
   std::erase_if(plan.inputs, [](const InputFile& file) { return file.path.filename() == "stage.json"; });
   std::istringstream words(command);
   for (std::string word; words >> word;) {
-    if (fs::is_regular_file(directory / word)) {
+    std::error_code none;  // a word need not be a file's name
+    if (fs::is_regular_file(directory / word, none)) {
       plan.inputs.push_back({"command/" + word, directory / word});
     }
   }

@@ -109,7 +109,7 @@ solve::SolveResult LiveRun::solve(const solve::CraniotomyLoad& load, const fs::p
   try {
     return updated().solve(load, file, {});
   } catch (...) {
-    if (!updated_->is_whole()) {
+    if (updated_ && !updated_->is_whole()) {
       updated_.reset();
     }
     throw;

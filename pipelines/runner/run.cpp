@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Tells of a state as of its part of the whole.
-RunObserver part_of(const RunObserver& observer, const std::string& state, std::size_t ordinal, std::size_t states) {
+RunObserver of_state(const RunObserver& observer, const std::string& state, std::size_t ordinal, std::size_t states) {
   if (!observer) {
     return {};
   }
@@ -75,7 +75,7 @@ RunOutcome run_sequence(const Scene& scene, const RunOptions& options, Interrupt
     const std::span<const Scene> later = std::span(scene.states).subspan(i + 1);
     RunOutcome one;
     try {
-      one = run_stages(state, own, before, interruption, part_of(observer, name, i, scene.states.size()));
+      one = run_stages(state, own, before, interruption, of_state(observer, name, i, scene.states.size()));
     } catch (...) {
       outdate(later, out, outcome.record["states"], interruption);
       throw;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/jobs.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include "pipelines/runner/warnings.hpp"
 #include "pipelines/scene/field_load.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/geometry/collinear.hpp"
 #include "solve/cut/septum.hpp"
 #include "solve/load/near_surface.hpp"
 #include "solve/load/noisy_load.hpp"
@@ -80,14 +80,6 @@ solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, bool rob
   return taken;
 }
 
-/// Whether a turn about one line would hardly move any of them.
-bool are_in_line(const Points& positions) {
-  constexpr double nearly = 0.01;  // of their extent along the line
-  const Points centred = positions.rowwise() - positions.colwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(centred.transpose() * centred);
-  return spread.eigenvalues()[1] <= nearly * nearly * spread.eigenvalues()[2];
-}
-
 void need_noise(const solve::CraniotomyLoad& load) {
   if (load.sigma.rows() == 0) {
     throw std::invalid_argument(
@@ -128,11 +120,6 @@ void write_measured(const SolveInput& input, const solve::SolveResult& result, c
 }
 
 constexpr double solving_share = 0.3;  // of the stage's progress, where samples follow
-
-Progress part_of(const Progress& whole, double from, double to) {
-  return
-      [whole, from, to](double fraction, std::string_view what) { report(whole, from + fraction * (to - from), what); };
-}
 
 /// uncertainty.vtu where it is wanted, and uncertainty.csv where the landmarks' covariance is known.
 void add_uncertainty(const SolveJob& job, const SolveInput& input, const solve::SolveResult& result,
@@ -209,11 +196,20 @@ void note_far_centre(const Load& load, const Points& opening, std::vector<std::s
   }
 }
 
+/// The load's displacements take the place of those that the nodes' file prescribes.
+void note_replaced(const SolveJob& job, const solve::Conditions& own, std::vector<std::string>& notes) {
+  if (const std::size_t nodes = solve::prescribed_nodes(own).size(); job.load && nodes > 0) {
+    notes.push_back("warning: " + job.nodes.string() + " prescribes displacements of " + std::to_string(nodes) +
+                    " nodes, which do not act, as there is a load; leave the one or the other out");
+  }
+}
+
 SolveInput read_input(const SolveJob& job) {
   SolveInput input;
   solve::Model& model = input.model;
   model.cloud = read_node_cloud(job.nodes);
   model.conditions = solve::read_conditions(job.nodes);
+  note_replaced(job, model.conditions, input.notes);
   model.cells = read_background_cells(job.cells);
   model.labels = labels_if(job.labels);
   model.materials = job.materials;
@@ -260,7 +256,7 @@ SolveInput read_input(const SolveJob& job) {
       input.registration = found.motion;
       if (found.open > registration_at_rest) {
         input.notes.push_back("warning: the registration has not come to rest: it would still move by " +
-                              solve::rounded(found.open) + " mm; measure more points, best inside the brain, too");
+                              solve::rounded(found.open, 2) + " mm; measure more points, best inside the brain, too");
       }
     });
   }

@@ -13,6 +13,7 @@
 
 #include "pipelines/runner/sha256.hpp"
 #include "register/field/nodal_values.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/vtu_file.hpp"
 #include "solve/interface/option_table.hpp"
 #include "solve/material/material_options.hpp"
@@ -120,8 +121,7 @@ class SampleTable {
 
   void close() {
     if (!stream_.flush()) {
-      throw std::runtime_error(file_.string() +
-                               ": could not be written whole; is the disk full or the folder read-only?");
+      fail_to_write(file_);
     }
   }
 
@@ -215,10 +215,8 @@ Eigen::MatrixXd spread_of_constants(const UncertaintyJob& job, const Solved& sol
     for (const int sample : group) {
       constants.push_back(sample == 0 ? own : solve::drawn_constants(solved.model, options, sample));
     }
-    const auto of_these = [&](double done, std::string_view what) {
-      const double before = static_cast<double>(begin), these = static_cast<double>(group.size());
-      report(progress, (before + done * these) / static_cast<double>(numbers.size()), what);
-    };
+    const auto all = static_cast<double>(numbers.size()), before = static_cast<double>(begin);
+    const Progress of_these = part_of(progress, before / all, (before + static_cast<double>(group.size())) / all);
     std::vector<std::optional<Points>> found = sampler.displacements(constants, of_these);
     if (begin == 0 && !(answer = std::move(found.front()))) {
       throw std::runtime_error("the model could not be solved once more for its samples; leave <uncertainty> out");
@@ -329,7 +327,7 @@ void write_covariance(const fs::path& file, const Points& places, const solve::S
     stream << '\n';
   }
   if (!stream.flush()) {
-    throw std::runtime_error(file.string() + ": could not be written whole; is the disk full or the folder read-only?");
+    fail_to_write(file);
   }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/warnings.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "segmentation/geometry/collinear.hpp"
 #include "segmentation/geometry/distinct_points.hpp"
 #include "segmentation/geometry/point_tree.hpp"
 #include "segmentation/labels/label_fit.hpp"
@@ -26,13 +26,6 @@ std::string with_digits(double number) {
   char text[32];
   std::snprintf(text, sizeof text, number < 99.5 ? "%.2g" : "%.0f", number);
   return text;
-}
-
-/// Whether the points lie along one line, as far as the width of their row tells.
-bool on_a_line(const Points& points) {
-  const Points about = points.rowwise() - points.colwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(about.transpose() * about);
-  return std::sqrt(std::max(0.0, spread.eigenvalues()[1])) < 0.02 * std::sqrt(spread.eigenvalues()[2]);
 }
 
 Points surface_of(const NodeCloud& cloud) {
@@ -123,7 +116,7 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
                        "opening, and is it flat enough?");
   }
   const bool few = places.rows() <= 3;
-  if (few || on_a_line(places)) {
+  if (few || are_in_line(places)) {
     const auto loaded = std::ranges::count_if(prescribed.col(0), [](double u) { return std::isfinite(u); });
     warnings.push_back("the load is measured at " + std::to_string(places.rows()) + " places" +
                        (few ? "" : " on one line") + " and moves " + std::to_string(loaded) +
@@ -294,6 +287,18 @@ Warnings warnings_of_points(const solve::SolveMeasures& measures) {
   return warnings;
 }
 
+/// Of heads at hand there are 1 % at most.
+Warnings warnings_of_labels(const solve::SolveMeasures& measures) {
+  constexpr double much = 0.1;
+  const double share = static_cast<double>(measures.outside_label) / static_cast<double>(measures.integration_points);
+  if (!(share > much)) {
+    return {};
+  }
+  return {std::to_string(std::lround(100 * share)) +
+          " % of the integration points lie outside every tissue of the label map and took the label of their cell; if "
+          "the map shows the whole body, cells and map are not in one frame: mm, LPS"};
+}
+
 Warnings warnings_of_pressure(const solve::SolveMeasures& measures) {
   if (measures.pressed_share < solve::much_pressed) {
     return {};
@@ -373,8 +378,8 @@ Warnings warnings_of_few_nodes(const solve::SolveMeasures& measures) {
 Warnings warnings_of(const solve::SolveMeasures& measures) {
   Warnings warnings = warnings_of_points(measures);
   for (const Warnings& more :
-       {warnings_of_pressure(measures), warnings_of_compression(measures), warnings_of_cavity(measures),
-        warnings_of_noise(measures), warnings_of_few_nodes(measures)}) {
+       {warnings_of_labels(measures), warnings_of_pressure(measures), warnings_of_compression(measures),
+        warnings_of_cavity(measures), warnings_of_noise(measures), warnings_of_few_nodes(measures)}) {
     append(more, warnings);
   }
   return warnings;

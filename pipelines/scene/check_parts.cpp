@@ -10,6 +10,7 @@
 #include "solve/cut/septum.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/region/region.hpp"
+#include "solve/run/measured.hpp"
 #include "solve/uncertainty/draw.hpp"
 #include "solve/uncertainty/sample.hpp"
 
@@ -95,6 +96,9 @@ void check_parts(const Scene& scene) {
     need_noise(scene.load->robust, "robust", "robust=\"yes\"");
     need_noise(scene.load->registration_unknown, "registration", "an unknown registration");
     need_noise(scene.load->weight > 0, "weight", "a weight");
+    if (has_noise(*scene.load)) {
+      check_at(scene, "load", [&] { solve::check_measured(parts_of(scene), scene.solve); });
+    }
   }
   if (scene.uncertainty) {
     check_at(scene, "uncertainty", [&] { check_uncertainty(scene); });

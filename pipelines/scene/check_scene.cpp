@@ -189,8 +189,8 @@ void check_scene(const Scene& scene) {
   check_options(scene);
   check_solve_options(scene);
   check_tissues(scene);
-  check_parts(scene);
   check_late_files(scene);
+  check_parts(scene);
 }
 
 void check_solve_options(const Scene& scene) {

@@ -38,7 +38,7 @@ double faces_at_septa(double nodes) {
   return 2.5 * std::pow(nodes, 2.0 / 3);
 }
 
-/// Samples of the distance to the skull: 1.5 mm apart, 10 mm past the surface (solve/lay_out.cpp).
+/// Samples of the distance to the skull: 1.5 mm apart, 10 mm past the surface (solve/body/lay_out.cpp).
 double distance_samples(double volume) {
   const double width = std::cbrt(6 * volume / std::numbers::pi) + 20;
   return std::pow(width / 1.5, 3);

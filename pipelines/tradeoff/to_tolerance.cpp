@@ -125,10 +125,12 @@ class Refinement {
     for (const char* stage : {"discretise", "solve"}) {
       copy_stage(folder_of(nodes_) / stage, options_.out / stage, interruption_);
     }
-    StageRecord record = *read_stage_record(options_.out / "solve");
-    record.entry["measures"]["estimated_error_95_mm"] = levels.back().estimate.percentile_95;
-    record.entry["measures"]["estimated_error_largest_mm"] = levels.back().estimate.largest;
-    write_stage_record(options_.out / "solve", record);
+    if (levels.size() > 1) {  // of one level alone what its own solve estimates stays
+      StageRecord record = *read_stage_record(options_.out / "solve");
+      record.entry["measures"]["estimated_error_95_mm"] = levels.back().estimate.percentile_95;
+      record.entry["measures"]["estimated_error_largest_mm"] = levels.back().estimate.largest;
+      write_stage_record(options_.out / "solve", record);
+    }
     RunOptions options = options_;
     options.force = false;
     RunOutcome outcome = run(scene_of_level(scene_, nodes_, tolerance_), options, interruption_, observer_);
@@ -136,7 +138,7 @@ class Refinement {
     for (const Level& level : levels) {
       outcome.record["tolerance"]["levels"].push_back(as_json(level));
     }
-    write_whole(options_.out / "run.json", json_text(outcome.record));
+    write_run_record(options_.out, outcome.record, interruption_);
     return outcome;
   }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -50,9 +52,10 @@ bool on_it_when_turned(const Distances& as_given, const Distances& turned, doubl
 
 }  // namespace
 
-std::string rounded(double number) {
-  const std::string text = std::to_string(number);
-  return text.substr(0, text.find('.') + 2);
+std::string rounded(double number, int decimals) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << number;
+  return text.str();
 }
 
 void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed) {

@@ -29,7 +29,7 @@ void check_taken(const Points& measured, const NodeCloud& cloud, const Points& p
 /// by a part of itself; what moves farther is in another unit, or is a place and no movement.
 void check_moved(const Points& displacement, const Points& surface);
 
-/// One decimal, for sentences.
-std::string rounded(double number);
+/// Of so many decimals, for sentences.
+std::string rounded(double number, int decimals = 1);
 
 }  // namespace brainshift::solve

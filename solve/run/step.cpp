@@ -146,7 +146,7 @@ SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepare
                         NodalVectors start, const Progress& progress) {
   const Stopwatch begin;
   std::optional<Dissection> dissection;
-  if (prepared.parts) {
+  if (prepared.cut && prepared.parts) {
     dissection.emplace(model, options, std::move(*prepared.cut), std::move(*prepared.parts));
   }
   const Course course{

@@ -2,6 +2,7 @@
 #include "solve/run/whole_body.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,7 +42,7 @@ std::vector<Attempt> further_attempts(const SolveResult& result, const SolveOpti
   }
   for (auto& [other, what] : attempts) {
     other.start = Start::rest;
-    other.load_steps *= slower;
+    other.load_steps = std::min(other.load_steps, std::numeric_limits<int>::max() / slower) * slower;
     what = std::to_string(other.load_steps) + " load steps" + (what.empty() ? "" : ", " + what);
   }
   return attempts;

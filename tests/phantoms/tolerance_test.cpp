@@ -112,6 +112,7 @@ TEST_F(Tolerance, RunSaysWhatItReachedWhereItCouldNot) {
   EXPECT_NE(result.err.find("was not reached"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("2500 are allowed"), std::string::npos) << result.err;
   EXPECT_TRUE(fs::exists(out / "report/index.html")) << "what was reached is carried to the end";
+  EXPECT_GT(record(out)["stages"]["solve"]["measures"]["estimated_error_95_mm"], 0) << "the solve's own, of one level";
   EXPECT_EQ(run_shell("brainshift run " + scene() + " --tolerance 0 --out " + out.string()).code, 2);
   EXPECT_EQ(run_shell("brainshift run " + scene() + " --tolerance 1 --preset fast --out " + out.string()).code, 2);
 }

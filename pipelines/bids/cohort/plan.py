@@ -59,7 +59,7 @@ def scene_inputs(scene):
     """The scene's own file and those that it names."""
     scene = Path(scene)
     named = [scene.parent / value for element in tree.parse(scene).iter() for value in element.attrib.values()]
-    return [str(scene)] + [str(file) for file in named if file.is_file()]
+    return [str(scene)] + [str(file) for file in named if os.path.isfile(file)]
 
 
 def grid(file):

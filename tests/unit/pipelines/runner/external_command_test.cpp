@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "pipelines/runner/stage_folder.hpp"
@@ -35,6 +36,19 @@ TEST_F(ExternalCommandTest, AFailedCommandIsAFaultWithItsCodeAndLastWords) {
     EXPECT_NE(std::string(error.what()).find("code 7"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("no mesh"), std::string::npos) << error.what();
   }
+}
+
+TEST_F(ExternalCommandTest, ACommandThatAsksIsGivenNoAnswer) {
+  run_external_command({"readlink /proc/self/fd/0 > stdin; read answer || echo none > said", folder_, folder_, folder_},
+                       interruption_);
+  EXPECT_EQ(read(folder_ / "stdin"), "/dev/null\n");
+  EXPECT_EQ(read(folder_ / "said"), "none\n");
+}
+
+TEST_F(ExternalCommandTest, ACommandWhoseEndNobodyToldIsAFault) {
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  EXPECT_THROW(run_external_command({"exit 7", folder_, folder_, folder_}, interruption_), std::runtime_error);
+  std::signal(SIGCHLD, before);
 }
 
 }  // namespace brainshift::pipelines::external_command_test

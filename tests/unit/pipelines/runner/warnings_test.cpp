@@ -219,6 +219,14 @@ solve::SolveMeasures of_many_points() {
   return measures;
 }
 
+TEST(Warnings, TellOfPointsThatLieInNoTissueOfTheLabelMap) {
+  solve::SolveMeasures measures = of_many_points();
+  measures.outside_label = 400;
+  EXPECT_TRUE(warnings_of(measures).empty());
+  measures.outside_label = 4000;
+  expect_parts(warnings_of(measures).front(), {"50 %", "frame"});
+}
+
 TEST(Warnings, TellOfPointsThatAgreeFarBetterThanTheirNoise) {
   solve::SolveMeasures measures = of_many_points();
   measures.measured.emplace();

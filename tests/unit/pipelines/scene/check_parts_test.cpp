@@ -86,6 +86,12 @@ TEST_F(CheckUncertainty, RefusesNoiseThatIsNegative) {
   expect_parts(fault_with("<uncertainty/>", " noise=\"-0.5\""), {"scene.xml:1", "noise", "-0.5"});
 }
 
+TEST_F(CheckUncertainty, RefusesNoiseBesideWhatItDoesNotGoWith) {
+  const std::string in_time = "<stage name=\"solve\" dynamics=\"transient\" duration=\"0.1\"/>";
+  EXPECT_EQ(fault_with(in_time), "");
+  expect_parts(fault_with(in_time, " noise=\"0.5\""), {"scene.xml:1", "noise", "motion in time"});
+}
+
 TEST_F(CheckUncertainty, RefusesAPointWithoutTheNoiseThatOthersHave) {
   EXPECT_EQ(fault_with("<uncertainty/>"), "");
   std::ofstream(folder_ / "load.csv") << "# frame: LPS\nx,y,z,ux,uy,uz,sigma\n1,1,1,0,0,-1,0.5\n2,1,1,0,0,-1,\n";
