@@ -332,8 +332,7 @@ class Relaxation {
       stiffer = times <= stiffer ? stiffer : times;
     }
     if (stiffens_too_much(stiffer)) {
-      mark_unstable(inside_out_or_nearly, motion_.time,
-                    course_.curve.at(motion_.time * course_.curve.duration()),
+      mark_unstable(inside_out_or_nearly, motion_.time, course_.curve.at(motion_.time * course_.curve.duration()),
                     restless_node({motion_.now, motion_.before, motion_.next}), motion_.result);
     } else if (stiffer > 1) {
       const double lighter = motion_.energy_of_motion(mass_);
