@@ -145,6 +145,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   // So is a reader of our output that has gone away.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGCHLD, SIG_DFL);  // who started the program may ignore the end of its children
   end_well_when_crashing();
   take_short_turns();
   silence_libraries();

@@ -107,7 +107,7 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   const ImageGeometry& grid = input.t1.geometry;
   report(progress, 0.0, "distance to the brain's surface");
   const BrainZones zones = brain_zones(input.brain, grid, options.fade, input.cavity ? &input.cavity->wall : nullptr);
-  check_covers(input.solution, zones, grid);
+  check_covers(input, zones);
   Registration result;
   std::size_t cavity_voxels = 0;
   const Emptied emptied(input, options, zones, cavity_voxels);

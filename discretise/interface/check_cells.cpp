@@ -143,6 +143,9 @@ void check_cell(const BackgroundCells& cells, std::size_t cell) {
   if (cut >= static_cast<std::int32_t>(cells.cut_parts.size())) {
     refuse_cell(cell, "has a cut_index that is none of the cut parts.");
   }
+  if (cut >= 0 && cells.kind != CellKind::hexahedron) {
+    refuse_cell(cell, "has octants, which hexahedra alone have.");
+  }
   if (cut >= 0) {
     check_cut_part(cells, cell, cells.cut_parts[static_cast<std::size_t>(cut)]);
   }
@@ -152,8 +155,14 @@ void check_cell(const BackgroundCells& cells, std::size_t cell) {
 void check_distinct(const BackgroundCells& cells) {
   const auto corners = static_cast<std::size_t>(cells.corners());
   std::vector<Eigen::Vector3d> sum(cells.size(), Eigen::Vector3d::Zero());
-  for (std::size_t i = 0; i < cells.connectivity.size(); ++i) {
-    sum[i / corners] += cells.vertices.row(cells.connectivity[i]).transpose();
+  std::vector<double> along(corners);
+  for (std::size_t i = 0; i < 3 * cells.size(); ++i) {  // in one order, whichever corner is the first
+    const auto axis = static_cast<Eigen::Index>(i % 3);
+    for (std::size_t k = 0; k < corners; ++k) {
+      along[k] = cells.vertices(cells.connectivity[i / 3 * corners + k], axis);
+    }
+    std::sort(along.begin(), along.end());
+    sum[i / 3][axis] = std::accumulate(along.begin(), along.end(), 0.0);
   }
   std::vector<std::size_t> order(cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

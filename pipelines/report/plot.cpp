@@ -6,10 +6,10 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <stdexcept>
 
 #include "pipelines/report/measure_table.hpp"
 #include "pipelines/report/svg.hpp"
+#include "segmentation/files/not_written.hpp"
 
 namespace brainshift::pipelines {
 
@@ -161,7 +161,7 @@ void draw(const std::filesystem::path& folder, const Plot& plot) {
   std::ofstream out(file, std::ios::binary);
   out << plot_svg(plot);
   if (!out.flush()) {
-    throw std::runtime_error(file.string() + ": cannot be written");
+    fail_to_write(file);
   }
 }
 

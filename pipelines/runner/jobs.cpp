@@ -79,9 +79,9 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
     input.cavity = registration::Cavity{read_surface(job.wall), job.resected};
   }
   const fs::path& reference = job.t1.empty() ? job.labels : job.t1;
-  registration::Registration result = naming(reference.string() + " and " + job.surface.string(), [&] {
-    return registration::register_images(input, job.options, progress);
-  });
+  registration::Registration result =
+      naming(job.solution.string() + ", " + reference.string() + " and " + job.surface.string(),
+             [&] { return registration::register_images(input, job.options, progress); });
   if (!job.landmarks.empty()) {
     result.landmark_names = PointsFile(job.landmarks).labels();
   }

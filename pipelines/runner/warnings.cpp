@@ -287,16 +287,18 @@ Warnings warnings_of_points(const solve::SolveMeasures& measures) {
   return warnings;
 }
 
-/// Of heads at hand there are 1 % at most.
+/// Of heads at hand there are 1 % at most, of phantoms 5 %.
 Warnings warnings_of_labels(const solve::SolveMeasures& measures) {
   constexpr double much = 0.1;
   const double share = static_cast<double>(measures.outside_label) / static_cast<double>(measures.integration_points);
   if (!(share > much)) {
     return {};
   }
-  return {std::to_string(std::lround(100 * share)) +
-          " % of the integration points lie outside every tissue of the label map and took the label of their cell; if "
-          "the map shows the whole body, cells and map are not in one frame: mm, LPS"};
+  return {
+      std::to_string(std::lround(100 * share)) +
+      " % of the integration points lie where the label map names no tissue with a material, and took the label of "
+      "their cell; give each label of the map a material, or, where the map should show tissue there, cells and map "
+      "are not in one frame: mm, LPS"};
 }
 
 Warnings warnings_of_pressure(const solve::SolveMeasures& measures) {

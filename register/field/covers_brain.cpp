@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/field/covers_brain.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -19,46 +18,39 @@ constexpr double spacings_apart = 2;
                               " % of " + what + "; its nodes must fill the undeformed brain, in mm, LPS");
 }
 
-/// Of at most some thousand voxels of the brain, evenly.
-double share_without_nodes(const Solution& solution, const BrainZones& zones, const ImageGeometry& geometry) {
-  constexpr std::size_t samples = 5000;
-  const auto voxels = static_cast<std::size_t>(std::ranges::count(zones.zone, Zone::brain));
-  const std::size_t every = std::max<std::size_t>(1, voxels / samples);
-  const PointTree nodes(solution.positions);
-  std::size_t seen = 0, taken = 0, without = 0;
-  for (std::size_t offset = 0; offset < zones.zone.size(); ++offset) {
-    if (zones.zone[offset] != Zone::brain || seen++ % every != 0) {
+/// Of the surface's vertices. Tissue that was taken out may leave much of the inside without nodes, but little of it.
+double share_without_nodes(const RegisterInput& input, const BrainZones& zones) {
+  const PointTree nodes(input.solution.positions);
+  double seen = 0, without = 0;
+  for (Eigen::Index v = 0; v < input.brain.vertices.rows(); ++v) {
+    const Eigen::Vector3d x = input.brain.vertices.row(v);
+    if (zones.wall && zones.wall->value(x) < 0) {
       continue;
     }
-    const auto i = static_cast<int>(offset);
-    const int nx = geometry.size[0], ny = geometry.size[1];
-    const Eigen::Vector3d x = geometry.to_world(Eigen::Vector3d(i % nx, i / nx % ny, i / nx / ny));
     const auto [node, squared] = nodes.nearest(x.data());
-    ++taken;
-    without += std::sqrt(squared) > spacings_apart * solution.spacing[node] ? 1 : 0;
+    ++seen;
+    without += std::sqrt(squared) > spacings_apart * input.solution.spacing[node] ? 1 : 0;
   }
-  return static_cast<double>(without) / static_cast<double>(std::max<std::size_t>(1, taken));
+  return seen > 0 ? without / seen : 0;
 }
 
 double share_outside(const Solution& solution, const BrainZones& zones) {
-  std::size_t outside = 0;
+  double outside = 0;
   for (Eigen::Index a = 0; a < solution.positions.rows(); ++a) {
-    const Eigen::Vector3d x = solution.positions.row(a);
-    const double too_far =
-        std::min(spacings_apart * solution.spacing[static_cast<std::size_t>(a)], zones.outside.horizon());
-    outside += zones.outside.value(x) >= too_far ? 1 : 0;
+    const double far = spacings_apart * solution.spacing[static_cast<std::size_t>(a)];
+    outside += zones.outside.value(solution.positions.row(a).transpose()) > far ? 1 : 0;
   }
-  return static_cast<double>(outside) / static_cast<double>(solution.positions.rows());
+  return outside / static_cast<double>(solution.positions.rows());
 }
 
 }  // namespace
 
-void check_covers(const Solution& solution, const BrainZones& zones, const ImageGeometry& geometry) {
-  constexpr double much = 0.05;  // of clouds of ours there is next to none
-  if (const double share = share_without_nodes(solution, zones, geometry); share > much) {
-    not_of_this_brain(share, "it lies over two spacings from every node");
+void check_covers(const RegisterInput& input, const BrainZones& zones) {
+  constexpr double much_of_surface = 0.2, much_of_nodes = 0.05;  // ours: next to none
+  if (const double share = share_without_nodes(input, zones); share > much_of_surface) {
+    not_of_this_brain(share, "its surface lies over two spacings from every node");
   }
-  if (const double share = share_outside(solution, zones); share > much) {
+  if (const double share = share_outside(input.solution, zones); share > much_of_nodes) {
     not_of_this_brain(share, "the nodes lie over two spacings outside it");
   }
 }

@@ -23,6 +23,7 @@
 #include <string_view>
 
 #include "segmentation/files/readable_file.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtk_claims.hpp"
 
@@ -86,8 +87,7 @@ void write(const std::filesystem::path& file, vtkXMLWriter& writer, vtkDataObjec
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
   if (!made || !out) {
-    throw std::runtime_error(file.string() +
-                             ": cannot be written whole; is the folder writable and the disk not full?");
+    fail_to_write(file);
   }
 }
 

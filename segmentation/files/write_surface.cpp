@@ -8,10 +8,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/files/vtk_bridge.hpp"
-
-#include "segmentation/files/not_written.hpp"
 
 namespace brainshift {
 namespace {

@@ -158,15 +158,16 @@ void read_nrrd_geometry(const fs::path& file, const HeaderFields& fields, std::o
 // ITK turns RAS into LPS. It takes LAS for another frame, and all else for LPS.
 void check_nrrd_frame(const fs::path& file, const HeaderFields& fields, ImageHeader& header) {
   static const std::set<std::string> known = {"left-posterior-superior", "lps", "right-anterior-superior", "ras"};
+  static const std::set<std::string> units = {"\"mm\"", "mm", "\"millimeter\"", "\"millimetre\"", "\"\""};
   const std::string space = in_lower_case(fields.value("space"));
-  if (space.empty()) {
-    header.frame_note = std::string(no_frame) + "no space is named; " + taken_as_stored;
+  if (space.empty() || space == "3d-right-handed") {
+    header.frame_note = std::string(no_frame) + "no anatomical space is named; " + taken_as_stored;
   } else if (!known.contains(space)) {
     refuse(file, "the header's space is " + space + "; save the image in left-posterior-superior, as 3D Slicer does");
   }
-  std::istringstream units(in_lower_case(fields.value("space units")));
-  for (std::string unit; units >> unit;) {
-    if (unit != "\"mm\"" && unit != "\"\"") {
+  std::istringstream words(in_lower_case(fields.value("space units")));
+  for (std::string unit; words >> unit;) {
+    if (!units.contains(unit)) {
       refuse(file, "the header's unit of length is " + unit + ", not \"mm\"; save the image in mm");
     }
   }
@@ -219,7 +220,7 @@ void check_nrrd_vectors(const fs::path& file) {
   const auto axes = vectors_in(file, "measurement frame", frame);
   bool turned = !frame.empty() && axes.size() != 3;
   for (std::size_t i = 0; i < axes.size() && !turned; ++i) {
-    turned = !axes[i] || !axes[i]->isApprox(Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i)));
+    turned = !axes[i] || !axes[i]->isApprox(Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i)), 1e-4);
   }
   if (turned || in_lower_case(fields.value("space")).starts_with("r")) {
     refuse(file, "its vectors are not in LPS, by the header's space or measurement frame; save the field in LPS");

@@ -44,13 +44,8 @@ class Relaxation {
         on_(on),
         pace_(steps_of_load(options.load_steps, body.laws), false),
         cautious_(cautious),
-        rounding_energy_(rounding_energy(body)),
-        volume_(body.laws.elastic.size(), 0.0) {
-    for (const Patch& patch : body.points.patches) {
-      for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-        volume_[static_cast<std::size_t>(patch.material)] += body.points.volume[static_cast<std::size_t>(p)];
-      }
-    }
+        volume_(volumes_of_materials(body)),
+        rounding_energy_(rounding_energy(volume_, body.laws) * energy_unit) {
     order_.alpha = relaxation_alpha;
     order_.span = SpanBound::windows_of(window_);
     if (course.settled) {
@@ -377,15 +372,15 @@ class Relaxation {
       return;
     }
     const auto& of = record_.look.of;
-    const auto quotient = [](double stiffness, double inertia) { return inertia > 0 ? stiffness / inertia : 0; };
-    double estimate = quotient(of[LookSums::stiffness], of[LookSums::inertia_before]);
+    double estimate = rayleigh_quotient(of[LookSums::stiffness], of[LookSums::inertia_before]);
     if (looked_under_load_ && feels_rounding(moved, farthest_, precision())) {
-      estimate = std::min(estimate, quotient(of[LookSums::window_stiffness], of[LookSums::window_inertia]));
+      estimate = std::min(estimate, rayleigh_quotient(of[LookSums::window_stiffness], of[LookSums::window_inertia]));
     }
     looked_under_load_ = time_ >= 1 && !course_.settled;
     if (estimate > 0) {
       const double springs = fraction_ == fraction_before_ ? of[LookSums::spring_work] / order_.alpha : 0;
-      estimate = bounded_eigenvalue(estimate + (springs > 0 ? quotient(springs, of[LookSums::inertia_now]) : 0));
+      estimate =
+          bounded_eigenvalue(estimate + (springs > 0 ? rayleigh_quotient(springs, of[LookSums::inertia_now]) : 0));
       lowest_ = course_.settled ? std::min(lowest_, estimate) : estimate;
     }
   }
@@ -434,8 +429,8 @@ class Relaxation {
   SteppingResult result_;
   bool cautious_;
   int slow_steps_ = 0;
-  double rounding_energy_;                                        // mJ
   std::vector<double> volume_;                                    // of each material, mm³
+  double rounding_energy_;                                        // mJ
   double lowest_ = 1e-4;                                          // A_0: a guess until there are increments
   double error_bound_ = std::numeric_limits<double>::infinity();  // at the last look, mm
   double time_ = 0, fraction_ = 0, fraction_before_ = 0;

@@ -28,7 +28,7 @@ Motion::Motion(Body whole, int snapshot_every)
       scratch(body.points, body.laws),
       good_(now),
       good_reactions_(Points::Zero(static_cast<Eigen::Index>(body.nodes()), 3)),
-      rounding_energy_(rounding_energy(body)),
+      rounding_energy_(rounding_energy(volumes_of_materials(body), body.laws) * energy_unit),
       snapshot_every_(snapshot_every),
       next_snapshot_(snapshot_every) {}
 

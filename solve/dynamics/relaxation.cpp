@@ -267,8 +267,7 @@ class Relaxation {
     const Motion& m = motion_;
     const double stiffness = sum_over_nodes(
         nodes(), [&](std::size_t a) { return (at(m.before, a) - at(place, a)).dot(at(m.force, a) - at(force, a)); });
-    const double inertia = m.inertia(mass_, m.before, place);
-    return inertia > 0 ? stiffness / inertia : 0;
+    return rayleigh_quotient(stiffness, m.inertia(mass_, m.before, place));
   }
 
   /// The share of conditions that give way in A_0; 0 where there are none.

@@ -36,6 +36,11 @@ inline double slowest_rate(double beta, double eigenvalue) {
   return square > 0 ? half + std::sqrt(square) : std::sqrt(beta);
 }
 
+/// Rayleigh's quotient, an eigenvalue; 0 where nothing moved.
+inline double rayleigh_quotient(double stiffness, double inertia) {
+  return inertia > 0 ? stiffness / inertia : 0;
+}
+
 /// A_0 within what β allows: above the upper bound it is too small for α.
 inline double bounded_eigenvalue(double eigenvalue) {
   return std::clamp(eigenvalue, smallest_eigenvalue, 0.028);

@@ -2,8 +2,8 @@
 #include "solve/dynamics/soundness.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <sstream>
-#include <variant>
 
 namespace brainshift::solve {
 
@@ -38,16 +38,20 @@ std::string unbalanced(const HistoryRow& row) {
   return text.str();
 }
 
-double rounding_energy(const Body& body) {
-  double stiffness = 0;
+std::vector<double> volumes_of_materials(const Body& body) {
+  std::vector<double> volume(body.laws.elastic.size(), 0.0);
   for (const Patch& patch : body.points.patches) {
-    const double modulus = std::visit([](const auto& law) { return law.shear_modulus; },
-                                      body.laws.elastic[static_cast<std::size_t>(patch.material)]);
     for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-      stiffness += modulus * body.points.volume[static_cast<std::size_t>(p)];
+      volume[static_cast<std::size_t>(patch.material)] += body.points.volume[static_cast<std::size_t>(p)];
     }
   }
-  return 1e-12 * stiffness * energy_unit;
+  return volume;
+}
+
+double rounding_energy(const std::vector<double>& volume, const PointLaws& laws) {
+  constexpr double tiny_strain = 1e-6;
+  const std::vector<double> modulus = shear_moduli(laws);
+  return tiny_strain * tiny_strain * std::inner_product(modulus.begin(), modulus.end(), volume.begin(), 0.0);
 }
 
 }  // namespace brainshift::solve

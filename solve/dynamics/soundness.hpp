@@ -26,7 +26,11 @@ void mark_unstable(const std::string& why, double time, double fraction, const F
 /// A row whose energies do not balance, in words.
 std::string unbalanced(const HistoryRow& row);
 
-/// Energy of a strain so small that rounding is a good part of it: one of 1e-6, mJ.
-double rounding_energy(const Body& body);
+/// Of each material of a body, mm³, one a row of its laws.
+std::vector<double> volumes_of_materials(const Body& body);
+
+/// Energy of a strain so small that rounding is a good part of it, one of 1e-6, over energy_unit. volume: of each
+/// material.
+double rounding_energy(const std::vector<double>& volume, const PointLaws& laws);
 
 }  // namespace brainshift::solve

@@ -2,7 +2,6 @@
 #include "solve/ensemble/each_motion.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "solve/arrays/lanes.hpp"
@@ -85,15 +84,9 @@ EachMotion::EachMotion(const Body& body, std::span<const Member> loads)
   for (std::size_t m = loads.size(); m < members; ++m) {
     let_go(m);
   }
-  constexpr double tiny_strain = 1e-6;
-  for (const Patch& patch : body.points.patches) {
-    const auto first = body.points.volume.begin() + patch.first_point;
-    const double volume = std::accumulate(first, body.points.volume.begin() + patch.last_point, 0.0);
-    for (std::size_t m = 0; m < loads.size(); ++m) {
-      const double modulus = std::visit([](const auto& law) { return law.shear_modulus; },
-                                        loads[m].laws.elastic[static_cast<std::size_t>(patch.material)]);
-      rounding_energy_[static_cast<Eigen::Index>(m)] += tiny_strain * tiny_strain * modulus * volume;
-    }
+  const std::vector<double> volume = volumes_of_materials(body);
+  for (std::size_t m = 0; m < loads.size(); ++m) {
+    rounding_energy_[static_cast<Eigen::Index>(m)] = rounding_energy(volume, loads[m].laws);
   }
 }
 

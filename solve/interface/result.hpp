@@ -176,7 +176,7 @@ struct SolveMeasures {
   double seconds_setup = 0;
   double seconds_stepping = 0;
   std::size_t region_nodes = 0;  ///< solved, those at the region's rim too; 0: no region was asked for
-  double seconds_coarse = 0;     ///< of the coarse solution that chose the region or was the start
+  double seconds_coarse = 0;     ///< of the coarse solution that chose the region, was the start or told the error
   double coarse_error = 0;       ///< of it, largest next to the region's rim, mm: what the outside may be wrong by
 };
 

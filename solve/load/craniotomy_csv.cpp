@@ -7,12 +7,11 @@
 #include <string_view>
 
 #include "segmentation/files/lower_case.hpp"
+#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/point_table.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
 #include "solve/load/craniotomy_load.hpp"
-
-#include "segmentation/files/not_written.hpp"
 
 namespace brainshift::solve {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "segmentation/progress/stopwatch.hpp"
@@ -116,8 +117,8 @@ void estimate_error(const Model& model, const SolveOptions& options, std::option
   const Stopwatch begin;
   const SolveOptions of_coarse = of_coarse_start(options);
   if (!coarse && !ends_alike(model, options)) {
-    report(progress, 1, "estimating the error on a coarse cloud");
-    coarse = coarse_solution(model, of_coarse, {});
+    const auto wait = [&](double, std::string_view) { report(progress, 1, "estimating the error on a coarse cloud"); };
+    coarse = coarse_solution(model, of_coarse, wait);
   }
   if (!coarse) {
     coarse = less_coarse_solution(model, of_coarse, {});

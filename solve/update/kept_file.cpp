@@ -7,12 +7,11 @@
 #include <span>
 #include <stdexcept>
 
+#include "segmentation/files/not_written.hpp"
 #include "solve/body/lay_out.hpp"
 #include "solve/update/archive.hpp"
 #include "solve/update/kept_run.hpp"
 #include "solve/update/mapped_file.hpp"
-
-#include "segmentation/files/not_written.hpp"
 
 namespace brainshift::solve {
 namespace fs = std::filesystem;

@@ -71,17 +71,6 @@ struct LoadOnMember {
   bool whole() const { return time >= 1; }
 };
 
-/// Volume of each material, mm³.
-std::vector<double> volumes(const Body& body) {
-  std::vector<double> volume(body.laws.elastic.size(), 0.0);
-  for (const Patch& patch : body.points.patches) {
-    for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-      volume[static_cast<std::size_t>(patch.material)] += body.points.volume[static_cast<std::size_t>(p)];
-    }
-  }
-  return volume;
-}
-
 /// The loads that are stepped together.
 template <class Scalar>
 class Ensemble {
@@ -96,13 +85,9 @@ class Ensemble {
         work_(loads.size()),
         ended_at_(loads.size()),
         results_(loads.size()) {
-    constexpr double tiny_strain = 1e-6;
-    const std::vector<double> volume = volumes(body);
+    const std::vector<double> volume = volumes_of_materials(body);
     for (std::size_t m = 0; m < loads.size(); ++m) {
-      const std::vector<double> modulus = shear_moduli(loads[m].laws);
-      for (std::size_t row = 0; row < modulus.size(); ++row) {
-        work_[m].rounding_energy += tiny_strain * tiny_strain * modulus[row] * volume[row];
-      }
+      work_[m].rounding_energy = rounding_energy(volume, loads[m].laws);
       load_.emplace_back(steps_of_load(options.load_steps, loads[m].laws));
       active_ |= bit_of(m);
     }
@@ -337,14 +322,13 @@ class Ensemble {
   /// do not tell.
   double lowest_eigenvalue(const LookOfEach& look, std::size_t m, double moved) const {
     const auto of = [&](int k) { return look.of[k][m]; };
-    const auto quotient = [](double stiffness, double inertia) { return inertia > 0 ? stiffness / inertia : 0; };
-    double lowest = quotient(of(LookOfEach::stiffness), of(LookOfEach::inertia_before));
+    double lowest = rayleigh_quotient(of(LookOfEach::stiffness), of(LookOfEach::inertia_before));
     if (load_[m].looked_at && feels_rounding(moved, ways_[m].farthest_with(of(LookOfEach::farthest)), precision())) {
-      lowest = std::min(lowest, quotient(of(LookOfEach::window_stiffness), of(LookOfEach::window_inertia)));
+      lowest = std::min(lowest, rayleigh_quotient(of(LookOfEach::window_stiffness), of(LookOfEach::window_inertia)));
     }
     const bool is_steady = load_[m].fraction == load_[m].fraction_before;
     const double springs = is_steady ? of(LookOfEach::spring_work) / relaxation_alpha : 0;
-    return lowest > 0 ? lowest + (springs > 0 ? quotient(springs, of(LookOfEach::inertia_now)) : 0) : 0;
+    return lowest > 0 ? lowest + (springs > 0 ? rayleigh_quotient(springs, of(LookOfEach::inertia_now)) : 0) : 0;
   }
 
   void end(std::size_t m, MemberResult::End how) {

@@ -52,10 +52,34 @@ TEST(CheckCells, WantsArraysOfOneLength) {
   EXPECT_NE(fault_of([](Cells& c) { c.vertices(5, 1) = INFINITY; }).find("not finite"), std::string::npos);
 }
 
+TEST(CheckCells, RefusesOctantsOfAnythingButHexahedra) {
+  BackgroundCells cells;
+  cells.kind = CellKind::tetrahedron;
+  cells.vertices = Points(4, 3);
+  cells.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+  cells.connectivity = {0, 1, 2, 3};
+  cells.inside_fraction = {1};
+  cells.label = {1};
+  EXPECT_EQ(test::refusal([&] { check_cells(cells); }), "");
+  cells.cut_index = {0};
+  cells.cut_parts.resize(1);
+  EXPECT_NE(test::refusal([&] { check_cells(cells); }).find("hexahedra alone"), std::string::npos);
+}
+
+TEST(CheckCells, TakesTwoPartsOfOneCell) {
+  BackgroundCells cells = test::box_cells(1, 10);
+  for (std::size_t k = 0; k < 8; ++k) {
+    cells.connectivity.push_back(cells.connectivity[k]);
+  }
+  cells.inside_fraction = {0.4, 0.6};
+  cells.label = {1, 2};
+  EXPECT_EQ(test::refusal([&] { check_cells(cells); }), "");
+}
+
 TEST(CheckCells, RefusesACellThatIsThereTwice) {
   const std::string fault = fault_of([](BackgroundCells& cells) {
     for (std::size_t k = 0; k < 8; ++k) {
-      cells.connectivity.push_back(cells.connectivity[40 + k]);
+      cells.connectivity.push_back(cells.connectivity[40 + (k / 4 * 4) + (k + 1) % 4]);  // turned
     }
     cells.inside_fraction.push_back(1);
     cells.label.push_back(1);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <csignal>
 #include <fstream>
 
@@ -39,9 +41,16 @@ TEST_F(ExternalCommandTest, AFailedCommandIsAFaultWithItsCodeAndLastWords) {
 }
 
 TEST_F(ExternalCommandTest, ACommandThatAsksIsGivenNoAnswer) {
-  run_external_command({"readlink /proc/self/fd/0 > stdin; read answer || echo none > said", folder_, folder_, folder_},
-                       interruption_);
-  EXPECT_EQ(read(folder_ / "stdin"), "/dev/null\n");
+  int answers[2];
+  ASSERT_EQ(::pipe(answers), 0);
+  ASSERT_EQ(::write(answers[1], "yes\n", 4), 4);
+  const int own = ::dup(STDIN_FILENO);
+  ::dup2(answers[0], STDIN_FILENO);
+  run_external_command({"read answer || echo none > said", folder_, folder_, folder_}, interruption_);
+  ::dup2(own, STDIN_FILENO);
+  for (const int file : {own, answers[0], answers[1]}) {
+    ::close(file);
+  }
   EXPECT_EQ(read(folder_ / "said"), "none\n");
 }
 

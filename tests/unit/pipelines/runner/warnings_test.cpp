@@ -224,7 +224,7 @@ TEST(Warnings, TellOfPointsThatLieInNoTissueOfTheLabelMap) {
   measures.outside_label = 400;
   EXPECT_TRUE(warnings_of(measures).empty());
   measures.outside_label = 4000;
-  expect_parts(warnings_of(measures).front(), {"50 %", "frame"});
+  expect_parts(warnings_of(measures).front(), {"50 %", "material", "frame"});
 }
 
 TEST(Warnings, TellOfPointsThatAgreeFarBetterThanTheirNoise) {

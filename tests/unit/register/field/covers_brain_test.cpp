@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "tests/unit/register/builders.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
@@ -10,14 +12,24 @@ namespace brainshift::registration::covers_brain_test {
 
 using namespace builders;
 
-std::string fault_of(const Solution& solution) {
-  const ImageGeometry geometry = grid();
-  const BrainZones zones = brain_zones(ball(centre, radius), geometry, 15);
-  return test::refusal([&] { check_covers(solution, zones, geometry); });
+RegisterInput still() {
+  return head([](const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); });
 }
 
-Solution still() {
-  return solution([](const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); });
+std::string fault_of(const RegisterInput& input) {
+  const Surface* const wall = input.cavity ? &input.cavity->wall : nullptr;
+  return test::refusal([&] { check_covers(input, brain_zones(input.brain, input.t1.geometry, 15, wall)); });
+}
+
+void keep(Solution& solution, const std::function<bool(const Eigen::Vector3d&)>& kept) {
+  std::vector<Eigen::Index> left;
+  for (Eigen::Index a = 0; a < solution.positions.rows(); ++a) {
+    if (kept(solution.positions.row(a))) {
+      left.push_back(a);
+    }
+  }
+  solution.positions = Points(solution.positions(left, Eigen::all));
+  solution.spacing.resize(left.size());  // all alike
 }
 
 TEST(CoversBrain, TakesNodesThatFillIt) {
@@ -25,34 +37,39 @@ TEST(CoversBrain, TakesNodesThatFillIt) {
 }
 
 TEST(CoversBrain, RefusesNodesOfAnotherPlaceOrFrame) {
-  Solution aside = still();
-  aside.positions.col(0).array() += 20;
-  EXPECT_NE(fault_of(aside).find("from every node"), std::string::npos);
-  Solution in_ras = still();
-  in_ras.positions.leftCols(2) *= -1;
-  EXPECT_NE(fault_of(in_ras).find("not of this brain"), std::string::npos);
+  RegisterInput input = still();
+  input.solution.positions.col(0).array() += 20;
+  EXPECT_NE(fault_of(input).find("from every node"), std::string::npos);
+  input = still();
+  input.solution.positions.leftCols(2) *= -1;
+  EXPECT_NE(fault_of(input).find("not of this brain"), std::string::npos);
 }
 
-TEST(CoversBrain, RefusesABrainOfWhichAPartHasNoNodes) {
-  Solution half = still();
-  std::vector<Eigen::Index> left;
-  for (Eigen::Index a = 0; a < half.positions.rows(); ++a) {
-    if (half.positions(a, 0) < centre.x()) {
-      left.push_back(a);
-    }
-  }
-  half.positions = Points(half.positions(left, Eigen::all));
-  half.spacing.resize(left.size());
-  EXPECT_NE(fault_of(half).find("from every node"), std::string::npos);
+TEST(CoversBrain, RefusesABrainOfWhichHalfHasNoNodes) {
+  RegisterInput input = still();
+  keep(input.solution, [](const Eigen::Vector3d& x) { return x.x() < centre.x(); });
+  EXPECT_NE(fault_of(input).find("from every node"), std::string::npos);
+}
+
+TEST(CoversBrain, TakesABrainWithACavityWhetherItsWallIsKnownOrNot) {
+  RegisterInput input = still();
+  keep(input.solution, [](const Eigen::Vector3d& x) { return (x - centre).norm() > 0.7 * radius; });
+  EXPECT_EQ(fault_of(input), "") << "a third of the brain";
+  input = still();
+  const Eigen::Vector3d side = centre + Eigen::Vector3d(radius, 0, 0);
+  keep(input.solution, [&](const Eigen::Vector3d& x) { return (x - side).norm() > radius; });
+  input.cavity = Cavity{ball(side, radius), {3}};
+  EXPECT_EQ(fault_of(input), "") << "a quarter of its surface";
 }
 
 TEST(CoversBrain, RefusesNodesFarOutside) {
-  Solution large = still();
+  RegisterInput input = still();
+  Solution& large = input.solution;
   const Eigen::Index nodes = large.positions.rows();
   large.positions.conservativeResize(2 * nodes, 3);
   large.positions.bottomRows(nodes) = large.positions.topRows(nodes).array() * 3;
   large.spacing.insert(large.spacing.end(), large.spacing.begin(), large.spacing.end());
-  EXPECT_NE(fault_of(large).find("outside it"), std::string::npos);
+  EXPECT_NE(fault_of(input).find("outside it"), std::string::npos);
 }
 
 }  // namespace brainshift::registration::covers_brain_test

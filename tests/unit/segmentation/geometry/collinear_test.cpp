@@ -16,7 +16,8 @@ Points row(double aside) {
 
 TEST(AreInLine, GoesByTheWidthOfARow) {
   EXPECT_TRUE(are_in_line(row(0)));
-  EXPECT_TRUE(are_in_line(row(0.1)));
+  EXPECT_TRUE(are_in_line(row(0.5)));
+  EXPECT_FALSE(are_in_line(row(0.8)));
   EXPECT_FALSE(are_in_line(row(10)));
 }
 

@@ -269,12 +269,13 @@ TEST(ImageHeader, ANrrdIsReadInLpsAndRasAlone) {
   }
   const std::string none = changed(nrrd_text(""), "space: left-posterior-superior\n", "");
   EXPECT_EQ(fault_of(folder.write("a.nrrd", none)), "");
-  EXPECT_NE(frame_note(folder / "a.nrrd").find("no space is named"), std::string::npos);
+  EXPECT_NE(frame_note(folder / "a.nrrd").find("no anatomical space is named"), std::string::npos);
   const auto in_units = [&](const std::string& unit) {
     const std::string units = "space units: \"" + unit + "\" \"" + unit + "\" \"" + unit + "\"\n";
     return fault_of(folder.write("a.nrrd", nrrd_text(units) + voxels));
   };
   EXPECT_EQ(in_units("mm"), "");
+  EXPECT_EQ(in_units("millimeter"), "");
   EXPECT_NE(in_units("m").find("in mm"), std::string::npos);
 }
 
