@@ -71,6 +71,17 @@ double hexahedron_volume(const Points& vertices, const std::int32_t* cell) {
   return std::abs(volume);
 }
 
+/// Whether a cell is neither inverted nor flat. Corners of a hexahedron may meet, as those of a wedge do.
+bool is_sound(const Points& vertices, const std::int32_t* cell, CellKind kind) {
+  constexpr double nothing = 1e-12;
+  const double worst = worst_corner(vertices, cell, kind);
+  if (kind != CellKind::hexahedron) {
+    return worst > nothing;
+  }
+  const double across = (vertices.row(cell[6]) - vertices.row(cell[0])).norm();
+  return worst > -nothing && hexahedron_volume(vertices, cell) > nothing * std::pow(across, 3);
+}
+
 /// The inside part must be one of its cell: the points that it gives carry its volume.
 void check_cut_part(const BackgroundCells& cells, std::size_t cell, const InsideOctants& part) {
   const std::int32_t* corners = cells.connectivity.data() + 8 * cell;
@@ -130,7 +141,7 @@ void check_cell(const BackgroundCells& cells, std::size_t cell) {
   if (!std::all_of(first, first + corners, is_vertex)) {
     refuse_cell(cell, "has a corner that is no vertex.");
   }
-  if (!(worst_corner(cells.vertices, first, cells.kind) > 1e-12)) {
+  if (!is_sound(cells.vertices, first, cells.kind)) {
     refuse_cell(cell, is_planar(cells.kind)
                           ? "is clockwise, not convex or flat; its corners go counter-clockwise about z."
                           : "is inverted or flat.");

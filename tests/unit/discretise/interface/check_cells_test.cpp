@@ -66,6 +66,19 @@ TEST(CheckCells, RefusesOctantsOfAnythingButHexahedra) {
   EXPECT_NE(test::refusal([&] { check_cells(cells); }).find("hexahedra alone"), std::string::npos);
 }
 
+TEST(CheckCells, TakesAWedgeOfWhichTwoEdgesOfAHexahedronMeetAndNothingFlat) {
+  const auto lift = [](double z) {
+    return [z](BackgroundCells& cells) {
+      cells = test::box_cells(1, 10);
+      for (const int corner : {4, 5, 6, 7}) {
+        cells.vertices(cells.connectivity[static_cast<std::size_t>(corner)], 2) = corner < 6 ? 0 : z;
+      }
+    };
+  };
+  EXPECT_EQ(fault_of(lift(10)), "");
+  EXPECT_NE(fault_of(lift(0)).find("cell 0 is inverted or flat"), std::string::npos);
+}
+
 TEST(CheckCells, TakesTwoPartsOfOneCell) {
   BackgroundCells cells = test::box_cells(1, 10);
   for (std::size_t k = 0; k < 8; ++k) {

@@ -68,12 +68,13 @@ TEST(PhantomFiles, ThatCannotBeWrittenAreNamed) {
   const ScratchFolder folder;
   folder.write("taken", "a file");
   std::filesystem::create_directories(folder / "out/answers.json");
-  for (const std::string place : {"taken/out", "out"}) {
+  for (const auto& [place, words] : {std::pair<std::string, std::string>("taken/out", "cannot be made"),
+                                     std::pair<std::string, std::string>("out", "could not be written whole")}) {
     try {
       write_phantom(small, folder / place);
       ADD_FAILURE() << place;
     } catch (const std::runtime_error& fault) {
-      expect_parts(fault.what(), {"could not be written whole", (folder / place).string()});
+      expect_parts(fault.what(), {words, (folder / place).string()});
     }
   }
 }
