@@ -22,8 +22,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/not_written.hpp"
+#include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtk_claims.hpp"
 
