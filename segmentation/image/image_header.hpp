@@ -22,6 +22,7 @@ struct ImageHeader {
   bool compressed = false;
   bool swapped = false;         ///< the other byte order than this machine's; NIfTI and MGH alone
   std::string frame_note = {};  ///< where the file contradicts itself on the place or tells none: what was taken
+  bool turned_vectors = false;  ///< of a field: they are not in LPS; NRRD alone
   bool floating = false;        ///< values are floating-point numbers; NIfTI and MGH alone
 
   std::uint64_t values() const;
@@ -39,9 +40,6 @@ ImageHeader read_nrrd_header(const std::filesystem::path& file);
 
 inline constexpr const char* no_frame = "which side is left is not known, as ";
 inline constexpr const char* taken_as_stored = "its axes were taken as they are stored, in LPS";
-
-/// Throws std::invalid_argument unless the vectors of a .nrrd are in LPS, as its grid is then.
-void check_nrrd_vectors(const std::filesystem::path& file);
 
 /// Throws std::invalid_argument, naming the file, unless it promises one 3-D volume of so many values a voxel, not more
 /// than fit into memory, with finite lengths and an orthonormal direction.

@@ -173,6 +173,17 @@ void check_nrrd_frame(const fs::path& file, const HeaderFields& fields, ImageHea
   }
 }
 
+// ITK leaves vectors as they are, whatever the frame.
+bool has_turned_vectors(const fs::path& file, const HeaderFields& fields) {
+  const std::string frame = fields.value("measurement frame");
+  const auto axes = vectors_in(file, "measurement frame", frame);
+  bool turned = in_lower_case(fields.value("space")).starts_with("r") || (!frame.empty() && axes.size() != 3);
+  for (std::size_t i = 0; i < axes.size() && !turned; ++i) {
+    turned = !axes[i] || !axes[i]->isApprox(Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i)), 1e-4);
+  }
+  return turned;
+}
+
 void check_nrrd_storage(const fs::path& file, const HeaderFields& fields) {
   const auto is_zero = [&](const char* name) { return fields.value(name).empty() || fields.value(name) == "0"; };
   if (!fields.value("data file").empty() || !fields.value("datafile").empty() || !is_zero("line skip") ||
@@ -203,6 +214,7 @@ ImageHeader read_nrrd_header(const fs::path& file) {
   if (components) {
     header.components = header.size[*components];
     header.size.erase(header.size.begin() + static_cast<std::ptrdiff_t>(*components));
+    header.turned_vectors = header.components == 3 && has_turned_vectors(file, fields);
   }
   if (header.size.size() >= 3) {
     check_nrrd_frame(file, fields, header);
@@ -212,19 +224,6 @@ ImageHeader read_nrrd_header(const fs::path& file) {
   header.voxels_at = fields.length;
   header.compressed = is_compressed_nrrd(file, in_lower_case(fields.value("encoding")));
   return header;
-}
-
-void check_nrrd_vectors(const fs::path& file) {
-  const HeaderFields fields = read_nrrd_fields(file);
-  const std::string frame = fields.value("measurement frame");
-  const auto axes = vectors_in(file, "measurement frame", frame);
-  bool turned = !frame.empty() && axes.size() != 3;
-  for (std::size_t i = 0; i < axes.size() && !turned; ++i) {
-    turned = !axes[i] || !axes[i]->isApprox(Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i)), 1e-4);
-  }
-  if (turned || in_lower_case(fields.value("space")).starts_with("r")) {
-    refuse(file, "its vectors are not in LPS, by the header's space or measurement frame; save the field in LPS");
-  }
 }
 
 }  // namespace brainshift

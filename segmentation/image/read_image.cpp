@@ -148,6 +148,9 @@ Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
   check_readable(file);
   const ImageFormat format = image_format(file);
   const ImageHeader header = check_whole(file, format, components);
+  if (header.turned_vectors) {
+    refuse(file, "its vectors are not in LPS, by the header's space or measurement frame; save the field in LPS");
+  }
   if constexpr (std::is_arithmetic_v<Pixel>) {
     if (format == ImageFormat::mgh) {
       return read_mgh<Pixel>(file, header);
@@ -287,10 +290,6 @@ std::vector<LabelMap> read_layers(const fs::path& file) {
 }
 
 VectorImage read_vector_image(const fs::path& file) {
-  std::error_code unknown;
-  if (!fs::is_directory(file, unknown) && image_format(file) == ImageFormat::nrrd) {
-    naming_faults(file, [&] { check_nrrd_vectors(file); });
-  }
   const auto image = from_itk<std::array<float, 3>>(*read_any<itk::Vector<float, 3>>(file, 3));
   const std::span<const float> values(image.voxels.front().data(), 3 * image.voxels.size());
   check_finite(file, image.geometry, values, 3);
