@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "segmentation/files/naming.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtu_file.hpp"
 
@@ -139,11 +140,7 @@ BackgroundCells read_background_cells(const std::filesystem::path& file) {
     cells.label.assign(count, 1);
   }
   read_cut_parts(file, *grid, cells);
-  try {
-    check_cells(cells);
-  } catch (const std::invalid_argument& error) {
-    refuse(file, error.what());
-  }
+  naming(file.string(), [&] { check_cells(cells); });
   return cells;
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "segmentation/files/naming.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtu_file.hpp"
 #include "segmentation/geometry/neighbour_distance.hpp"
@@ -28,13 +29,17 @@ void check_distinct(const std::filesystem::path& file, const NearestNeighbours& 
   }
 }
 
+void check_count(std::size_t nodes) {
+  if (nodes < 2) {
+    throw std::invalid_argument("there are " + std::to_string(nodes) + " nodes; a cloud has at least two.");
+  }
+}
+
 }  // namespace
 
 void check_nodes(const NodeCloud& cloud) {
   const std::size_t nodes = cloud.size();
-  if (nodes < 2) {
-    throw std::invalid_argument("there are " + std::to_string(nodes) + " nodes; a cloud has at least two.");
-  }
+  check_count(nodes);
   if (cloud.spacing.size() != nodes || cloud.on_surface.size() != nodes) {
     throw std::invalid_argument("of " + std::to_string(nodes) + " nodes spacing has " +
                                 std::to_string(cloud.spacing.size()) + " entries and on_surface " +
@@ -56,9 +61,7 @@ NodeCloud read_node_cloud(const std::filesystem::path& file) {
   NodeCloud cloud;
   cloud.positions = vtu::points(file, *grid, "node");
   const std::size_t nodes = cloud.size();
-  if (nodes < 2) {
-    refuse(file, "there are " + std::to_string(nodes) + " nodes; a cloud has at least two.");
-  }
+  naming(file.string(), [&] { check_count(nodes); });
   const NearestNeighbours neighbours = nearest_neighbours(cloud.positions, 6);
   const std::vector<double> mean_distance = mean_neighbour_distance(neighbours);
   check_distinct(file, neighbours, mean_distance);
@@ -73,11 +76,7 @@ NodeCloud read_node_cloud(const std::filesystem::path& file) {
   for (std::size_t node = 0; node < on_surface.size(); ++node) {
     cloud.on_surface[node] = on_surface[node] != 0 ? 1 : 0;
   }
-  try {
-    check_nodes(cloud);
-  } catch (const std::invalid_argument& error) {
-    refuse(file, error.what());
-  }
+  naming(file.string(), [&] { check_nodes(cloud); });
   return cloud;
 }
 

@@ -9,7 +9,7 @@
 #include "pipelines/phantom/phantom.hpp"
 #include "register/interface/options.hpp"
 #include "segmentation/files/make_folder.hpp"
-#include "segmentation/files/not_written.hpp"
+#include "segmentation/files/write_text.hpp"
 #include "segmentation/segment.hpp"
 
 namespace brainshift::pipelines {
@@ -19,15 +19,6 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 namespace tissue = segmentation::default_label;
-
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) {
-    fail_to_write(file);
-  }
-}
 
 json as_json(const Eigen::Vector3d& v) {
   return json::array({v.x(), v.y(), v.z()});

@@ -9,7 +9,7 @@
 
 #include "pipelines/report/measure_table.hpp"
 #include "pipelines/report/svg.hpp"
-#include "segmentation/files/not_written.hpp"
+#include "segmentation/files/write_text.hpp"
 
 namespace brainshift::pipelines {
 
@@ -157,12 +157,7 @@ std::string plot_svg(const Plot& plot) {
 }
 
 void draw(const std::filesystem::path& folder, const Plot& plot) {
-  const std::filesystem::path file = folder / (plot.file + ".svg");
-  std::ofstream out(file, std::ios::binary);
-  out << plot_svg(plot);
-  if (!out.flush()) {
-    fail_to_write(file);
-  }
+  write_text(folder / (plot.file + ".svg"), plot_svg(plot));
 }
 
 }  // namespace brainshift::pipelines

@@ -16,22 +16,13 @@
 #include "pipelines/report/surface_figure.hpp"
 #include "pipelines/report/weight_figure.hpp"
 #include "segmentation/files/make_folder.hpp"
-#include "segmentation/files/not_written.hpp"
+#include "segmentation/files/write_text.hpp"
 
 namespace brainshift::pipelines {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_bytes(const fs::path& file, const std::string& bytes) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << bytes;
-  stream.close();
-  if (!stream) {
-    fail_to_write(file);
-  }
-}
 
 constexpr std::size_t largest_page = 10'000'000;  // letters: what goes by mail
 constexpr std::size_t tables = 200'000;           // and script: what else is on the page
@@ -108,10 +99,10 @@ void write_report(const fs::path& run_folder, const fs::path& out, const Progres
   content.viewer.facts["label_names"] = run.record.value("label_names", nlohmann::json::object());
   for (const auto* figures : all_figures(content)) {
     for (const Figure& figure : *figures) {
-      write_bytes(out / (figure.name + ".svg"), figure.svg);
+      write_text(out / (figure.name + ".svg"), figure.svg);
     }
   }
-  write_bytes(out / "index.html", make_page(std::move(content)));
+  write_text(out / "index.html", make_page(std::move(content)));
   report(progress, 1, "done");
 }
 

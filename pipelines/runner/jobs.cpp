@@ -9,6 +9,7 @@
 #include "pipelines/runner/warp_files.hpp"
 #include "pipelines/show/shown_fields.hpp"
 #include "register/files/warped_series.hpp"
+#include "segmentation/files/naming.hpp"
 #include "segmentation/files/points_file.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/output/solution_file.hpp"

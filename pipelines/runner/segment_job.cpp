@@ -8,6 +8,7 @@
 #include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/warnings.hpp"
+#include "segmentation/files/naming.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/image/frame_note.hpp"
 #include "segmentation/septa/septa.hpp"

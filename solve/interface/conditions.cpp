@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "segmentation/files/naming.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtu_file.hpp"
 
@@ -103,11 +104,7 @@ Conditions read_conditions(const std::filesystem::path& file) {
   const auto grid = vtu::read(file);
   const Conditions conditions{.displacement = vectors(file, *grid, "prescribed_displacement"),
                               .force = vectors(file, *grid, "force")};
-  try {
-    check_conditions(conditions, static_cast<std::size_t>(grid->GetNumberOfPoints()));
-  } catch (const std::invalid_argument& error) {
-    refuse(file, error.what());
-  }
+  naming(file.string(), [&] { check_conditions(conditions, static_cast<std::size_t>(grid->GetNumberOfPoints())); });
   return conditions;
 }
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "segmentation/files/not_written.hpp"
+
+namespace brainshift {
+
+/// Throws as fail_to_write() where the disk does not take all of it.
+inline void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) {
+    fail_to_write(file);
+  }
+}
+
+}  // namespace brainshift
