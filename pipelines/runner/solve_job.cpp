@@ -7,10 +7,12 @@
 
 #include "pipelines/runner/impose.hpp"
 #include "pipelines/runner/job_files.hpp"
+#include "pipelines/runner/measure_warnings.hpp"
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/patient_registration.hpp"
 #include "pipelines/runner/warnings.hpp"
 #include "pipelines/scene/field_load.hpp"
+#include "segmentation/files/naming.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/geometry/collinear.hpp"
 #include "solve/cut/septum.hpp"

@@ -3,6 +3,7 @@
 
 #include "pipelines/runner/impose.hpp"
 #include "pipelines/runner/job_files.hpp"
+#include "pipelines/runner/measure_warnings.hpp"
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/read_run_record.hpp"
@@ -11,6 +12,7 @@
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
 #include "segmentation/files/make_folder.hpp"
+#include "segmentation/files/naming.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/device/kept_on_device.hpp"

@@ -10,7 +10,6 @@
 #include "pipelines/runner/stage_report.hpp"
 #include "register/interface/result.hpp"
 #include "solve/interface/model.hpp"
-#include "solve/interface/result.hpp"
 #include "solve/load/contradictions.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
@@ -36,6 +35,9 @@ Warnings warnings_of(const solve::Model& model, const Points& displacement);
 
 void append(const Warnings& more, Warnings& warnings);
 
+/// Two digits, of large numbers all before the point.
+std::string with_digits(double number);
+
 /// Both.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& model, const Points& displacement);
 
@@ -52,13 +54,6 @@ std::string turn_fault(const solve::Model& model, const Solution& solution);
 
 /// Of soft tissue, as fluid is modelled, that a drained level leaves with its whole weight.
 Warnings warnings_of_rooms(const solve::Model& model);
-
-/// Of few integration points, at all or under strong compression, of high pressure, of much that is pressed together,
-/// and of what few nodes resolve.
-Warnings warnings_of(const solve::SolveMeasures& measures);
-
-/// Of tissues that many nodes hardly resolve, and of an error that nothing estimates.
-std::vector<std::string> notes_of(const solve::SolveMeasures& measures);
 
 /// Of what was measured where it contradicts itself; the farthest off first.
 Warnings warnings_of(std::span<const solve::Outlier> outliers);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/warnings.hpp"
 
+#include "pipelines/runner/measure_warnings.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
