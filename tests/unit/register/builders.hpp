@@ -87,6 +87,25 @@ inline Solution solution(const DisplacementOf& displacement) {
   return result;
 }
 
+/// What is left of a solution at the nodes for which `kept` is true of their position.
+template <class Kept>
+Solution at_nodes(Solution all, const Kept& kept) {
+  Eigen::Index left = 0;
+  for (Eigen::Index a = 0; a < all.positions.rows(); ++a) {
+    if (kept(Eigen::Vector3d(all.positions.row(a)))) {
+      for (Points* const rows : {&all.positions, &all.displacement, &all.reaction_force}) {
+        rows->row(left) = rows->row(a).eval();
+      }
+      all.spacing[static_cast<std::size_t>(left++)] = all.spacing[static_cast<std::size_t>(a)];
+    }
+  }
+  for (Points* const rows : {&all.positions, &all.displacement, &all.reaction_force}) {
+    rows->conservativeResize(left, 3);
+  }
+  all.spacing.resize(static_cast<std::size_t>(left));
+  return all;
+}
+
 /// A grid with the brain in its middle.
 inline ImageGeometry grid(const Eigen::Array3i& size = {56, 50, 48}, const Eigen::Vector3d& spacing = {1.6, 1.8, 2.0},
                           const Eigen::Matrix3d& direction = Eigen::Matrix3d::Identity()) {

@@ -53,15 +53,9 @@ TEST(CheckCells, WantsArraysOfOneLength) {
 }
 
 TEST(CheckCells, RefusesOctantsOfAnythingButHexahedra) {
-  BackgroundCells cells;
-  cells.kind = CellKind::tetrahedron;
-  cells.vertices = Points(4, 3);
-  cells.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
-  cells.connectivity = {0, 1, 2, 3};
-  cells.inside_fraction = {1};
-  cells.label = {1};
+  BackgroundCells cells = test::box_tetrahedra(test::irregular_box(2, 10), 2);
   EXPECT_EQ(test::refusal([&] { check_cells(cells); }), "");
-  cells.cut_index = {0};
+  cells.cut_index.assign(cells.size(), 0);
   cells.cut_parts.resize(1);
   EXPECT_NE(test::refusal([&] { check_cells(cells); }).find("hexahedra alone"), std::string::npos);
 }

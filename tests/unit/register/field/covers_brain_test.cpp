@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "tests/unit/register/builders.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
@@ -19,17 +17,6 @@ RegisterInput still() {
 std::string fault_of(const RegisterInput& input) {
   const Surface* const wall = input.cavity ? &input.cavity->wall : nullptr;
   return test::refusal([&] { check_covers(input, brain_zones(input.brain, input.t1.geometry, 15, wall)); });
-}
-
-void keep(Solution& solution, const std::function<bool(const Eigen::Vector3d&)>& kept) {
-  std::vector<Eigen::Index> left;
-  for (Eigen::Index a = 0; a < solution.positions.rows(); ++a) {
-    if (kept(solution.positions.row(a))) {
-      left.push_back(a);
-    }
-  }
-  solution.positions = Points(solution.positions(left, Eigen::all));
-  solution.spacing.resize(left.size());  // all alike
 }
 
 TEST(CoversBrain, TakesNodesThatFillIt) {
@@ -47,17 +34,18 @@ TEST(CoversBrain, RefusesNodesOfAnotherPlaceOrFrame) {
 
 TEST(CoversBrain, RefusesABrainOfWhichHalfHasNoNodes) {
   RegisterInput input = still();
-  keep(input.solution, [](const Eigen::Vector3d& x) { return x.x() < centre.x(); });
+  input.solution = at_nodes(input.solution, [](const Eigen::Vector3d& x) { return x.x() < centre.x(); });
   EXPECT_NE(fault_of(input).find("from every node"), std::string::npos);
 }
 
 TEST(CoversBrain, TakesABrainWithACavityWhetherItsWallIsKnownOrNot) {
   RegisterInput input = still();
-  keep(input.solution, [](const Eigen::Vector3d& x) { return (x - centre).norm() > 0.7 * radius; });
+  input.solution =
+      at_nodes(input.solution, [](const Eigen::Vector3d& x) { return (x - centre).norm() > 0.7 * radius; });
   EXPECT_EQ(fault_of(input), "") << "a third of the brain";
   input = still();
   const Eigen::Vector3d side = centre + Eigen::Vector3d(radius, 0, 0);
-  keep(input.solution, [&](const Eigen::Vector3d& x) { return (x - side).norm() > radius; });
+  input.solution = at_nodes(input.solution, [&](const Eigen::Vector3d& x) { return (x - side).norm() > radius; });
   input.cavity = Cavity{ball(side, radius), {3}};
   EXPECT_EQ(fault_of(input), "") << "a quarter of its surface";
 }

@@ -107,23 +107,6 @@ TEST(ForwardField, ReportsThatItFolds) {
   EXPECT_GT(result.measures.jacobian_min, 0);  // the brain itself does not
 }
 
-/// The nodes within a distance of any of these places.
-Solution nodes_within(const Solution& all, const std::vector<Eigen::Vector3d>& places, double distance) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index a = 0; a < all.positions.rows(); ++a) {
-    const Eigen::Vector3d x = all.positions.row(a);
-    if (std::ranges::any_of(places, [&](const Eigen::Vector3d& place) { return (x - place).norm() <= distance; })) {
-      kept.push_back(a);
-    }
-  }
-  Solution some = all;
-  some.positions = Points(all.positions(kept, Eigen::all));
-  some.displacement = Points(all.displacement(kept, Eigen::all));
-  some.reaction_force = Points(all.reaction_force(kept, Eigen::all));
-  some.spacing.resize(kept.size());  // all alike
-  return some;
-}
-
 TEST(ForwardField, StaysContinuousBetweenTwoPartsOfTheBrainThatPart) {
   // Two balls as one surface: half-way between them the nearest part of the surface changes.
   const Eigen::Vector3d apart(17, 0, 0);
@@ -135,7 +118,9 @@ TEST(ForwardField, StaysContinuousBetweenTwoPartsOfTheBrainThatPart) {
   input.brain.vertices << left.vertices, right.vertices;
   input.brain.triangles.resize(2 * triangles, 3);
   input.brain.triangles << left.triangles, right.triangles.array() + static_cast<std::int32_t>(vertices);
-  input.solution = nodes_within(input.solution, {centre - apart, centre + apart}, 13);
+  input.solution = at_nodes(input.solution, [&](const Eigen::Vector3d& x) {
+    return std::min((x - centre + apart).norm(), (x - centre - apart).norm()) <= 13;
+  });
   const VectorImage& field = register_images(input, {}).forward;
   const ImageGeometry& g = field.geometry;
   double largest = 0;
