@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 
 #include "segmentation/image/mask.hpp"
 
@@ -16,8 +15,7 @@ Mask complement(Mask mask) {
 
 // On a grid that holds all of it.
 Mask grown_part(const Mask& mask, double radius) {
-  const int reach = static_cast<int>(std::ceil(radius / mask.geometry.spacing.minCoeff()));
-  Mask part = cropped(mask, reach + 1);
+  Mask part = cropped(mask, voxels_to(radius, mask.geometry) + 1);
   const ScalarImage away = depth(complement(part));
   std::transform(away.voxels.begin(), away.voxels.end(), part.voxels.begin(),
                  [radius](float distance) { return static_cast<std::uint8_t>(distance <= radius); });

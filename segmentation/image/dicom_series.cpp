@@ -6,6 +6,7 @@
 #include <set>
 
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/image/dicom_frames.hpp"
 #include "segmentation/image/dicom_slice.hpp"
 
 namespace brainshift {
@@ -51,10 +52,15 @@ bool close(const std::vector<double>& a, const std::vector<double>& b) {
          });
 }
 
+std::string name_of(const DicomSlice& slice) {
+  return slice.frame > 0 ? "frame " + std::to_string(slice.frame) : slice.file.filename().string();
+}
+
 void check_alike(const DicomSlice& slice, const DicomSlice& first) {
-  const auto need = [&](bool same, const char* name) {
+  const auto need = [&](bool same, const std::string& name) {
     if (!same) {
-      refuse(slice.file, std::string("its ") + name + " is not that of " + first.file.filename().string() +
+      refuse(slice.file, (slice.frame > 0 ? "the " + name + " of " + name_of(slice) : "its " + name) +
+                             " is not that of " + name_of(first) +
                              ", another slice of the series; one of the two is damaged or of another scan");
     }
   };
@@ -64,6 +70,7 @@ void check_alike(const DicomSlice& slice, const DicomSlice& first) {
   need(slice.pixel_representation == first.pixel_representation, "PixelRepresentation");
   need(close(slice.spacing, first.spacing), "PixelSpacing");
   need(close(slice.orientation, first.orientation), "ImageOrientationPatient");
+  need(close(slice.rescale, first.rescale), "RescaleSlope or RescaleIntercept");
   if (slice.frames != 1) {
     refuse(slice.file, "holds " + std::to_string(slice.frames) +
                            " frames and is not alone in its folder; leave it alone there, or take single slices");
@@ -74,7 +81,8 @@ Eigen::Vector3d position_of(const DicomSlice& slice) {
   return Eigen::Vector3d::Map(slice.position.data());
 }
 
-// Sorts the slices along the normal; the distance of two neighbours.
+/// Sorts the slices along the normal; the distance of two neighbours. What is taken for even and upright is off by no
+/// more than a place that is rounded to a tenth of a millimetre, or a direction to three digits.
 double in_order(const fs::path& folder, std::vector<DicomSlice>& slices, const Eigen::Vector3d& normal) {
   const auto height = [&](const DicomSlice& slice) { return normal.dot(position_of(slice)); };
   std::sort(slices.begin(), slices.end(),
@@ -83,17 +91,20 @@ double in_order(const fs::path& folder, std::vector<DicomSlice>& slices, const E
   const Eigen::Vector3d step =
       slices.size() > 1 ? Eigen::Vector3d((position_of(slices.back()) - position_of(slices.front())) / count) : normal;
   const double distance = step.norm();
-  constexpr double tolerance = 0.1;  // of the distance
+  constexpr double most_off = 0.2;  // mm
+  const double tolerance = std::min(0.1 * distance, most_off);
   for (std::size_t i = 0; i < slices.size(); ++i) {
     const Eigen::Vector3d even = position_of(slices.front()) + static_cast<double>(i) * step;
     const double off = (position_of(slices[i]) - even).norm();
-    if (!(distance > 0) || !(off <= tolerance * distance)) {
-      refuse(folder, "the DICOM slices are not evenly spaced (" + slices[i].file.filename().string() + " is off by " +
+    if (!(distance > 0) || !(off <= tolerance)) {
+      refuse(folder, "the DICOM slices are not evenly spaced (" + name_of(slices[i]) + " is off by " +
                          std::to_string(off) + " mm); is a slice missing, or there twice?");
     }
   }
-  if (!((step.normalized() - normal).norm() <= 0.01)) {
-    refuse(folder, "the DICOM slices are shifted against each other, as by a tilted gantry; resample the series");
+  const double shifted = count * (step - step.dot(normal) * normal).norm();
+  if (!(shifted <= most_off)) {
+    refuse(folder, "the DICOM slices are shifted against each other, the last by " + std::to_string(shifted) +
+                       " mm, as by a tilted gantry; resample the series");
   }
   return distance;
 }
@@ -102,26 +113,34 @@ double in_order(const fs::path& folder, std::vector<DicomSlice>& slices, const E
 
 DicomSeries read_dicom_series(const fs::path& folder) {
   std::vector<DicomSlice> slices = read_slices(folder);
-  const DicomSlice first = slices.front();
-  DicomSeries series;
-  series.header.size = {first.columns, first.rows, first.frames};
-  series.header.bytes_a_value = first.bits_allocated / 8;
-  if (slices.size() > 1 || first.frames == 1) {
-    for (const DicomSlice& slice : slices) {
-      check_alike(slice, first);
-    }
-    const Eigen::Vector3d row = Eigen::Vector3d::Map(first.orientation.data());
-    const Eigen::Vector3d column = Eigen::Vector3d::Map(first.orientation.data() + 3);
-    series.header.direction << row, column, row.cross(column);
-    series.header.size[2] = slices.size();
-    check_volume(first.file, series.header, 1);  // sorting needs a direction
-    const double distance = in_order(folder, slices, series.header.direction.col(2));
-    series.header.spacing = Eigen::Vector3d(first.spacing[1], first.spacing[0], distance);
-    series.header.origin = position_of(slices.front());
+  const bool one_file = slices.size() == 1 && slices.front().frames > 1;
+  if (one_file) {
+    slices = frames_of(slices.front());
   }
+  const DicomSlice first = slices.front();
+  for (const DicomSlice& slice : slices) {
+    check_alike(slice, first);
+  }
+  DicomSeries series;
+  series.header.size = {first.columns, first.rows, slices.size()};
+  series.header.bytes_a_value = first.bits_allocated / 8;
+  const Eigen::Vector3d row = Eigen::Vector3d::Map(first.orientation.data());
+  const Eigen::Vector3d column = Eigen::Vector3d::Map(first.orientation.data() + 3);
+  series.header.direction << row, column, row.cross(column);
+  check_volume(first.file, series.header, 1);  // sorting needs a direction
+  const double distance = in_order(folder, slices, series.header.direction.col(2));
+  series.header.spacing = Eigen::Vector3d(first.spacing[1], first.spacing[0], distance);
+  series.header.origin = position_of(slices.front());
   check_volume(folder, series.header, 1);
   for (const DicomSlice& slice : slices) {
-    series.files.push_back(slice.file.string());
+    if (one_file) {
+      series.frames.push_back(slice.frame - 1);
+    } else {
+      series.files.push_back(slice.file.string());
+    }
+  }
+  if (one_file) {
+    series.files.push_back(first.file.string());
   }
   return series;
 }

@@ -10,13 +10,14 @@
 namespace brainshift {
 
 struct DicomSeries {
-  std::vector<std::string> files;  ///< in the order of their places
-  ImageHeader header;              ///< of the volume; of a file of many frames only its size
+  std::vector<std::string> files;   ///< in the order of their places
+  std::vector<std::size_t> frames;  ///< of one file that holds all slices: in the order of their places; else empty
+  ImageHeader header;               ///< of the volume
 };
 
 /// Files that are no DICOM are passed over. Throws std::invalid_argument, naming folder or slice, when there is not
-/// exactly one series, a slice is damaged, or the slices differ in size, spacing, orientation or kind of pixel, are not
-/// evenly spaced or do not lie one behind the other.
+/// exactly one series, a slice is damaged, or the slices, or frames of one file, differ in size, spacing, orientation
+/// or kind of pixel, are not evenly spaced or do not lie one behind the other.
 DicomSeries read_dicom_series(const std::filesystem::path& folder);
 
 }  // namespace brainshift

@@ -23,7 +23,6 @@ constexpr std::uint64_t preamble = 132;
 // Tags: group, element.
 constexpr std::uint32_t transfer_syntax = 0x00020010;
 constexpr std::uint32_t pixel_data = 0x7fe00010;
-constexpr std::uint32_t shared_groups = 0x52009229, groups_of_frames = 0x52009230;
 constexpr std::uint32_t item = 0xfffee000, item_end = 0xfffee00d, sequence_end = 0xfffee0dd;
 
 struct DicomElement {
@@ -134,26 +133,6 @@ std::string dicom_text(const std::vector<std::uint8_t>& bytes) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(padding) - first + 1);
 }
 
-// Decimal numbers between backslashes; empty when one of them is none.
-std::vector<double> dicom_numbers(const std::vector<std::uint8_t>& bytes) {
-  std::vector<double> values;
-  std::string rest = dicom_text(bytes);
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\\'), rest.size());
-    const std::string field = rest.substr(0, end);
-    const std::size_t first = std::min(field.find_first_not_of(" +"), field.size());
-    const std::size_t last = field.find_last_not_of(' ') + 1;
-    double value = 0;
-    const auto [stop, fault] = std::from_chars(field.data() + first, field.data() + std::max(first, last), value);
-    if (fault != std::errc{} || stop != field.data() + std::max(first, last) || !std::isfinite(value)) {
-      return {};
-    }
-    values.push_back(value);
-    rest.erase(0, end + 1);
-  }
-  return values;
-}
-
 /// A field that is taken from the header, by its tag.
 struct DicomField {
   std::uint32_t tag;
@@ -176,7 +155,7 @@ DicomField whole_field(std::uint32_t tag, const char* name, std::uint64_t DicomS
 DicomField real_field(std::uint32_t tag, const char* name, std::vector<double> DicomSlice::*member, std::size_t count) {
   return {tag,
           [member, count](DicomSlice& slice, const std::vector<std::uint8_t>& value) {
-            slice.*member = dicom_numbers(value);
+            slice.*member = dicom_numbers(dicom_text(value));
             return (slice.*member).size() == count;
           },
           name};
@@ -184,7 +163,7 @@ DicomField real_field(std::uint32_t tag, const char* name, std::vector<double> D
 
 const std::vector<DicomField>& dicom_fields() {
   const auto is_number = [](DicomSlice&, const std::vector<std::uint8_t>& value) {
-    return dicom_numbers(value).size() == 1;
+    return dicom_numbers(dicom_text(value)).size() == 1;
   };
   static const std::vector<DicomField> fields = {
       {0x0020000e,
@@ -195,7 +174,7 @@ const std::vector<DicomField>& dicom_fields() {
        "SeriesInstanceUID"},
       {0x00280008,
        [](DicomSlice& slice, const std::vector<std::uint8_t>& value) {
-         const auto frames = dicom_numbers(value);
+         const auto frames = dicom_numbers(dicom_text(value));
          const bool is_count = frames.size() == 1 && frames[0] >= 1 && frames[0] < 1e6;
          slice.frames = is_count ? static_cast<std::uint64_t>(frames[0]) : 0;
          return is_count;
@@ -244,6 +223,10 @@ void check_slice(const DicomSlice& slice) {
   need(!slice.series.empty(), "SeriesInstanceUID");
   need(slice.rows > 0, "Rows");
   need(slice.columns > 0, "Columns");
+  if (slice.bits_allocated == 1) {
+    refuse(slice.file,
+           "is a DICOM segmentation (1 bit a voxel), which is not read; convert it to .nii.gz or .seg.nrrd");
+  }
   need(slice.bits_allocated == 8 || slice.bits_allocated == 16 || slice.bits_allocated == 32, "BitsAllocated");
   need(slice.bits_stored >= 1 && slice.bits_stored <= slice.bits_allocated, "BitsStored");
   need(slice.high_bit + 1 == slice.bits_stored || slice.high_bit + 1 == slice.bits_allocated, "HighBit");
@@ -252,7 +235,7 @@ void check_slice(const DicomSlice& slice) {
     refuse(slice.file, "the DICOM slice holds " + std::to_string(slice.samples) +
                            " values a pixel, one is needed; choose a series of grey values");
   }
-  if (slice.frames == 1 || !slice.in_groups) {
+  if (slice.frames == 1) {
     need(slice.spacing.size() == 2, "PixelSpacing");
     need(slice.orientation.size() == 6, "ImageOrientationPatient");
     need(slice.position.size() == 3, "ImagePositionPatient");
@@ -273,6 +256,25 @@ void check_pixels(DicomReader& reader, const DicomElement& element, const DicomS
 }
 
 }  // namespace
+
+std::vector<double> dicom_numbers(const std::string& text) {
+  std::vector<double> values;
+  std::string rest = text;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\\'), rest.size());
+    const std::string field = rest.substr(0, end);
+    const std::size_t first = std::min(field.find_first_not_of(" +"), field.size());
+    const std::size_t last = field.find_last_not_of(' ') + 1;
+    double value = 0;
+    const auto [stop, fault] = std::from_chars(field.data() + first, field.data() + std::max(first, last), value);
+    if (fault != std::errc{} || stop != field.data() + std::max(first, last) || !std::isfinite(value)) {
+      return {};
+    }
+    values.push_back(value);
+    rest.erase(0, end + 1);
+  }
+  return values;
+}
 
 bool is_dicom_slice(const fs::path& file) {
   std::error_code fault;
@@ -298,7 +300,6 @@ DicomSlice read_dicom_slice(const fs::path& file) {
       check_pixels(reader, element, slice);
       return slice;
     }
-    slice.in_groups = slice.in_groups || element.tag == shared_groups || element.tag == groups_of_frames;
     const auto& fields = dicom_fields();
     const auto field =
         std::find_if(fields.begin(), fields.end(), [&](const DicomField& known) { return known.tag == element.tag; });

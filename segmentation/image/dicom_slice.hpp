@@ -18,14 +18,18 @@ struct DicomSlice {
   std::vector<double> spacing;      ///< PixelSpacing: between rows, between columns, mm
   std::vector<double> orientation;  ///< ImageOrientationPatient: along a row, along a column
   std::vector<double> position;     ///< ImagePositionPatient, mm, LPS
-  bool in_groups = false;           ///< it has functional groups, which may tell these of each frame
+  std::vector<double> rescale;      ///< RescaleSlope, RescaleIntercept; of a frame alone
+  std::uint64_t frame = 0;          ///< of a file of several, from 1; 0: the file is a slice
 };
 
 /// Whether the file is a regular one with DICM at byte 128, and no directory of others (DICOMDIR).
 bool is_dicom_slice(const std::filesystem::path& file);
 
 /// Throws std::invalid_argument, naming the file, when it is cut short, in its header or its pixels, or a field cannot
-/// be. A slice of more than one frame may have spacing, orientation and position in functional groups.
+/// be. Of a file of more than one frame dicom_frames.hpp tells where these lie.
 DicomSlice read_dicom_slice(const std::filesystem::path& file);
+
+/// Decimal numbers between backslashes; empty where one of them is none.
+std::vector<double> dicom_numbers(const std::string& text);
 
 }  // namespace brainshift

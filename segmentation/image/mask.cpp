@@ -57,7 +57,7 @@ bool touches_border(const Mask& mask) {
   return count(mask) > 0 && ((box.lower == 0).any() || (box.upper == mask.geometry.size - 1).any());
 }
 
-Mask cropped(const Mask& mask, int margin) {
+Mask cropped(const Mask& mask, const Eigen::Array3i& margin) {
   const Box box = bounding_box(mask);
   const Eigen::Array3i lower = box.lower - margin;
   ImageGeometry part = mask.geometry;

@@ -40,9 +40,17 @@ double volume(const Mask& mask);
 /// Whether a voxel inside lies on the image's outermost layer.
 bool touches_border(const Mask& mask);
 
-/// The part of the image around the mask, with a margin of so many voxels on each side, whether the image reaches that
-/// far or not. The voxels keep their places in the world. The mask must not be empty.
-Mask cropped(const Mask& mask, int margin);
+/// The part of the image around the mask, with a margin of so many voxels on each side, along each axis, whether the
+/// image reaches that far or not. The voxels keep their places in the world. The mask must not be empty.
+Mask cropped(const Mask& mask, const Eigen::Array3i& margin);
+inline Mask cropped(const Mask& mask, int margin) {
+  return cropped(mask, Eigen::Array3i::Constant(margin));
+}
+
+/// How many voxels along each axis reach so far, mm.
+inline Eigen::Array3i voxels_to(double distance, const ImageGeometry& grid) {
+  return (distance / grid.spacing.array()).ceil().cast<int>();
+}
 
 /// What another mask of the same image has on the grid of a part that was cropped from it.
 Mask cropped_to(const Mask& mask, const ImageGeometry& part);

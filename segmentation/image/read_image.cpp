@@ -159,6 +159,17 @@ Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
   return read_by_itk<itk::Image<Pixel, 3>>(file, format, header);
 }
 
+/// The slices of one file in the order of their places.
+template <class Pixel>
+void sort_frames(const std::vector<std::size_t>& frames, itk::Image<Pixel, 3>& image) {
+  const auto size = image.GetLargestPossibleRegion().GetSize();
+  const std::size_t plane = size[0] * size[1];
+  const std::vector<Pixel> stored(image.GetBufferPointer(), image.GetBufferPointer() + plane * frames.size());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    std::copy_n(stored.data() + plane * frames[k], plane, image.GetBufferPointer() + plane * k);
+  }
+}
+
 template <class Pixel>
 Pointer<Pixel> read_dicom(const fs::path& folder, unsigned components) {
   if (components != 1) {
@@ -170,14 +181,22 @@ Pointer<Pixel> read_dicom(const fs::path& folder, unsigned components) {
   io->SetFileName(series.files.front());
   io->ReadImageInformation();
   if (io->GetNumberOfComponents() != 1 || io->GetDimensions(0) != series.header.size[0] ||
-      io->GetDimensions(1) != series.header.size[1]) {
+      io->GetDimensions(1) != series.header.size[1] ||
+      (!series.frames.empty() && io->GetDimensions(2) != series.header.size[2])) {
     refuse(folder, "a DICOM series of one value a voxel is needed");
   }
   auto reader = itk::ImageSeriesReader<itk::Image<Pixel, 3>>::New();
   reader->SetImageIO(io);
   reader->SetFileNames(series.files);
   reader->Update();
-  return reader->GetOutput();
+  const Pointer<Pixel> image = reader->GetOutput();
+  if (series.header.size[2] > 1) {
+    set_grid(*image, geometry_in(series.header));  // ITK has no place of frames
+  }
+  if (!series.frames.empty()) {
+    sort_frames(series.frames, *image);
+  }
+  return image;
 }
 
 // ITK's NIfTI and DICOM readers choose between parts of the header, so what they took is looked at again.

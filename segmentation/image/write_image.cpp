@@ -13,6 +13,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/not_written.hpp"
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
@@ -65,20 +66,29 @@ void check_written(const fs::path& file, const ItkImageType& image) {
   reader->Update();
 }
 
+/// What ITK writes first. It compresses NIfTI on one thread at zlib's slow default; ours runs on all of them and checks
+/// what it writes. It knows no ending in capitals.
+fs::path written_first(const fs::path& file) {
+  if (image_format(file) == ImageFormat::nifti_gz) {
+    return file.string() + ".part.nii";
+  }
+  return file.extension() == ending_of(file) ? file : fs::path(file.string() + ".part" + ending_of(file));
+}
+
 template <class ItkImageType>
 void write_itk(const fs::path& file, const ItkImageType& image) {
-  const ImageFormat format = image_format(file);
-  // ITK compresses NIfTI on one thread at zlib's slow default; ours runs on all of them and checks what it writes.
-  const fs::path written = format == ImageFormat::nifti_gz ? fs::path(file.string() + ".part.nii") : file;
+  const fs::path written = written_first(file);
   std::error_code ignored;
   try {
     ask_for_room(written,
                  image.GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(typename ItkImageType::PixelType));
     write_with_itk(written, image);
     check_written(written, image);
-    if (written != file) {
+    if (image_format(file) == ImageFormat::nifti_gz) {
       write_gzip(file, written);
       fs::remove(written, ignored);
+    } else if (written != file) {
+      fs::rename(written, file);
     }
   } catch (const std::bad_alloc&) {
     fs::remove(written, ignored);

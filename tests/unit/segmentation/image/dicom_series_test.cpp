@@ -115,13 +115,77 @@ TEST(DicomSeries, NoneOrTwoInAFolderAreRefused) {
   EXPECT_TRUE(says(two.fault(), {"exactly one DICOM series", "2"}));
 }
 
+/// The slices of Series in one file, stored in an order of their own.
+struct Frames {
+  ScratchFolder folder;
+  std::vector<DrawnSlice> frames;
+
+  Frames() {
+    for (const int k : {0, 2, 4, 1, 3}) {
+      frames.push_back(Series::slice(k));
+    }
+  }
+  ScalarImage read() const {
+    folder.write("frames.dcm", drawn_frames(frames));
+    return read_image(folder.path());
+  }
+  std::string fault() const {
+    return refusal([&] { read(); });
+  }
+};
+
+TEST(DicomSeries, FramesOfOneFileAreTheSameImageInTheOrderOfTheirPlaces) {
+  const Series series;
+  const ScalarImage slices = read_image(series.folder.path()), frames = Frames().read();
+  EXPECT_TRUE(same_geometry(frames.geometry, slices.geometry));
+  EXPECT_EQ(frames.voxels, slices.voxels);
+}
+
 TEST(DicomSeries, FramesWithoutPlacesAreRefused) {
-  const ScratchFolder folder;
+  Frames frames;
+  frames.frames[3].position = "";
+  EXPECT_TRUE(says(frames.fault(), {"frames.dcm", "frame 4 has no position"}));
   DrawnSlice drawn;
-  drawn.position = "";
   drawn.sequence = element(0x28, 8, "IS", "2");
-  folder.write("frames.dcm", drawn.bytes());
-  EXPECT_TRUE(says(refusal([&] { read_image(folder.path()); }), {"frames.dcm", "ImagePositionPatient"}));
+  frames.folder.write("frames.dcm", drawn.header() + element(0x7fe0, 0x10, "OW", drawn.pixels() + drawn.pixels()));
+  EXPECT_TRUE(says(refusal([&] { read_image(frames.folder.path()); }), {"frames.dcm", "2 frames", "place of each"}));
+}
+
+TEST(DicomSeries, FramesThatAreMissingTwiceThereOrShiftedAreRefused) {
+  Frames gap, twice, tilted, turned, rescaled;
+  gap.frames.erase(gap.frames.begin() + 1);
+  twice.frames.push_back(twice.frames[2]);
+  for (std::size_t n = 0; n < 5; ++n) {
+    DrawnSlice& frame = tilted.frames[n];
+    frame.position.replace(3, 2, std::to_string(0.1 * static_cast<double>(frame.value)));
+  }
+  turned.frames[1].orientation = "0\\1\\0\\1\\0\\0";
+  for (DrawnSlice& frame : rescaled.frames) {
+    frame.rescale = std::to_string(frame.value) + "\\0";
+  }
+  EXPECT_TRUE(says(gap.fault(), {"evenly spaced", "frame"}));
+  EXPECT_TRUE(says(twice.fault(), {"evenly spaced", "frame"}));
+  EXPECT_TRUE(says(tilted.fault(), {"shifted"}));
+  EXPECT_TRUE(says(turned.fault(), {"ImageOrientationPatient of frame 2 is not that of frame 1"}));
+  EXPECT_TRUE(says(rescaled.fault(), {"RescaleSlope", "frame 2"}));
+}
+
+TEST(DicomSeries, AShearOfAFewTenthsOfAMillimetreIsRefused) {
+  Series series;
+  for (int k = 0; k < 5; ++k) {
+    DrawnSlice drawn = Series::slice(k);
+    drawn.position = "-1\\" + std::to_string(-2 + 0.06 * k) + "\\" + std::to_string(2 * k);
+    series.put(k, drawn.bytes());
+  }
+  EXPECT_TRUE(says(series.fault(), {"the last by 0.24"})) << series.fault();
+}
+
+TEST(DicomSeries, ASegmentationIsSaidToBeOne) {
+  Series series;
+  DrawnSlice drawn = Series::slice(2);
+  drawn.bits = 1;
+  series.put(2, drawn.bytes());
+  EXPECT_TRUE(says(series.fault(), {"slice7.dcm", "segmentation", ".seg.nrrd"})) << series.fault();
 }
 
 TEST(DicomSeries, NestedSequencesArePassedOverAndCutOnesRefused) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace brainshift::test {
 
@@ -21,6 +22,14 @@ inline std::string element(std::uint64_t group, std::uint64_t number, const std:
          (is_long ? std::string(2, '\0') + little_endian(value.size(), 4) : little_endian(value.size(), 2)) + value;
 }
 
+inline std::string sequence(std::uint64_t group, std::uint64_t number, const std::vector<std::string>& items) {
+  std::string content;
+  for (const std::string& item : items) {
+    content += little_endian(0xfffe, 2) + little_endian(0xe000, 2) + little_endian(item.size(), 4) + item;
+  }
+  return element(group, number, "SQ", content);
+}
+
 /// A slice of an MR series in explicit little endian; pixel (i, j) holds value + i + 10 j.
 struct DrawnSlice {
   std::uint64_t rows = 3, columns = 4, bits = 16, value = 100;
@@ -28,13 +37,14 @@ struct DrawnSlice {
   std::string sequence;
   std::string modality = "MR", study, frame_of_reference;
   std::string rescale;  ///< slope and intercept, a backslash between
+  std::string sop_class = "1.2.840.10008.5.1.4.1.1.4";
 
   std::string header() const {
-    const std::string meta = element(2, 2, "UI", "1.2.840.10008.5.1.4.1.1.4") +
+    const std::string meta = element(2, 2, "UI", sop_class) +
                              element(2, 3, "UI", "1.2.3.5." + position.substr(position.rfind('\\') + 1)) +
                              element(2, 0x10, "UI", "1.2.840.10008.1.2.1");
     return std::string(128, '\0') + "DICM" + element(2, 0, "UL", little_endian(meta.size(), 4)) + meta +
-           element(8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.4") +
+           element(8, 0x16, "UI", sop_class) +
            element(8, 0x18, "UI", "1.2.3.5." + position.substr(position.rfind('\\') + 1)) +
            element(8, 0x60, "CS", modality) + sequence + element(0x10, 0x10, "PN", "Somebody") +
            (study.empty() ? "" : element(0x20, 0xd, "UI", study)) + element(0x20, 0xe, "UI", series) +
@@ -52,15 +62,34 @@ struct DrawnSlice {
                            : element(0x28, 0x1052, "DS", rescale.substr(slash + 1)) +
                                  element(0x28, 0x1053, "DS", rescale.substr(0, slash));
   }
-  std::string bytes() const {
+  std::string pixels() const {
     std::string pixels;
     for (std::uint64_t j = 0; j < rows; ++j) {
       for (std::uint64_t i = 0; i < columns; ++i) {
         pixels += little_endian(value + i + 10 * j, static_cast<int>(bits / 8));
       }
     }
-    return header() + element(0x7fe0, 0x10, "OW", pixels);
+    return pixels;
   }
+  std::string bytes() const { return header() + element(0x7fe0, 0x10, "OW", pixels()); }
 };
+
+/// An enhanced MR object of several slices.
+inline std::string drawn_frames(const std::vector<DrawnSlice>& frames) {
+  DrawnSlice whole = frames.front();
+  whole.sop_class += ".1";
+  whole.sequence = element(0x28, 8, "IS", std::to_string(frames.size()));
+  std::vector<std::string> groups;
+  std::string pixels;
+  for (const DrawnSlice& frame : frames) {
+    const std::string position = element(0x20, 0x32, "DS", frame.position);
+    groups.push_back((frame.position.empty() ? "" : sequence(0x20, 0x9113, {position})) +
+                     sequence(0x20, 0x9116, {element(0x20, 0x37, "DS", frame.orientation)}) +
+                     sequence(0x28, 0x9110, {element(0x28, 0x30, "DS", frame.spacing)}) +
+                     (frame.rescale.empty() ? "" : sequence(0x28, 0x9145, {frame.rescaling()})));
+    pixels += frame.pixels();
+  }
+  return whole.header() + sequence(0x5200, 0x9230, groups) + element(0x7fe0, 0x10, "OW", pixels);
+}
 
 }  // namespace brainshift::test
