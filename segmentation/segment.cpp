@@ -128,13 +128,26 @@ Mask cavity_of(const LabelMap& labels, const Mask& brain, const SegmentOptions& 
   return space.voxels.empty() ? cavity_in_labels(labels, brain, reach, notes) : space;
 }
 
-std::vector<Body> bodies_of(const LabelMap& labels, const Mask& brain, const std::vector<std::uint16_t>& tissues,
+// The tissues that the labels, fitted to the brain, still have: a loose piece is none.
+std::vector<std::uint16_t> still_there(const LabelMap& labels, const std::vector<std::uint16_t>& tissues,
+                                       std::vector<std::string>& notes) {
+  std::vector<std::uint16_t> there;
+  for (const std::uint16_t label : tissues) {
+    if (std::find(labels.voxels.begin(), labels.voxels.end(), label) != labels.voxels.end()) {
+      there.push_back(label);
+    } else {
+      notes.push_back("label " + std::to_string(label) + " lies apart from the brain: it gets no surface");
+    }
+  }
+  return there;
+}
+
+// with_surface: tissues that get one of their own.
+std::vector<Body> bodies_of(const LabelMap& labels, const Mask& brain, const std::vector<std::uint16_t>& with_surface,
                             const SegmentOptions& options, std::vector<std::string>& notes) {
   std::vector<Body> bodies = {{"brain", brain}};
-  if (options.tissue_surfaces) {
-    for (const std::uint16_t label : tissues) {
-      bodies.push_back({"tissue_" + std::to_string(label), mask_of(labels, std::array{label})});
-    }
+  for (const std::uint16_t label : with_surface) {
+    bodies.push_back({"tissue_" + std::to_string(label), mask_of(labels, std::array{label})});
   }
   if (Mask cavity = cavity_of(labels, brain, options, notes); !cavity.voxels.empty()) {
     bodies.push_back({"skull", std::move(cavity)});
@@ -160,7 +173,9 @@ void note_missed(Segmentation& result, const std::string& name, const SurfaceMea
 
 void make_surfaces(Segmentation& result, const Mask& brain, const std::vector<std::uint16_t>& tissues,
                    const SegmentOptions& options, const Progress& progress) {
-  const auto bodies = bodies_of(*result.labels, brain, tissues, options, result.notes);
+  const std::vector<std::uint16_t> with_surface =
+      options.tissue_surfaces ? still_there(*result.labels, tissues, result.notes) : std::vector<std::uint16_t>();
+  const auto bodies = bodies_of(*result.labels, brain, with_surface, options, result.notes);
   auto surfaces = extract_all(bodies, options.edge_length, progress);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     result.measures[bodies[i].name] = surfaces[i].measures;
@@ -170,8 +185,8 @@ void make_surfaces(Segmentation& result, const Mask& brain, const std::vector<st
   result.brain = surfaces.front().surface;
   result.skull = cavity ? surfaces.back().surface : result.brain;
   result.measures["skull"] = cavity ? surfaces.back().measures : surfaces.front().measures;
-  for (std::size_t t = 0; options.tissue_surfaces && t < tissues.size(); ++t) {
-    result.tissues[tissues[t]] = std::move(surfaces[t + 1].surface);
+  for (std::size_t t = 0; t < with_surface.size(); ++t) {
+    result.tissues[with_surface[t]] = std::move(surfaces[t + 1].surface);
   }
 }
 

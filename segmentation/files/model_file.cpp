@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/files/model_file.hpp"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCellArray.h>
-#include <vtkDataArray.h>
-#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
@@ -25,32 +21,15 @@
 #include "segmentation/files/not_written.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/vtk_cells.hpp"
 #include "segmentation/files/vtk_claims.hpp"
+#include "segmentation/files/vtk_faults.hpp"
 #include "segmentation/files/vtu_file.hpp"
 
 namespace brainshift {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Hears VTK's errors and warnings instead of the terminal.
-class FaultListener {
- public:
-  FaultListener() {
-    observer_->SetCallback([](vtkObject*, unsigned long, void* failed, void*) { *static_cast<bool*>(failed) = true; });
-    observer_->SetClientData(&failed_);
-  }
-  void listen_to(vtkObject& reader) const {
-    reader.AddObserver(vtkCommand::ErrorEvent, observer_);
-    reader.AddObserver(vtkCommand::WarningEvent, observer_);
-  }
-  vtkCommand* observer() const { return observer_; }
-  bool failed() const { return failed_; }
-
- private:
-  bool failed_ = false;
-  vtkNew<vtkCallbackCommand> observer_;
-};
 
 /// Takes what VTK would show, and counts it.
 class CountingWindow : public vtkOutputWindow {
@@ -121,6 +100,7 @@ vtkSmartPointer<vtkPointSet> read_legacy_as(const fs::path& file) {
   if (complaints.any() || reader->GetErrorCode() != 0) {
     refuse(file, "is damaged or truncated; copy it again");
   }
+  check_cells(file, *reader->GetOutput());
   return reader->GetOutput();
 }
 
@@ -165,32 +145,6 @@ void write_legacy_as(const fs::path& file, vtkPointSet& model, const fs::path& a
   }
 }
 
-/// VTK trusts what a file says of its cells.
-void check_cells(const fs::path& file, vtkCellArray* cells, vtkIdType points) {
-  if (cells == nullptr || cells->GetNumberOfCells() == 0) {
-    return;
-  }
-  const double* const corners = cells->GetConnectivityArray()->GetRange(0);
-  const bool known = cells->GetConnectivityArray()->GetNumberOfValues() == 0 ||
-                     (corners[0] >= 0 && corners[1] < static_cast<double>(points));
-  const double* const offsets = cells->GetOffsetsArray()->GetRange(0);
-  if (!known || offsets[0] < 0 ||
-      offsets[1] > static_cast<double>(cells->GetConnectivityArray()->GetNumberOfValues())) {
-    refuse(file, "a cell names a point that does not exist; the file is damaged");
-  }
-}
-
-void check_cells(const fs::path& file, vtkPointSet& model) {
-  const vtkIdType points = model.GetNumberOfPoints();
-  if (auto* const grid = vtkUnstructuredGrid::SafeDownCast(&model)) {
-    check_cells(file, grid->GetCells(), points);
-  } else if (auto* const data = vtkPolyData::SafeDownCast(&model)) {
-    for (vtkCellArray* cells : {data->GetVerts(), data->GetLines(), data->GetPolys(), data->GetStrips()}) {
-      check_cells(file, cells, points);
-    }
-  }
-}
-
 void check_points(const fs::path& file, vtkPointSet& model) {
   if (model.GetNumberOfPoints() == 0) {
     refuse(file, "holds no point");
@@ -211,9 +165,6 @@ vtkSmartPointer<vtkPolyData> read_vtp(const fs::path& file) {
   const FaultListener faults;
   vtkNew<vtkXMLPolyDataReader> reader;
   faults.listen_to(*reader);
-  faults.listen_to(*reader->GetExecutive());
-  reader->SetReaderErrorObserver(faults.observer());
-  reader->SetParserErrorObserver(faults.observer());
   reader->SetFileName(file.c_str());
   const bool readable = reader->CanReadFile(file.c_str()) != 0;
   if (readable) {
@@ -222,7 +173,9 @@ vtkSmartPointer<vtkPolyData> read_vtp(const fs::path& file) {
   if (!readable || faults.failed() || reader->GetErrorCode() != 0) {
     refuse(file, "is no .vtp surface, or is damaged or truncated; copy it again");
   }
-  return reader->GetOutput();
+  vtkSmartPointer<vtkPolyData> data = reader->GetOutput();
+  check_cells(file, *data);
+  return data;
 }
 
 vtkSmartPointer<vtkPointSet> read_model(const fs::path& file) {
@@ -239,7 +192,6 @@ vtkSmartPointer<vtkPointSet> read_model(const fs::path& file) {
     refuse(file, "models with arrays end in .vtp, .vtu or .vtk");
   }
   check_points(file, *model);
-  check_cells(file, *model);
   return model;
 }
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/files/vtu_file.hpp"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -25,42 +22,12 @@
 #include "segmentation/files/not_written.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/vtk_cells.hpp"
 #include "segmentation/files/vtk_claims.hpp"
+#include "segmentation/files/vtk_faults.hpp"
 
 namespace brainshift::vtu {
 namespace {
-
-/// Hears VTK's errors instead of the terminal; counts them in `client`, an int.
-vtkSmartPointer<vtkCallbackCommand> error_counter(int& errors) {
-  auto counter = vtkSmartPointer<vtkCallbackCommand>::New();
-  counter->SetClientData(&errors);
-  counter->SetCallback([](vtkObject*, unsigned long, void* client, void*) { ++*static_cast<int*>(client); });
-  return counter;
-}
-
-/// VTK trusts the offsets and indices of cells in a file; a damaged one must not send us out of the arrays.
-void check_cells(const std::filesystem::path& file, vtkUnstructuredGrid& grid) {
-  vtkCellArray* cells = grid.GetCells();
-  if (cells == nullptr || grid.GetNumberOfCells() == 0) {
-    return;
-  }
-  vtkDataArray* offsets = cells->GetOffsetsArray();
-  vtkDataArray* corners = cells->GetConnectivityArray();
-  const auto corner_count = static_cast<double>(corners->GetNumberOfValues());
-  for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
-    const double begin = offsets->GetTuple1(cell);
-    const double end = offsets->GetTuple1(cell + 1);
-    if (!(begin >= 0 && begin <= end && end <= corner_count)) {
-      refuse(file, "cell " + std::to_string(cell) + " has offsets outside the connectivity; the file is damaged.");
-    }
-    for (auto corner = static_cast<vtkIdType>(begin); corner < static_cast<vtkIdType>(end); ++corner) {
-      const double point = corners->GetTuple1(corner);
-      if (!(point >= 0 && point < static_cast<double>(grid.GetNumberOfPoints()))) {
-        refuse(file, "cell " + std::to_string(cell) + " names a point that does not exist; the file is damaged.");
-      }
-    }
-  }
-}
 
 template <class Array, class Value>
 void add_typed_array(vtkFieldData& data, const char* name, std::span<const Value> values, int components) {
@@ -96,20 +63,15 @@ void write(const std::filesystem::path& file, vtkXMLWriter& writer, vtkDataObjec
 vtkSmartPointer<vtkUnstructuredGrid> read(const std::filesystem::path& file) {
   check_readable(file);
   check_vtk_claims(file);
-  int errors = 0;
-  const auto counter = error_counter(errors);
+  const FaultListener faults;
   vtkNew<vtkXMLUnstructuredGridReader> reader;
+  faults.listen_to(*reader);
   reader->SetFileName(file.c_str());
-  reader->AddObserver("ErrorEvent", counter);
-  reader->GetExecutive()->AddObserver("ErrorEvent", counter);
-  reader->AddObserver("WarningEvent", counter);
-  reader->SetReaderErrorObserver(counter);
-  reader->SetParserErrorObserver(counter);
   if (reader->CanReadFile(file.c_str()) == 0) {
     refuse(file, "this is no VTK XML unstructured grid (.vtu), or it is damaged.");
   }
   reader->Update();
-  if (errors > 0 || reader->GetErrorCode() != 0) {
+  if (faults.failed() || reader->GetErrorCode() != 0) {
     refuse(file, "the unstructured grid (.vtu) is damaged or truncated; write it again.");
   }
   vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();

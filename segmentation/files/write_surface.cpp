@@ -3,14 +3,14 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 
-#include "segmentation/files/not_written.hpp"
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/files/vtk_bridge.hpp"
+#include "segmentation/files/write_text.hpp"
 
 namespace brainshift {
 namespace {
@@ -83,7 +83,7 @@ std::string as_stl(const Surface& surface) {
 }
 
 std::string as_text(const fs::path& file, const Surface& surface) {
-  const fs::path ending = file.extension();
+  const std::string ending = ending_of(file);
   if (ending == ".vtp") {
     return as_vtp(surface);
   }
@@ -102,15 +102,7 @@ std::string as_text(const fs::path& file, const Surface& surface) {
 }  // namespace
 
 void write_surface(const fs::path& file, const Surface& surface) {
-  const std::string text = as_text(file, surface);
-  std::ofstream out(file, std::ios::binary);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  if (!out) {
-    std::error_code ignored;
-    fs::remove(file, ignored);
-    fail_to_write(file);
-  }
+  write_text(file, as_text(file, surface));
 }
 
 }  // namespace brainshift

@@ -93,7 +93,7 @@ std::optional<double> label_fit(const ScalarImage& t1, const LabelMap& labels, s
     return std::nullopt;
   }
   const Eigen::Array3i steps = steps_of(t1.geometry);
-  const Mask mask = cropped(whole, steps.maxCoeff() + 1);
+  const Mask mask = cropped(whole, steps + 1);
   const auto faces = boundary_of(mask, steps);
   constexpr std::size_t enough = 1000;
   if (faces.size() < enough) {

@@ -82,7 +82,10 @@ Row row_of(const std::string& line, const std::optional<Columns>& columns) {
     row.name = line.substr(quote + 1, line.find('"', quote + 1) - quote - 1);
     return row;
   }
-  for (std::string word; words >> word && !read_number<double>(word);) {  // numbers behind the name are its colour
+  const auto is_colour = [](const std::string& word) {  // behind the name; "Inf" of "Left Inf Lat Vent" is none
+    return std::isdigit(static_cast<unsigned char>(word.back())) != 0 && read_number<double>(word).has_value();
+  };
+  for (std::string word; words >> word && !is_colour(word);) {
     row.name += (row.name.empty() ? "" : " ") + word;
   }
   return row;
@@ -129,9 +132,24 @@ std::uint16_t class_of_name(const std::string& name) {
   };
   // The first that fits counts.
   constexpr auto words = std::to_array<Word>({{"stripped", default_label::parenchyma},  // "skull-stripped brain"
+                                              {"ctx", default_label::parenchyma},       // "ctx-lh-unknown"
                                               {"background", 0},
                                               {"unknown", 0},
                                               {"exterior", 0},
+                                              {"tumor", default_label::tumour},
+                                              {"tumour", default_label::tumour},
+                                              {"glioma", default_label::tumour},
+                                              {"metastasis", default_label::tumour},
+                                              {"meningioma", default_label::tumour},
+                                              {"glioblastoma", default_label::tumour},
+                                              {"gbm", default_label::tumour},
+                                              {"gtv", default_label::tumour},
+                                              {"mass", default_label::tumour},
+                                              {"enhancing", default_label::tumour},
+                                              {"necrosis", default_label::tumour},
+                                              {"field", default_label::parenchyma},     // "frontal eye field"
+                                              {"fields", default_label::parenchyma},    // "premotor eye fields"
+                                              {"fusiform", default_label::parenchyma},  // "fusiform face complex"
                                               {"air", 0},
                                               {"skin", 0},
                                               {"scalp", 0},
@@ -154,17 +172,6 @@ std::uint16_t class_of_name(const std::string& name) {
                                               {"csf", default_label::csf},
                                               {"fluid", default_label::csf},
                                               {"cerebrospinal", default_label::csf},
-                                              {"tumor", default_label::tumour},
-                                              {"tumour", default_label::tumour},
-                                              {"glioma", default_label::tumour},
-                                              {"metastasis", default_label::tumour},
-                                              {"meningioma", default_label::tumour},
-                                              {"glioblastoma", default_label::tumour},
-                                              {"gbm", default_label::tumour},
-                                              {"gtv", default_label::tumour},
-                                              {"mass", default_label::tumour},
-                                              {"enhancing", default_label::tumour},
-                                              {"necrosis", default_label::tumour},
                                               {"extracerebral", 0}});
   const auto in_name = words_of(name);
   if (in_name == std::vector<std::string>{"head"}) {  // not that of the hippocampus

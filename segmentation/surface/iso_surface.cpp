@@ -8,8 +8,6 @@
 #include <vtkImageData.h>
 #include <vtkPointData.h>
 
-#include <cmath>
-
 #include "segmentation/files/vtk_bridge.hpp"
 #include "segmentation/surface/extract.hpp"
 
@@ -75,8 +73,7 @@ Surface iso_surface(const Mask& mask, double sigma) {
   const Eigen::Array3d spacing = mask.geometry.spacing.array();
   // Twice sigma is the widest step at which the contour, linear between voxels, is still within a tenth of sigma.
   const Eigen::Array3i stride = (2.0 * sigma / spacing + 1e-6).floor().cast<int>().max(1);
-  const int reach = static_cast<int>(std::ceil(3.0 * sigma / spacing.minCoeff()));
-  const Mask part = cropped(mask, reach + 2 * stride.maxCoeff());
+  const Mask part = cropped(mask, voxels_to(3.0 * sigma, mask.geometry) + 2 * stride);
   ScalarImage field = thinned(smoothed(part, sigma), stride);
   Surface surface = contour(field);
   for (auto vertex : surface.vertices.rowwise()) {

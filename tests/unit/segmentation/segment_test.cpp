@@ -89,6 +89,24 @@ TEST(Segment, EverySurfaceIsSoundAndKeepsItsLabelsVolume) {
   EXPECT_NEAR(result.measures.at("brain").volume, 4.0 / 3.0 * std::numbers::pi * std::pow(brain_radius, 3), 1200.0);
 }
 
+TEST(Segment, ATissueThatLiesApartFromTheBrainGetsNoSurface) {
+  const Head drawn = head(oblique());
+  SegmentInput input;
+  input.labels = drawn.labels;
+  const LabelMap apart = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, 0.0, brain_radius + 12.0), 4.0);
+  for (std::size_t i = 0; i < apart.voxels.size(); ++i) {
+    input.labels->voxels[i] = apart.voxels[i] != 0 ? 7 : input.labels->voxels[i];
+  }
+  SegmentOptions options = two_labels();
+  options.brain_labels.push_back(7);
+  options.tissue_surfaces = true;
+  const Segmentation result = segment(input, options);
+  EXPECT_EQ(result.tissues.size(), 2U);
+  EXPECT_TRUE(std::ranges::any_of(result.notes, [](const std::string& note) {
+    return note == "label 7 lies apart from the brain: it gets no surface";
+  }));
+}
+
 TEST(Segment, ATumourMaskJoinsTheBrain) {
   const Head drawn = head(oblique());
   const Eigen::Vector3d place = centre + Eigen::Vector3d(0.0, 28.0, 0.0);

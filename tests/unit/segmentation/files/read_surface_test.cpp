@@ -13,7 +13,7 @@
 namespace brainshift::test::read_surface_test {
 
 class EverySurfaceFormat : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Surface, EverySurfaceFormat, ::testing::Values("vtp", "stl", "ply", "obj"),
+INSTANTIATE_TEST_SUITE_P(Surface, EverySurfaceFormat, ::testing::Values("vtp", "stl", "ply", "obj", "PLY"),
                          [](const auto& named) { return named.param; });
 
 TEST_P(EverySurfaceFormat, GivesBackTheSurface) {
@@ -114,6 +114,27 @@ TEST(SurfaceIo, AVtpThatClaimsMoreThanItsLengthAllowsIsRefusedBeforeAnythingIsAl
           throws_saying<std::invalid_argument>([&] { read_surface(folder.write("b.vtp", text)); }, {"b.vtp", "length"}))
           << name << number;
     }
+  }
+}
+
+// VTK's filters follow the numbers out of the array.
+TEST(SurfaceIo, AVtpWhoseCellsNameNoPointIsRefused) {
+  const ScratchFolder folder;
+  for (const std::string corners_and_offsets :
+       {"0 1 2 900000000 0 1 3;4 7", "0 1 2 -5 0 1 3;4 7", "0 1 2 3 0 1 3;6 4", "0 1 2 3 0 1 3;4 9"}) {
+    const std::size_t middle = corners_and_offsets.find(';');
+    const auto file = folder.write(
+        "a.vtp",
+        "<?xml version=\"1.0\"?><VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>"
+        "<Piece NumberOfPoints=\"4\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+        "NumberOfPolys=\"2\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
+        "0 0 0 100 0 0 0 100 0 0 0 100</DataArray></Points><Polys><DataArray type=\"Int64\" Name=\"connectivity\" "
+        "format=\"ascii\">" +
+            corners_and_offsets.substr(0, middle) +
+            "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" +
+            corners_and_offsets.substr(middle + 1) + "</DataArray></Polys></Piece></PolyData></VTKFile>");
+    EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_surface(file); }, {"a.vtp", "damaged"}))
+        << corners_and_offsets;
   }
 }
 

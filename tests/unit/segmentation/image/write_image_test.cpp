@@ -32,6 +32,17 @@ TEST(ImageIo, NiftiOfOursIsReadByItkAtTheSamePlace) {
   EXPECT_TRUE(same_geometry(geometry_of(*reader->GetOutput()), image.geometry));
 }
 
+TEST(ImageIo, AnEndingInCapitalsIsWritten) {
+  const ScratchFolder folder;
+  const ScalarImage image = wavy_image();
+  for (const std::string name : {"a.NII", "a.NII.GZ", "a.MHA", "a.NRRD"}) {
+    write_image(folder / name, image);
+    EXPECT_EQ(read_image(folder / name).voxels, image.voxels) << name;
+    std::filesystem::remove(folder / name);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << name;
+  }
+}
+
 // int16 is what every program reads.
 TEST(ImageIo, LabelsAreOf16BitsWithASignUntilTheirNumbersNeedIt) {
   const ScratchFolder folder;

@@ -39,8 +39,10 @@ TEST_F(TableFile, DescriptionsOfItkSnapAreReadAndZeroIsBackground) {
 }
 
 TEST_F(TableFile, ANameMayHaveWordsBetweenItsNumberAndItsColour) {
-  const auto table = read_label_table(write("a.txt", "0 None\n1 Left lateral ventricle 1 2 3 0\n2 Outer skull\n"));
-  EXPECT_EQ(table.classes, (std::map<std::uint16_t, std::uint16_t>{{0, 0}, {1, 2}, {2, 5}}));
+  const auto table = read_label_table(write("a.txt",
+                                            "0 None\n1 Left lateral ventricle 1 2 3 0\n2 Outer skull\n"
+                                            "5 Left Inf Lat Vent 196 58 250 0\n"));
+  EXPECT_EQ(table.classes, (std::map<std::uint16_t, std::uint16_t>{{0, 0}, {1, 2}, {2, 5}, {5, 2}}));
 }
 
 TEST_F(TableFile, ColumnsOfBidsAreReadInAnyOrder) {
@@ -81,6 +83,11 @@ TEST(ClassOfName, FollowsItsWords) {
   EXPECT_EQ(class_of_name("Tumor core"), default_label::tumour);
   EXPECT_EQ(class_of_name("skull-stripped brain"), default_label::parenchyma);
   EXPECT_EQ(class_of_name("HEAD"), 0);
+  EXPECT_EQ(class_of_name("Skull-base-meningioma"), default_label::tumour);
+  EXPECT_EQ(class_of_name("ctx-lh-unknown"), default_label::parenchyma);
+  EXPECT_EQ(class_of_name("L_Frontal_Eye_Fields"), default_label::parenchyma);
+  EXPECT_EQ(class_of_name("Fusiform_Face_Complex"), default_label::parenchyma);
+  EXPECT_EQ(class_of_name("Left-Eye"), 0);
   EXPECT_EQ(class_of_name("hippocampal head"), default_label::parenchyma);
 }
 
