@@ -14,6 +14,8 @@ from cohort import dataset, derivatives, files, marks, measures, names, pages, p
 from cohort.finder import Finder  # noqa: E402
 
 POINTS = "derivatives/plan/sub-01/anat/sub-01_desc-cortex_points.csv"
+T1W, DSEG = "sub-01/anat/sub-01_T1w.nii.gz", "derivatives/plan/sub-01/anat/sub-01_dseg.nii.gz"
+TABLE = "derivatives/plan/dseg.tsv"
 
 
 class Folder(unittest.TestCase):
@@ -56,7 +58,7 @@ class FinderTest(Folder):
         maps = [f"derivatives/fmriprep/sub-01/anat/sub-01_{name}dseg.nii.gz"
                 for name in ("", "desc-aseg_", "desc-aparcaseg_", "space-MNI_desc-aparcaseg_")]
         self.make("sub-01/anat/sub-01_T1w.nii.gz", POINTS, *maps)
-        self.assertEqual(self.relative(self.one().labels), maps[2])
+        self.assertEqual((self.relative(self.one().labels), self.one().labels_are), (maps[2], "freesurfer"))
 
     def test_takes_freesurfer_where_there_is_no_map_and_a_mask_where_there_is_neither(self):
         mask = "derivatives/plan/sub-01/anat/sub-01_desc-brain_mask.nii.gz"
@@ -70,7 +72,7 @@ class FinderTest(Folder):
     def test_takes_markups_before_and_after_and_the_map_of_the_tumour(self):
         stem = "derivatives/plan/sub-01/sub-01_desc-"
         tumour = "derivatives/plan/sub-01/anat/sub-01_label-tumor_mask.nii.gz"
-        self.make("sub-01/anat/sub-01_T1w.nii.gz", "derivatives/plan/sub-01/anat/sub-01_dseg.nii.gz", tumour,
+        self.make(T1W, DSEG, TABLE, tumour,
                   stem + "before_points.mrk.json", stem + "after_points.mrk.json")
         case = self.one()
         self.assertEqual([self.relative(file) for file in case.points],
@@ -84,13 +86,15 @@ class FinderTest(Folder):
         self.assertIn("no T1w image", self.find()[1]["sub-01"])
         self.make("sub-01/anat/sub-01_T1w.nii.gz")
         self.assertIn("no labels", self.find()[1]["sub-01"])
-        self.make("derivatives/plan/sub-01/anat/sub-01_dseg.nii.gz")
+        self.make(DSEG)
+        self.assertIn("no table of its numbers", self.find()[1]["sub-01"])
+        self.make(TABLE)
         (self.root / POINTS).unlink()
         self.assertIn("no load", self.find()[1]["sub-01"])
 
     def test_asks_which_of_two_images_and_takes_the_answer(self):
         images = [f"sub-01/anat/sub-01_acq-{name}_T1w.nii.gz" for name in ("flash", "mprage")]
-        self.make(*images, POINTS, "derivatives/plan/sub-01/anat/sub-01_dseg.nii.gz")
+        self.make(*images, POINTS, DSEG, TABLE)
         self.assertIn("--pick T1w:", self.find()[1]["sub-01"])
         self.assertEqual(self.relative(self.one(pick={"T1w": {"acq": "mprage"}}).t1), images[1])
 
@@ -99,11 +103,36 @@ class FinderTest(Folder):
         (self.root / "sub-01/anat/sub-01_T1w.nii.gz").symlink_to("gone")
         self.assertIn("datalad get", self.find()[1]["sub-01"])
 
+    def test_takes_no_points_of_another_space(self):
+        self.make(T1W, DSEG, TABLE, POINTS.replace("desc", "space-MNI152NLin2009cAsym_desc"))
+        self.assertIn("no load", self.find()[1]["sub-01"])
+
+    def test_names_a_file_that_lies_in_the_folder_of_another(self):
+        self.make(T1W, DSEG, TABLE, POINTS.replace("sub-01_", "sub-02_"))
+        self.assertIn("is by its name of sub-02", self.find()[1]["sub-01"])
+        self.make("sub-03/ses-a/anat/sub-03_ses-b_T1w.nii.gz")
+        self.assertIn("is by its name of ses-b", self.find("03")[1]["sub-03_ses-a"])
+
+    def test_passes_over_folders_that_are_no_participants(self):
+        self.make(T1W, "sub-01_old/anat/sub-01_T1w.nii.gz")
+        finder = Finder(self.root, [])
+        self.assertEqual((finder.participants(), finder.strays()), (["01"], [self.root / "sub-01_old"]))
+
+    def test_sessions_that_are_asked_for_are_not_those_of_none(self):
+        self.make(T1W, DSEG, TABLE, POINTS)
+        self.assertEqual(self.find(sessions=("post",)), ([], {}))
+
+    def test_knows_by_its_sidecar_that_an_image_is_stripped(self):
+        self.make(T1W, DSEG, TABLE, POINTS)
+        self.assertFalse(self.one().skull_stripped)
+        self.make("sub-01/anat/sub-01_T1w.json", text='{"SkullStripped": true}')
+        self.assertTrue(self.one().skull_stripped)
+
     def session(self, name, *kinds):
         files = {"T1w": f"sub-01/ses-{name}/anat/sub-01_ses-{name}_T1w.nii.gz",
                  "dseg": f"derivatives/plan/sub-01/ses-{name}/anat/sub-01_ses-{name}_dseg.nii.gz",
                  "points": f"derivatives/plan/sub-01/ses-{name}/sub-01_ses-{name}_desc-cortex_points.csv"}
-        self.make(*(files[kind] for kind in kinds))
+        self.make(TABLE, *(files[kind] for kind in kinds))
 
     def test_each_session_has_its_own_files(self):
         self.session("a", "T1w", "dseg", "points")
@@ -158,6 +187,14 @@ class PlanTest(Folder):
         plan.write_case(self.root, case, "1.0")
         self.assertNotEqual(file.stat().st_ino, first)
         self.assertIn("files=(--t1 'a b')", file.read_text())
+        self.assertFalse(plan.has_changed(self.root, case))
+        self.make("t1.nii.gz", text="a third one")
+        self.assertTrue(plan.has_changed(self.root, case))
+
+    def test_an_image_whose_compression_is_damaged_has_no_grid(self):
+        file = self.root / "a.nii.gz"
+        file.write_bytes(b"\x1f\x8b\x08\0\0\0\0\0\0\3" + 40 * b"\xff")
+        self.assertEqual(plan.grid(str(file)), ())
 
     def test_what_failed_or_is_gone_is_run_again_with_all_after_it(self):
         stages = ("segment", "discretise", "solve")

@@ -33,10 +33,10 @@ def page_of(out, name):
     return out / f"{name}.html"
 
 
-def publish(out, participant, session, run, known):
+def publish(out, case, run, known):
     """run: the folder of a finished run; known: the folders that BIDS URIs name. What the run says of itself."""
     def target(ending):
-        return file_of(out, participant, session, ending)
+        return file_of(out, case.participant, case.session, ending)
 
     target("").parent.mkdir(parents=True, exist_ok=True)
     for made, ending in FILES.items():
@@ -48,9 +48,9 @@ def publish(out, participant, session, run, known):
     about = {"Sources": [dataset.uri(item["path"], known) for item in record["inputs"]],
              "SpatialReference": "the intraoperative brain, on the grid of the preoperative image"}
     replace_text(target(LABEL_TABLE), label_table(record.get("label_names", {})))
-    replace_text(target(ABOUT_IMAGE), as_json({**about, "SkullStripped": False}))
+    replace_text(target(ABOUT_IMAGE), as_json({**about, "SkullStripped": case.skull_stripped}))
     replace_text(target(ABOUT_LABELS), as_json(about))
-    place(run / "report/index.html", page_of(out, case_name(participant, session)))
+    place(run / "report/index.html", page_of(out, case.name))
     return record
 
 

@@ -26,6 +26,13 @@ class SayVersion(argparse.Action):
         parser.exit()
 
 
+def positive(text):
+    """A whole number from 1 on."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number from 1 on")
+    return int(text)
+
+
 def parser_of(about):
     """about: the command's documentation, which holds its usage."""
     return argparse.ArgumentParser(description=about, usage=argparse.SUPPRESS,
@@ -33,17 +40,17 @@ def parser_of(about):
 
 
 def add_options(parser):
-    parser.add_argument("--jobs", "--n-cpus", "--n_cpus", type=int, metavar="N",
+    parser.add_argument("--jobs", "--n-cpus", "--n_cpus", type=positive, metavar="N",
                         help="cores of this machine, or jobs at a time in a cluster's queue")
-    parser.add_argument("--mem-mb", "--mem_mb", type=int, metavar="MB", help="memory of this machine for all jobs")
-    parser.add_argument("--threads", type=int, metavar="N", help="of each job; the results do not depend on it")
+    parser.add_argument("--mem-mb", "--mem_mb", type=positive, metavar="MB", help="memory of this machine for all jobs")
+    parser.add_argument("--threads", type=positive, metavar="N", help="of each job; the results do not depend on it")
     parser.add_argument("--profile", default="local", metavar="NAME",
                         help="local, slurm or a folder with Snakemake's config.yaml (%(default)s)")
     parser.add_argument("--one-job", action="store_true",
                         help="all stages of a case in one job, not a job a stage: faster where heads are small")
-    parser.add_argument("--per-job", type=int, default=1, metavar="N",
+    parser.add_argument("--per-job", type=positive, default=1, metavar="N",
                         help="cases that share a job of a cluster's queue (%(default)s)")
-    parser.add_argument("--share-samples", type=int, default=1, metavar="N",
+    parser.add_argument("--share-samples", type=positive, default=1, metavar="N",
                         help="the samples of <uncertainty> in N jobs of a case, which follow no other (%(default)s)")
     parser.add_argument("--dry-run", action="store_true", help="say what would be run, and stop")
     parser.add_argument("--quiet", action="store_true", help="no progress")

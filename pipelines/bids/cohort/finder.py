@@ -5,6 +5,7 @@ Labels and loads lie in derivatives: sub-01_dseg.nii.gz or FreeSurfer's mri/apar
 sub-01_desc-cortex_points.csv, or 3D Slicer markups sub-01_desc-before_points.mrk.json and ..._desc-after_points....
 """
 import dataclasses
+import json
 import pathlib
 
 from . import names
@@ -12,7 +13,7 @@ from . import names
 IMAGE = (".nii.gz", ".nii")
 MARKUPS = (".mrk.json", ".fcsv")
 FREESURFER = ("aparc+aseg.mgz", "aparc.DKTatlas+aseg.deep.mgz", "aseg.mgz")
-BEST_LABELS = ("aparcaseg", "aseg")  # fMRIPrep writes three maps a head; these two know the ventricles
+BEST_LABELS = ("aparcaseg", "aseg")  # in FreeSurfer's numbers; fMRIPrep's third map knows no ventricles
 OWN_SPACE = (None, "T1w", "orig")
 
 
@@ -32,6 +33,7 @@ class Case:
     brain_mask: str = ""
     tumour: str = ""
     points: tuple = ()
+    skull_stripped: bool = False
 
 
 class Finder:
@@ -44,7 +46,11 @@ class Finder:
         self.preop_session = preop_session
 
     def participants(self):
-        return sorted(f.name[4:] for f in self.bids.glob("sub-*") if f.is_dir())
+        return sorted(labels_of(self.bids, "sub"))
+
+    def strays(self):
+        """Folders that look like a participant's."""
+        return sorted(f for f in self.bids.glob("sub-*") if f.is_dir() and not names.is_label(f.name[4:]))
 
     def cases(self, participant, sessions=()):
         """Cases of a participant, and the sentences of those that miss something, by name."""
@@ -59,10 +65,9 @@ class Finder:
 
     def _sessions(self, participant, wanted):
         """Those in which there is a T1w or a load; one without a name where there are no sessions at all."""
-        there = {f.name[4:] for root in (self.bids, *self.derivatives)
-                 for f in (root / f"sub-{participant}").glob("ses-*") if f.is_dir()}
+        there = {label for root in (self.bids, *self.derivatives) for label in labels_of(root / f"sub-{participant}", "ses")}
         if not there:
-            return [""]
+            return [] if wanted else [""]
         there.discard(self.preop_session)
         chosen = [s for s in sorted(there) if (not wanted or s in wanted) and self._concerns(participant, s)]
         return chosen or ([] if wanted else [""])
@@ -81,6 +86,7 @@ class Finder:
         if session and self._is_the_only_one(participant, session):
             loads += self._derived(participant, "")
         case = Case(name, participant, session, t1=self._t1(raw, participant))
+        case.skull_stripped = is_stripped(case.t1)
         self._find_labels(case, derived, [names.case_name(participant, each) for each in of_the_image])
         case.tumour = self._one([f for f in self._matching(derived, "mask", IMAGE) if own_space(f)
                                  and names.parse(f.name).entities.get("label") in ("tumor", "tumour")], "mask")
@@ -105,6 +111,9 @@ class Finder:
         case.labels = self._one(maps, "dseg")
         if case.labels:
             case.labels_are = table_of(pathlib.Path(case.labels), self.derivatives)
+            if not case.labels_are:
+                raise Missing(f"{case.labels} has no table of its numbers: put a .tsv of its name with the columns index "
+                              "and name beside it, or dseg.tsv into the folder of derivatives")
             return
         case.labels = self._freesurfer(subjects)
         if case.labels:
@@ -126,8 +135,8 @@ class Finder:
 
     def _points(self, files, name):
         def described(desc, extensions):
-            return self._one([f for f in self._matching(files, "points", extensions)
-                              if names.parse(f.name).entities.get("desc") == desc], "points")
+            return self._one([f for f in self._matching(files, "points", extensions) if own_space(f)
+                              and names.parse(f.name).entities.get("desc") == desc], "points")
 
         table = described("cortex", (".csv",))
         if table:
@@ -157,7 +166,10 @@ class Finder:
     def _one(files, suffix):
         if len(files) > 1:
             raise Missing(f"{files[0]} and {files[1]} would both do; say which by --pick {suffix}:ENTITY-VALUE")
-        return str(files[0]) if files and there(files[0]) else ""
+        if not files or not there(files[0]):
+            return ""
+        check_place(files[0])
+        return str(files[0])
 
 
 def listed(root, participant, session):
@@ -167,6 +179,29 @@ def listed(root, participant, session):
         return []
     folders = [top] + sorted(f for f in top.iterdir() if f.is_dir() and not f.name.startswith("ses-"))
     return [f for folder in folders for f in sorted(folder.iterdir()) if not f.is_dir()]
+
+
+def labels_of(folder, entity):
+    """Those of folders sub-LABEL or ses-LABEL."""
+    return [f.name[len(entity) + 1:] for f in folder.glob(f"{entity}-*")
+            if f.is_dir() and names.is_label(f.name[len(entity) + 1:])]
+
+
+def check_place(file):
+    """A file of another participant or session than its folder's is somebody's mistake."""
+    for entity, label in names.parse(file.name).entities.items():
+        if entity in ("sub", "ses") and f"{entity}-{label}" not in file.parts:
+            raise Missing(f"{file} is by its name of {entity}-{label}, but does not lie in a folder of that name; see "
+                          "whose it is")
+
+
+def is_stripped(t1):
+    """What the image's sidecar says."""
+    try:
+        about = json.loads(pathlib.Path(t1.partition(".nii")[0] + ".json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return False
+    return isinstance(about, dict) and about.get("SkullStripped") is True
 
 
 def own_space(file):
@@ -180,7 +215,7 @@ def there(file):
 
 
 def table_of(labels, roots):
-    """The .tsv that says what a map's numbers are: beside it, or above it by BIDS's inheritance. Empty without one."""
+    """What a map's numbers are: a .tsv beside it, or above it by BIDS's inheritance; FreeSurfer's. Empty: not known."""
     root = next(root for root in roots if root in labels.parents)
     wanted = names.parse(labels.name).entities.items()
     for folder in labels.parents:
@@ -189,4 +224,5 @@ def table_of(labels, roots):
         if tables:
             return max(tables)[1]
         if folder == root:
-            return ""
+            break
+    return "freesurfer" if names.parse(labels.name).entities.get("desc") in BEST_LABELS else ""

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Names of BIDS files: sub-01_ses-a_desc-brain_mask.nii.gz has entities, a suffix and an extension."""
+import re
 from typing import NamedTuple
 
 
@@ -17,6 +18,11 @@ def parse(file_name):
     if len(entities) != len(pairs) or "-" in suffix:
         return None
     return Name(entities, suffix, dot + extension)
+
+
+def is_label(text):
+    """Of a participant or session; sub-01_old is no participant's folder."""
+    return re.fullmatch("[0-9A-Za-z+]+", text) is not None
 
 
 def case_name(participant, session):

@@ -13,6 +13,7 @@ import shlex
 import struct
 import subprocess
 import xml.etree.ElementTree as tree
+import zlib
 from pathlib import Path
 from typing import NamedTuple
 
@@ -41,14 +42,23 @@ class Case(NamedTuple):
 def write_case(work, case, version):
     folder = work / case.name
     folder.mkdir(parents=True, exist_ok=True)
-    states = [(os.stat(file), file) for file in case.inputs if os.path.exists(file)]
-    lines = [f"# {version}", *(f"# {s.st_size} {s.st_mtime_ns} {json.dumps(file)}" for s, file in states),
-             f"scene={shlex.quote(case.scene)}", f"files=({shlex.join(case.words)})",
-             f"options=({shlex.join(set_words(case))})"]
-    text = "\n".join(lines) + "\n"
+    text = "\n".join([f"# {version}", *files_of(case), f"options=({shlex.join(set_words(case))})"]) + "\n"
     file = folder / "case.sh"
     if not file.exists() or file.read_text(encoding="utf-8") != text:
         replace_text(file, text)
+
+
+def files_of(case):
+    """Lines of case.sh: the files as they are now, and what is made of them."""
+    states = [(os.stat(file), file) for file in case.inputs if os.path.exists(file)]
+    return [*(f"# {s.st_size} {s.st_mtime_ns} {json.dumps(file)}" for s, file in states),
+            f"scene={shlex.quote(case.scene)}", f"files=({shlex.join(case.words)})"]
+
+
+def has_changed(work, case):
+    """Whether the case was planned of other files than there are now."""
+    file = work / case.name / "case.sh"
+    return file.exists() and file.read_text(encoding="utf-8").splitlines()[1:-1] != files_of(case)
 
 
 def set_words(case):
@@ -71,7 +81,7 @@ def grid(file):
             return struct.unpack(">3i", head[4:16])
         order = "<" if head[:4] == struct.pack("<i", 348) else ">"
         return struct.unpack(order + "3h", head[42:48])
-    except (OSError, EOFError, struct.error):
+    except (OSError, EOFError, struct.error, zlib.error):
         return ()
 
 
