@@ -74,6 +74,17 @@ json failures(const json& stages) {
   return list;
 }
 
+// Stages whose results are of an earlier run.
+json outdated_of(const json& stages) {
+  json list = json::array();
+  for (const auto& [name, entry] : stages.items()) {
+    if (entry.value("status", "") == "outdated") {
+      list.push_back({{"stage", name}});
+    }
+  }
+  return list;
+}
+
 struct Notes {
   json warnings = json::array();  // without their mark
   json others = json::array();
@@ -115,12 +126,13 @@ json tiles(const PageContent& content, const json& stages, const std::vector<Mea
     return stages.contains(place) ? readable(stages.at(place).get<double>()) : std::string("not known");
   };
   const auto tile = [](const std::string& value, const char* name) { return json{{"value", value}, {"name", name}}; };
+  const bool warped = content.no_image.empty();
   const auto bounded = std::ranges::count_if(measures, [](auto& row) { return row.verdict != Verdict::no_bound; });
   const auto within = std::ranges::count_if(measures, [](auto& row) { return row.verdict == Verdict::within; });
   return json::array({tile(readable(content.largest_displacement) + " mm", "largest displacement"),
                       tile(std::to_string(within) + " of " + std::to_string(bounded), "checks within their bounds"),
                       tile(size("nodes"), "nodes"), tile(size("integration_points"), "integration points"),
-                      tile(readable(seconds) + " s", "from image to warped image"),
+                      tile(readable(seconds) + " s", warped ? "from image to warped image" : "all stages that ran"),
                       tile(readable(memory / 1000) + " GB", "peak memory")});
 }
 
@@ -132,15 +144,25 @@ json figures_of(std::span<Figure> figures) {
   return list;
 }
 
-json comparison(std::vector<Figure>& figures) {
+json comparison(std::vector<Figure>& figures, bool has_opening) {
   if (figures.empty()) {
     return false;
   }
-  json section = {{"depth", readable(depth_of_planes)}, {"rows", json::array()}};
+  json section = {{"opening", has_opening ? json{{"depth", readable(depth_of_planes)}} : json(false)},
+                  {"closed", !has_opening},
+                  {"rows", json::array()}};
   for (std::size_t i = 0; i + 2 < figures.size(); i += 3) {
     section["rows"].push_back({{"figures", figures_of(std::span(figures).subspan(i, 3))}});
   }
   return section;
+}
+
+json surfaces_of(PageContent& content) {
+  json list = figures_of(content.surfaces);
+  for (json& figure : list) {
+    figure["rim"] = content.has_opening;
+  }
+  return list;
 }
 
 json displacement(PageContent& content) {
@@ -149,8 +171,9 @@ json displacement(PageContent& content) {
   }
   return {{"arrows", content.arrow_factor == 1 ? std::string("true to scale")
                                                : "drawn " + readable(content.arrow_factor) + " times too long"},
+          {"opening", content.has_opening},
           {"figures", figures_of(content.displacements)},
-          {"surfaces", figures_of(content.surfaces)}};
+          {"surfaces", surfaces_of(content)}};
 }
 
 // "1.2 mm over the whole brain, 0.8 mm in tumour".
@@ -306,12 +329,13 @@ std::string make_page(PageContent content) {
                               {"simulated", elements.contains("load.simulated")},
                               {"failures", failures(stages)},
                               {"warnings", list_of(std::move(notes.warnings))},
-                              {"no_image", !content.has_image},
+                              {"no_image", content.no_image.empty() ? json(false) : json{{"why", content.no_image}}},
+                              {"outdated", outdated_of(stages)},
                               {"tiles", tiles(content, stages, measures)},
                               {"viewer", turns},
                               {"no_viewer", content.libraries.empty()},
                               {"licences", !content.libraries.empty()},
-                              {"comparison", comparison(content.comparisons)},
+                              {"comparison", comparison(content.comparisons, content.has_opening)},
                               {"displacement", displacement(content)},
                               {"septum", elements.contains("septa") || elements.contains("septum")},
                               {"uncertainty", uncertainty(content, stages)},

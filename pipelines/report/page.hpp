@@ -11,8 +11,9 @@ namespace brainshift::pipelines {
 
 /// What the page shows; parts that are empty are left out.
 struct PageContent {
-  nlohmann::json record;  ///< run.json
-  bool has_image = false;
+  nlohmann::json record;      ///< run.json
+  std::string no_image = {};  ///< why nothing is shown before and after; empty: it is
+  bool has_opening = false;
   double largest_displacement = 0;          ///< mm
   double arrow_factor = 1;                  ///< arrows are drawn so many times too long
   std::vector<Figure> comparisons = {};     ///< before, after, difference; three a plane

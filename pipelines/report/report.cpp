@@ -16,6 +16,7 @@
 #include "pipelines/report/surface_figure.hpp"
 #include "pipelines/report/weight_figure.hpp"
 #include "segmentation/files/make_folder.hpp"
+#include "segmentation/files/refuse.hpp"
 #include "segmentation/files/write_text.hpp"
 
 namespace brainshift::pipelines {
@@ -36,6 +37,7 @@ std::array<const std::vector<Figure>*, 6> all_figures(const PageContent& content
 void draw_pictures(const RunData& run, PageContent& content, const Progress& progress) {
   const View view = make_view(run);
   content.arrow_factor = arrow_factor(view);
+  content.has_opening = view.opening.rows() > 0;
   content.largest_displacement = run.solution->displacement.rowwise().norm().maxCoeff();
   std::vector<std::future<std::vector<Figure>>> comparisons;
   std::vector<std::future<Figure>> displacements;
@@ -66,7 +68,7 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
   for (auto& figure : labels) {
     content.labels.push_back(figure.get());
   }
-  if (!content.libraries.empty() && content.has_image && run.forward) {
+  if (!content.libraries.empty() && content.no_image.empty() && run.forward) {
     report(progress, 0.8, "packing the images");
     std::size_t taken = letters_of(content.libraries) + tables;
     for (const auto* figures : all_figures(content)) {
@@ -77,15 +79,13 @@ void draw_pictures(const RunData& run, PageContent& content, const Progress& pro
   }
 }
 
-}  // namespace
-
-void write_report(const fs::path& run_folder, const fs::path& out, const Progress& progress) {
+void write_pages(const fs::path& run_folder, const fs::path& out, const Progress& progress) {
   report(progress, 0, "reading the run");
   const RunData run = read_run(run_folder);
   make_folder(out);
   PageContent content;
   content.record = run.record;
-  content.has_image = run.t1.has_value() && run.warped.has_value();
+  content.no_image = run.no_image;
   content.libraries = viewer_libraries();
   const auto measures =
       run.record.value(nlohmann::json::json_pointer("/stages/solve/measures"), nlohmann::json::object());
@@ -104,6 +104,16 @@ void write_report(const fs::path& run_folder, const fs::path& out, const Progres
   }
   write_text(out / "index.html", make_page(std::move(content)));
   report(progress, 1, "done");
+}
+
+}  // namespace
+
+void write_report(const fs::path& run_folder, const fs::path& out, const Progress& progress) {
+  try {
+    write_pages(run_folder, out, progress);
+  } catch (const nlohmann::json::exception& fault) {
+    refuse(run_folder / "run.json", std::string("is no record of a run (") + fault.what() + "): run the scene again");
+  }
 }
 
 }  // namespace brainshift::pipelines

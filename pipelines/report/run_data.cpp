@@ -7,6 +7,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "pipelines/checksum/sha256.hpp"
 #include "register/files/register_fields.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/output/solution_file.hpp"
@@ -18,31 +19,61 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr const char* outdated = "outdated";  // made of other options or files than the stages before it
+
 json read_record(const fs::path& file) {
   std::ifstream stream(file);
   if (!stream) {
     throw std::invalid_argument("there is no " + file.string() + ": give the folder of a finished run");
   }
-  try {
-    json record = json::parse(stream);
-    if (record.contains("states")) {
-      throw std::invalid_argument(file.parent_path().string() +
-                                  ": the folder of a sequence; give that of one of its states, states/NAME in it");
-    }
-    return record;
-  } catch (const json::exception& fault) {
-    throw std::invalid_argument(file.string() + " is no run record (" + fault.what() + "): run the scene again");
+  json record = json::parse(stream);
+  if (record.contains("states")) {
+    throw std::invalid_argument(file.parent_path().string() +
+                                ": the folder of a sequence; give that of one of its states, states/NAME in it");
   }
+  if (record.contains("stages")) {
+    for (json& entry : record.at("stages")) {
+      if (entry.value("status", "") == outdated) {
+        entry = {{"status", outdated}};
+      }
+    }
+  }
+  return record;
 }
 
-// The file that came in for a role; empty where the run had none.
-fs::path input_path(const json& record, const std::string& role) {
+// A file that a stage left; empty where the stage is outdated.
+class Artefacts {
+ public:
+  Artefacts(const fs::path& run_folder, const json& record)
+      : run_folder_(run_folder), stages_(record.value("stages", json::object())) {}
+
+  fs::path operator()(const fs::path& file) const {
+    const std::string stage = file.begin()->string();
+    const bool holds = !stages_.contains(stage) || stages_.at(stage).value("status", "") != outdated;
+    return holds ? run_folder_ / file : fs::path();
+  }
+
+ private:
+  const fs::path& run_folder_;
+  json stages_;
+};
+
+// As it was when the run was made; else why there is none.
+std::optional<ScalarImage> read_t1(const json& record, std::string& fault) {
   for (const auto& input : record.value("inputs", json::array())) {
-    if (input.value("role", "") == role) {
-      return input.value("path", "");
+    if (input.value("role", "") == "image.t1") {
+      const fs::path file = input.value("path", "");
+      const bool there = fs::exists(file);
+      if (there && input.value("sha256", "") == sha256_of_file(file)) {
+        return read_image(file);
+      }
+      fault = "The image of this run, " + file.string() + (there ? ", has changed since" : ", is no longer there") +
+              ": the slices show the brain's outline alone.";
+      return std::nullopt;
     }
   }
-  return {};
+  fault = "This run had no image to warp: the slices show the brain's outline alone.";
+  return std::nullopt;
 }
 
 template <class Read>
@@ -66,30 +97,33 @@ RunData read_run(const fs::path& run_folder) {
               .brain = {},
               .solution = {},
               .history = {}};
+  const Artefacts made(run_folder, run.record);
   const auto image = [](const fs::path& file) { return read_image(file); };
-  run.t1 = read_if_there(input_path(run.record, "image.t1"), image);
+  run.t1 = read_t1(run.record, run.no_image);
   // The field takes as long to read as all the others together.
   auto forward = std::async(std::launch::async, [&] {
-    return read_if_there(run_folder / "register/preop_to_intraop.nii.gz",
+    return read_if_there(made("register/preop_to_intraop.nii.gz"),
                          [](const fs::path& file) { return read_vector_image(file); });
   });
-  run.warped = read_if_there(run_folder / "register/warped.nii.gz", image);
+  run.warped = read_if_there(made("register/warped.nii.gz"), image);
   const auto label_map = [](const fs::path& file) { return read_label_map(file); };
-  run.labels = read_if_there(run_folder / "segment/labels.nii.gz", label_map);
-  run.closed = read_if_there(run_folder / "segment/closed.nii.gz", label_map);
-  run.brain = read_if_there(run_folder / "segment/brain.vtp", [](const fs::path& file) { return read_surface(file); });
-  run.solution =
-      read_if_there(run_folder / "solve/solution.vtu", [](const fs::path& file) { return read_solution(file); });
-  run.septum = read_if_there(run_folder / "solve/septum.vtp", [](const fs::path& file) { return read_surface(file); });
-  run.history = text_of(run_folder / "solve/history.csv");
-  run.load = text_of(run_folder / "solve/load.csv");
-  run.uncertainty = text_of(run_folder / "solve/uncertainty.csv");
-  if (const fs::path file = run_folder / "solve/uncertainty.vtu"; run.solution && fs::exists(file)) {
+  run.labels = read_if_there(made("segment/labels.nii.gz"), label_map);
+  run.closed = read_if_there(made("segment/closed.nii.gz"), label_map);
+  run.brain = read_if_there(made("segment/brain.vtp"), [](const fs::path& file) { return read_surface(file); });
+  run.solution = read_if_there(made("solve/solution.vtu"), [](const fs::path& file) { return read_solution(file); });
+  run.septum = read_if_there(made("solve/septum.vtp"), [](const fs::path& file) { return read_surface(file); });
+  run.history = text_of(made("solve/history.csv"));
+  run.load = text_of(made("solve/load.csv"));
+  run.uncertainty = text_of(made("solve/uncertainty.csv"));
+  if (const fs::path file = made("solve/uncertainty.vtu"); run.solution && fs::exists(file)) {
     run.deviation = registration::read_deviations(file);
   }
-  run.warped_labels = read_if_there(run_folder / "register/warped_labels.nii.gz", label_map);
-  run.jacobian = read_if_there(run_folder / "register/jacobian.nii.gz", image);
+  run.warped_labels = read_if_there(made("register/warped_labels.nii.gz"), label_map);
+  run.jacobian = read_if_there(made("register/jacobian.nii.gz"), image);
   run.forward = forward.get();
+  if (run.t1 && !run.warped) {
+    run.no_image = "No image was warped: of the stage register there is no result of this run.";
+  }
   return run;
 }
 

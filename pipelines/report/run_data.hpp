@@ -15,7 +15,7 @@ namespace brainshift::pipelines {
 
 /// What a run folder holds that the report shows. Parts that the run did not make are empty.
 struct RunData {
-  nlohmann::json record;  ///< run.json
+  nlohmann::json record;  ///< run.json, where outdated stages have no more than that
   std::optional<ScalarImage> t1;
   std::optional<ScalarImage> warped;
   std::optional<VectorImage> forward;  ///< preop point -> displacement
@@ -30,9 +30,12 @@ struct RunData {
   std::string uncertainty = {};              ///< text of solve/uncertainty.csv
   std::vector<double> deviation = {};        ///< of the displacement at the solution's nodes, mm; none: not sampled
   std::optional<Surface> septum = {};        ///< rigid sheets along which tissue slid
+  std::string no_image = {};                 ///< why there are no images before and after; empty: there are
 };
 
-/// Throws std::invalid_argument, naming the file, when the folder holds no run.json or something that cannot be read.
+/// What an outdated stage left, or another T1 than the run's in its place, is not taken. Throws std::invalid_argument,
+/// naming the file, when the folder holds no run.json or something that cannot be read, nlohmann::json::exception when
+/// run.json is no record of a run.
 RunData read_run(const std::filesystem::path& run_folder);
 
 /// What time stepping was for, from run.json's options; relaxation where they do not say.

@@ -30,8 +30,8 @@ struct Slice {
 
 /// What all pictures of a run share.
 struct View {
-  Points opening;                     ///< loaded nodes, mm; no row where nothing is loaded
-  Eigen::Vector3d opening_centre;     ///< on the surface, or the brain's centre where nothing is loaded
+  Points opening;                     ///< loaded nodes, mm; no row where none or all around are loaded
+  Eigen::Vector3d opening_centre;     ///< on the surface; the brain's centre without an opening
   Eigen::Vector3d inward;             ///< unit vector from the opening into the brain
   double opening_reach;               ///< a place nearer than this to a loaded node is in the opening, mm
   Eigen::Vector3d focus;              ///< under the opening's centre

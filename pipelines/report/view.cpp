@@ -54,9 +54,19 @@ std::pair<double, double> grey_window(const std::array<Slice, 3>& slices) {
   return {low, *high > low ? low + headroom * (*high - low) : low + 1};
 }
 
+// Where a load is all around the brain, as a whole field is, nothing is open: its middle lies deep inside.
+bool is_all_around(const Points& loaded, const Surface& brain) {
+  const Vector3d middle = loaded.colwise().mean().transpose();
+  const double radius = (loaded.rowwise() - middle.transpose()).rowwise().norm().mean();
+  return (nearest_vertex(brain, middle) - middle).norm() > 0.7 * radius;  // half a ball: 0.6
+}
+
 void find_opening(const RunData& run, View& view) {
   const Surface& brain = *run.brain;
   view.opening = loaded_positions(*run.solution);
+  if (view.opening.rows() > 0 && is_all_around(view.opening, brain)) {
+    view.opening.resize(0, 3);
+  }
   const auto& spacing = run.solution->spacing;
   view.opening_reach = spacing.empty()
                            ? 5.0

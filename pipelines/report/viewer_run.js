@@ -65,7 +65,7 @@ async function unpackedRun(facts) {
     vertices: await numbers("vertices", Float32Array), triangles: await numbers("triangles", Uint32Array),
     measured: records(facts.load).map((row) => ({
       at: [row.x, row.y, row.z], shift: [row.ux, row.uy, row.uz],
-      deviation: row.sigma_x && length([row.sigma_x, row.sigma_y, row.sigma_z]),
+      deviation: row.sigma_x && length([row.sigma_x, row.sigma_y, row.sigma_z]) / Math.sqrt(3),
     })),
     landmarks: records(facts.uncertainty).filter((row) => row.xx > 0).map((row) => ({
       at: [row.x, row.y, row.z], deviation: Math.sqrt(row.xx + row.yy + row.zz),
@@ -168,7 +168,7 @@ function wordsOfPoints(run, source) {
   if (near) {
     const computed = run.displacementAt(near.at);
     parts.push(`Nearest measured point, ${mm(near.far)} away: measured ${mm(length(near.shift))}`,
-      near.deviation ? `(standard deviation ${mm(near.deviation)}),` : "and",
+      near.deviation ? `(standard deviation ${mm(near.deviation)} along an axis),` : "and",
       `computed ${mm(length(computed))}; they differ by ${mm(length(difference(computed, near.shift)))}.`);
   }
   return parts;

@@ -5,8 +5,10 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "discretise/interface/background_cells.hpp"
+#include "discretise/interface/node_cloud.hpp"
+#include "pipelines/checksum/sha256.hpp"
 #include "pipelines/runner/own_folder.hpp"
-#include "pipelines/runner/sha256.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/image/image.hpp"
 #include "solve/output/solution_file.hpp"

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-#include "pipelines/runner/sha256.hpp"
+#include "pipelines/checksum/sha256.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift::pipelines {

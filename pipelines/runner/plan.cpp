@@ -5,10 +5,10 @@
 #include <set>
 #include <utility>
 
+#include "pipelines/checksum/sha256.hpp"
 #include "pipelines/report/report.hpp"
 #include "pipelines/runner/external_stage.hpp"
 #include "pipelines/runner/json_text.hpp"
-#include "pipelines/runner/sha256.hpp"
 #include "pipelines/scene/check_parts.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/field_load.hpp"

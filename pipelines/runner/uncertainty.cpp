@@ -11,7 +11,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "pipelines/runner/sha256.hpp"
+#include "pipelines/checksum/sha256.hpp"
 #include "register/field/nodal_values.hpp"
 #include "segmentation/files/not_written.hpp"
 #include "segmentation/files/vtu_file.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/update_run.hpp"
 
+#include "pipelines/checksum/sha256.hpp"
 #include "pipelines/runner/impose.hpp"
 #include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/measure_warnings.hpp"
@@ -8,7 +9,6 @@
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/read_run_record.hpp"
 #include "pipelines/runner/run_record.hpp"
-#include "pipelines/runner/sha256.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
 #include "segmentation/files/make_folder.hpp"

@@ -8,6 +8,7 @@
 The module Brain Shift shows its runs by show(), too.
 """
 import csv
+import hashlib
 import json
 import os
 import shutil
@@ -35,15 +36,24 @@ def record_of(run):
 
 
 def files_of(run):
-    """The files that the run has, by what they are; t1 is where it was, or in the folder's inputs/."""
-    run = Path(run)
-    found = {what: run / name for what, name in FILES.items() if (run / name).is_file()}
-    for given in record_of(run).get("inputs", []):
+    """The files of the run's last state, by what they are; t1 is where it was, or in the folder's inputs/."""
+    run, record = Path(run), record_of(run)
+    outdated = {name for name, stage in record.get("stages", {}).items() if stage.get("status") == "outdated"}
+    found = {what: run / name for what, name in FILES.items()
+             if (run / name).is_file() and name.partition("/")[0] not in outdated}
+    for given in record.get("inputs", []):
         places = (run / "inputs" / Path(given["path"]).name, Path(given["path"]))
         for place in places if given["role"] == "image.t1" else ():
-            if place.exists():
+            if is_the_same(place, given):
                 found.setdefault("t1", place)
     return found
+
+
+def is_the_same(place, given):
+    """Whether a file still is the one that came in; of a folder, whether it is there."""
+    if place.is_file() and "sha256" in given:
+        return hashlib.sha256(place.read_bytes()).hexdigest() == given["sha256"]
+    return place.exists()
 
 
 def measured_points(file):

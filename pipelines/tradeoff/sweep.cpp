@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "pipelines/checksum/sha256.hpp"
 #include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run.hpp"
-#include "pipelines/runner/sha256.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/describe_scene.hpp"

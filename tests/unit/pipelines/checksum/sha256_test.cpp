@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipelines/runner/sha256.hpp"
+#include "pipelines/checksum/sha256.hpp"
 
 #include <gtest/gtest.h>
 

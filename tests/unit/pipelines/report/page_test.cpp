@@ -32,7 +32,7 @@ PageContent full_content() {
                         {"peak_memory_mb", 2500.0},
                         {"sizes", {{"nodes", 12000}, {"integration_points", 34000}}},
                         {"measures", {{"converged", false}, {"brain", {{"closed", true}}}}}}}}}};
-  content.has_image = true;
+  content.has_opening = true;
   content.comparisons = {figure("b"), figure("a"), figure("d")};
   content.displacements = {figure("u")};
   content.surfaces = {figure("surface")};
@@ -90,7 +90,7 @@ TEST(Page, ShowsWhatTheRunMeasured) {
 }
 
 TEST(Page, LeavesOutWhatThereIsNot) {
-  const std::string page = make_page({.record = json::object()});
+  const std::string page = make_page({.record = json::object(), .no_image = "There is no image to warp."});
   for (const char* heading : {"Before, after", "<h2>Displacement", "converged", "simulated", "did not finish"}) {
     EXPECT_FALSE(has(page, heading)) << heading;
   }

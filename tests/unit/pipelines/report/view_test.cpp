@@ -31,6 +31,18 @@ TEST(View, TheBrainSetsTheGreys) {
   EXPECT_LT(view.brightest, 1.15 * 30);
 }
 
+TEST(View, ALoadAllAroundIsNoOpening) {
+  RunData run = small_run();
+  const Points& vertices = run.brain->vertices;
+  run.solution->positions = vertices;
+  run.solution->displacement = Points::Constant(vertices.rows(), 3, 1.0);
+  run.solution->reaction_force = Points::Ones(vertices.rows(), 3);
+  run.solution->spacing.assign(static_cast<std::size_t>(vertices.rows()), 5.0);
+  const View view = make_view(run);
+  EXPECT_EQ(view.opening.rows(), 0);
+  EXPECT_NEAR(view.slices[0].plane.corner.z(), vertices.col(2).mean(), 1e-9);
+}
+
 TEST(View, WithoutALoadThePlanesCutTheMiddle) {
   RunData run = small_run();
   run.solution->reaction_force.setZero();

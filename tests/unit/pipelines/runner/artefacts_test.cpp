@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipelines/runner/sha256.hpp"
+#include "pipelines/checksum/sha256.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "tests/unit/pipelines/run_folder.hpp"
 #include "tests/unit/segmentation/shapes.hpp"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "pipelines/runner/sha256.hpp"
+#include "pipelines/checksum/sha256.hpp"
 #include "tests/unit/expect_parts.hpp"
 #include "tests/unit/pipelines/run_folder.hpp"
 
