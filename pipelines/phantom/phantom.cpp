@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "segmentation/options/values.hpp"
+
 namespace brainshift::pipelines {
 
 namespace {
@@ -73,6 +75,11 @@ const OptionTable<PhantomOptions>& phantom_options() {
 
 Phantom make_phantom(const PhantomOptions& options) {
   check_table(phantom_options(), options);
+  constexpr double smallest = 24;  // mm across; what reads it takes edges from 0.5 mm on
+  if (!(options.size * options.spacing >= smallest)) {
+    throw std::invalid_argument("size times spacing is " + write_number(options.size * options.spacing) +
+                                " mm, at least " + write_number(smallest) + " are needed; give more or larger voxels");
+  }
   const Vector3d centre(-11, 23, 37);  // away from the origin, as scanners have it
   const Head head = make_head(centre, options.size * options.spacing / natural_extent, options.csf_gap);
   const Opening opening = make_opening(head);

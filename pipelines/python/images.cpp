@@ -71,8 +71,12 @@ void check_values(const Image<std::array<float, 3>>& image, const py::array&, co
 }
 
 /// What numpy wrapped or rounded is not what was given.
+bool same_numbers(const py::array& given, const py::object& taken) {
+  return py::module_::import("numpy").attr("array_equal")(given, taken).cast<bool>();
+}
+
 void check_values(const LabelMap&, const py::array& given, const py::object& taken) {
-  if (!py::module_::import("numpy").attr("array_equal")(given, taken).cast<bool>()) {
+  if (!same_numbers(given, taken)) {
     throw std::invalid_argument("labels must be whole numbers from 0 to 65535; round the label map, or map its labels");
   }
 }
@@ -155,10 +159,14 @@ Points points_of(const RowMajor<double>& array, const std::string& name) {
   return points;
 }
 
-Surface surface_of(const RowMajor<double>& vertices, const RowMajor<std::int32_t>& triangles) {
+Surface surface_of(const RowMajor<double>& vertices, const py::array& given) {
   Surface surface{points_of(vertices, "vertices"), {}};
-  if (triangles.ndim() != 2 || triangles.shape(1) != 3) {
+  if (given.ndim() != 2 || given.shape(1) != 3) {
     throw std::invalid_argument("triangles must be an array of (m, 3) rows of vertices");
+  }
+  const auto triangles = given.cast<RowMajor<std::int32_t>>();
+  if (!same_numbers(given, triangles)) {
+    throw std::invalid_argument("triangles must be whole numbers, rows of vertices");
   }
   surface.triangles = Eigen::Map<const Triangles>(triangles.data(), triangles.shape(0), 3);
   if (surface.triangles.size() > 0 &&
@@ -203,13 +211,16 @@ std::string option_text(const py::handle& value) {
   if (value.is_none()) {
     return "";
   }
+  if (py::isinstance<py::array>(value) || py::hasattr(value, "dtype")) {  // numpy's numbers and truth values, too
+    return option_text(value.attr("tolist")());
+  }
   if (py::isinstance<py::bool_>(value)) {
     return value.cast<bool>() ? "yes" : "no";
   }
   if (py::isinstance<py::str>(value)) {
     return value.cast<std::string>();
   }
-  if (py::isinstance<py::sequence>(value) || py::isinstance<py::array>(value)) {
+  if (py::isinstance<py::sequence>(value)) {
     std::string text;
     for (const py::handle item : value) {
       text += (text.empty() ? "" : " ") + option_text(item);

@@ -30,11 +30,12 @@ std::vector<std::uint16_t> tissue_labels(const Scene& scene) {
 
 /// Strain jumps where stiffness does. Where that changes less than threefold, nodes are as well used elsewhere.
 std::set<std::pair<std::int32_t, std::int32_t>> alike_labels(const std::vector<Tissue>& tissues) {
+  constexpr double threefold = 3;
   std::set<std::pair<std::int32_t, std::int32_t>> alike;
   for (const Tissue& a : tissues) {
     for (const Tissue& b : tissues) {
       const double of_a = solve::shear_modulus(a.material), of_b = solve::shear_modulus(b.material);
-      if (a.label < b.label && !solve::much_stiffer(of_a, of_b) && !solve::much_stiffer(of_b, of_a)) {
+      if (a.label < b.label && !solve::is_times(threefold, of_a, of_b) && !solve::is_times(threefold, of_b, of_a)) {
         alike.emplace(a.label, b.label);
       }
     }

@@ -165,6 +165,13 @@ class Writer {
                                           : "its numbers are not FreeSurfer's; give --labels-are with a table of "
                                             "them, or write a scene with a <tissue labels=...> for each tissue");
     }
+    constexpr double largest_ventricles = 250e3;  // mm³; segmentations with 1 grey and 2 white matter have more there
+    if (const auto found = volumes_.find(own::ventricles);
+        found != volumes_.end() && found->second > largest_ventricles) {
+      refuse(files_.labels, "its label 2 holds " + in_millilitres(found->second) +
+                                ", more than ventricles do, so its numbers are others than the program's own; give "
+                                "--labels-are with a table of them");
+    }
     take(files_.labels,
          "a label map with 1 parenchyma, 2 ventricles, 3 tumour, 4 fluid, 5 skull, 6 skin; correct the "
          "tissues if it is another");

@@ -219,9 +219,14 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
         slicer.util.setSliceViewerLayers(foreground=shown, foregroundOpacity=value)
 
     def on_move(self):
+        shift = self.nodes["transform"]
         for node in self.moved.checkedNodes():
-            if node not in self.nodes.values() or node is self.nodes.get("t1"):
-                node.SetAndObserveTransformNodeID(self.nodes["transform"].GetID())
+            if node in self.nodes.values() and node is not self.nodes.get("t1"):
+                continue
+            while (above := node.GetParentTransformNode()) is not None and above is not shift:
+                node = above  # a registration of the node's own comes before the shift
+            if above is None:
+                node.SetAndObserveTransformNodeID(shift.GetID())
 
     def on_report(self):
         qt.QDesktopServices.openUrl(qt.QUrl.fromLocalFile(str(open_in_slicer.files_of(self.run)["report"])))

@@ -186,6 +186,26 @@ std::vector<FacePair> ordered(std::span<const FacePair> pairs, const std::vector
   return result;
 }
 
+/// Row sums of the consistent mass, so that gravity moves all nodes of a free body alike. Those of quadratic functions
+/// may be none or less: a node then gets a tenth of its even share, which sets the step.
+std::vector<double> mass_in_time(const PointBlocks& blocks, const BodyParts& parts) {
+  constexpr double least = 0.1;
+  const MaterialTable& materials = parts.materials;
+  std::vector<double> mass(parts.cloud.size(), 0.0);
+  for (std::size_t i = 0; i < parts.points.size(); ++i) {
+    const double of_point =
+        materials.density[static_cast<std::size_t>(materials.row_of_point[i])] * parts.points.volume[i];
+    const ShapeRow row = parts.point_rows[i];
+    for (std::size_t b = 0; b < row.size(); ++b) {
+      mass[static_cast<std::size_t>(row.node[b])] += of_point * row.value[b];
+    }
+  }
+  const std::vector<double> even = physical_mass(blocks, materials.density);
+  std::transform(mass.begin(), mass.end(), even.begin(), mass.begin(),
+                 [](double m, double share) { return std::max(m, least * share); });
+  return mass;
+}
+
 }  // namespace
 
 Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& parts, LayOutExtras extras) {
@@ -219,7 +239,7 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
       .external = external_force(model, parts, options.dynamics),
   };
   if (in_time) {
-    body.mass = physical_mass(body.points, parts.materials.density);
+    body.mass = mass_in_time(body.points, parts);
   }
   body.essential.count_as_held(extras.held);
   if (model.skull) {

@@ -27,9 +27,13 @@ double bulk_modulus(const Material& material) {
   return 2 * shear_modulus(material) * (1 + nu) / (3 * (1 - 2 * nu));
 }
 
+bool is_times(double times, double shear_modulus, double other) {
+  constexpr double rounding = 1e-9;
+  return shear_modulus >= (1 - rounding) * times * other;
+}
+
 bool much_stiffer(double shear_modulus, double other) {
-  constexpr double much = 3, rounding = 1e-9;  // exactly three times are so in any unit
-  return shear_modulus >= (1 - rounding) * much * other;
+  return is_times(10, shear_modulus, other);
 }
 
 double stiffness_contrast(const std::map<std::int32_t, Material>& materials) {

@@ -55,7 +55,12 @@ double shear_modulus(const Material& material);
 /// K at rest, Pa: 2µ(1 + ν) / 3(1 − 2ν) = E / 3(1 − 2ν).
 double bulk_modulus(const Material& material);
 
-/// Whether the stiffness changes so much between two tissues that strain jumps there: threefold. Moduli in Pa.
+/// Whether a shear modulus is so many times another or more, in any unit.
+bool is_times(double times, double shear_modulus, double other);
+
+/// Whether a tissue is so much stiffer that it does not see the nodes of the other: tenfold. Of 150 small random
+/// problems 13 have tissues of three to ten times: without, their 95 % errors are 0.75 times as large, as a stiff part
+/// of a few nodes, as a tumour, then turns too easily.
 bool much_stiffer(double shear_modulus, double other);
 
 /// The largest shear modulus at rest over the least.

@@ -22,6 +22,7 @@ constexpr int candidates = 41;                             // of the weight
 constexpr int amplitudes = 16;                             // of a smooth motion
 constexpr std::array lengths = {0.3, 0.45, 0.7, 1., 1.5};  // of it, over the points' distance from their middle
 constexpr double least_gain = 3;                           // in the likelihood, of its three numbers
+constexpr double unseen_shift = 5;  // mm, an axis: of an opened cortex, before anything is measured
 
 /// low … high, geometric.
 std::vector<double> steps_between(double low, double high, int count) {
@@ -30,6 +31,22 @@ std::vector<double> steps_between(double low, double high, int count) {
     steps.push_back(low * std::pow(high / low, static_cast<double>(i) / (count - 1)));
   }
   return steps;
+}
+
+/// Root mean square of the distance from their middle.
+double extent_of(const Points& sites) {
+  const Points away = sites.rowwise() - sites.colwise().mean();
+  return std::sqrt(away.squaredNorm() / static_cast<double>(away.rows()));
+}
+
+/// What counts of standard deviations: one that is large tells nothing, and must not count for the others.
+double usual_sigma(const Points& sigma) {
+  return 1 / std::sqrt(sigma.cwiseAbs2().cwiseInverse().mean());
+}
+
+/// Whether a motion of the opening cannot be told from the patient's registration, which is found beside it.
+bool hides_motion(const Response& response) {
+  return response.rigid.cols() > 0 && !response.free && response.sites.rows() > 0;
 }
 
 /// What the first of the measured points say of the prior.
@@ -43,7 +60,7 @@ class Likelihood {
         variance_(stacked_rows(sigma.topRows(size_ / 3)).cwiseAbs2()),
         rigid_(response.rigid.topRows(size_)) {
     const double answer = answers().diagonal().mean();
-    const double least = 0.1 * sigma.mean(), most = std::max(10 * displacement.cwiseAbs().maxCoeff(), 2 * least);
+    const double least = 0.1 * usual_sigma(sigma), most = std::max(10 * displacement.cwiseAbs().maxCoeff(), 2 * least);
     weights_ = steps_between(least * least / answer / millijoule, most * most / answer / millijoule, candidates);
     amplitudes_ = steps_between(least, most, amplitudes);
     amplitudes_.insert(amplitudes_.begin(), 0);
@@ -60,7 +77,7 @@ class Likelihood {
       likeliest = std::max(likeliest, likely);
     }
     plain.weight = weights_[static_cast<std::size_t>(chosen)];
-    return response_.sites.rows() > 0 ? with_motion(plain, likeliest, chosen) : plain;
+    return response_.sites.rows() > 0 && !hides_motion(response_) ? with_motion(plain, likeliest, chosen) : plain;
   }
 
   /// Each weight, that of the fit among them, beside its smooth motion.
@@ -119,8 +136,7 @@ class Likelihood {
 
   MeasuredFit with_motion(MeasuredFit fit, double plain, int chosen) const {
     double likeliest = plain + least_gain;
-    const Points away = response_.sites.rowwise() - response_.sites.colwise().mean();
-    const double extent = std::sqrt(away.squaredNorm() / static_cast<double>(away.rows()));
+    const double extent = extent_of(response_.sites);
     const Eigen::JacobiSVD<Eigen::MatrixXd> main(displacement_, Eigen::ComputeFullV);
     const Eigen::Vector3d direction = main.matrixV().col(0);
     for (const double share : lengths) {
@@ -202,6 +218,24 @@ class Likelihood {
   std::vector<double> weights_, amplitudes_;  // mJ, mm
 };
 
+/// By how much what was measured departs from prior and noise. Of components whose σ is far from the usual one nothing
+/// is said: they agree with whatever there is.
+double noise_factor(const Prior& prior, const Eigen::MatrixXd& rigid, const Eigen::VectorXd& d,
+                    const Eigen::VectorXd& variance, double usual) {
+  constexpr double far_off = 3;
+  std::vector<Eigen::Index> telling;
+  for (Eigen::Index i = 0; i < d.size(); ++i) {
+    if (variance[i] <= far_off * far_off * usual * usual) {
+      telling.push_back(i);
+    }
+  }
+  const Eigen::MatrixXd whole = prior.between(0, d.size(), 0, d.size());
+  const MeasuredGaussian of_these(whole(telling, telling), rigid(telling, Eigen::all), d(telling), variance(telling));
+  const double freedom = static_cast<double>(telling.size()) - static_cast<double>(rigid.cols());
+  constexpr double given = 3;  // what was given of the noise counts as much as one measured point
+  return freedom > 0 ? std::sqrt((given + of_these.squares) / (given + freedom)) : 1;
+}
+
 }  // namespace
 
 MeasuredFit choose_weight(const Response& response, const Points& displacement, const Points& sigma, double weight) {
@@ -221,11 +255,15 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
   }
   const Prior prior(response, fit.weight, fit.smooth);
   const MeasuredGaussian chosen(prior.between(0, m, 0, m), response.rigid.topRows(m), d, variance);
-  constexpr double given = 3;  // what was given of the noise counts as much as one measured point
-  const double factor = (given + chosen.squares) / (given + freedom);
-  fit.noise_factor = std::sqrt(factor);
+  fit.noise_factor = noise_factor(prior, response.rigid.topRows(m), d, variance, usual_sigma(sigma));
   fit.motion = chosen.motion;
   fit.motion_deviation = fit.noise_factor * chosen.motion_deviation();
+  if (hides_motion(response)) {
+    fit.hidden = {lengths.back() * extent_of(response.sites), unseen_shift, unseen_shift, Eigen::Vector3d::UnitX()};
+    const Prior doubt(response, fit.weight, fit.hidden);
+    fit.motion_deviation =
+        MeasuredGaussian(doubt.between(0, m, 0, m), response.rigid.topRows(m), d, variance).motion_deviation();
+  }
   if (fit.smooth.length > 0) {
     const Eigen::VectorXd smoothed = d - variance.cwiseProduct(chosen.push);
     fit.smoothed = Eigen::Map<const Points>(smoothed.data(), displacement.rows(), 3);
@@ -238,7 +276,7 @@ Posterior::Posterior(const Response& response, const Points& displacement, const
       measured_(displacement.size()),
       factor_(fit.noise_factor * fit.noise_factor),
       likely_(response, fit.weight, fit.smooth),
-      careful_(response, fit.weight, fit.smooth, Alike::matern),
+      careful_(response, fit.weight, hides_motion(response) ? fit.hidden : fit.smooth, Alike::matern),
       answer_(likely_.between(0, measured_, 0, measured_), response.rigid.topRows(measured_),
               stacked_rows(displacement), stacked_rows(sigma).cwiseAbs2()),
       doubt_(careful_.between(0, measured_, 0, measured_), response.rigid.topRows(measured_),

@@ -43,7 +43,8 @@ Response MeasuredPoints::response(const ShapeRows& rows, const Points& places) c
 Response MeasuredPoints::response_and_motion(const ShapeRows& rows, const Points& places) const {
   Response response = this->response(rows, places);
   const Measurement& m = *conditions.measured;
-  if (m.registration_unknown || m.cortex.rows() == 0 || m.weight > 0) {
+  const bool all_rigid_is_registration = m.registration_unknown && response.free;
+  if (all_rigid_is_registration || m.cortex.rows() == 0 || (m.weight > 0 && !m.registration_unknown)) {
     return response;
   }
   std::vector<Eigen::Index> on_cortex;  // rows

@@ -109,6 +109,8 @@ class Faults(WithFolder):
         self.refused("not finite", ValueError, brainshift.ScalarImage, ones * np.nan, eye)
         self.refused("three dimensions", ValueError, brainshift.ScalarImage, np.ones((4, 4)), eye)
         self.refused("no row of vertices", ValueError, brainshift.Surface, np.eye(3), [[0, 1, 3]])
+        for corner in (1.7, 2**32 + 1):
+            self.refused("whole numbers", ValueError, brainshift.Surface, np.eye(3), np.array([[0, corner, 2]]))
         self.refused("as many rows", ValueError, brainshift.Load, np.ones((3, 3)), np.ones((2, 3)))
         self.refused("label 2 counts as brain", ValueError, brainshift.segment, brainshift.LabelMap(ones, eye))
         self.refused("no-scene.xml", ValueError, brainshift.run, self.folder / "no-scene.xml", self.folder / "out")

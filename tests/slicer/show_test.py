@@ -217,11 +217,16 @@ class Panel(unittest.TestCase):
         self.assertTrue(self.panel.overlay.enabled and self.panel.report.enabled)
         self.assertGreaterEqual(self.panel.table.setRowCount.call_args[0][0], 6)
 
-        other = MagicMock()
-        self.panel.moved.checkedNodes.return_value = [other, self.panel.nodes["warped"]]
-        self.panel.on_move()
         transform = self.panel.nodes["transform"]
-        other.SetAndObserveTransformNodeID.assert_called_once_with(transform.GetID())
+        other, registered, registration, moved = MagicMock(), MagicMock(), MagicMock(), MagicMock()
+        for node, parent in ((other, None), (registered, registration), (registration, None), (moved, transform)):
+            node.GetParentTransformNode.return_value = parent
+        self.panel.moved.checkedNodes.return_value = [other, registered, moved, self.panel.nodes["warped"]]
+        self.panel.on_move()
+        for node in (other, registration):
+            node.SetAndObserveTransformNodeID.assert_called_once_with(transform.GetID())
+        for node in (registered, moved):
+            node.SetAndObserveTransformNodeID.assert_not_called()
         self.panel.nodes["warped"].SetAndObserveTransformNodeID.assert_not_called()
         self.panel.on_overlay(0.4)
         layers = self.stub.slicer.util.setSliceViewerLayers

@@ -25,6 +25,7 @@ SOLVE_ROOMS = [
 ] + ["solve"]
 MOST_HEADERS_OF_SOLVE = 15
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+OTHERWISE = re.compile(r'^\s*#\s*include\s+(?:<((?:' + "|".join(STAGES) + r')/[^>]+)>|"([^"]*\.\./[^"]*)")', re.MULTILINE)
 
 
 def read_includes(root):
@@ -101,6 +102,9 @@ def arrows_up(includes, floors, name_of):
 
 def faults(root):
     includes = read_includes(root)
+    for file in includes:
+        for names in OTHERWISE.findall((root / file).read_text()):
+            yield f"{file} includes {''.join(names)}: a file of ours is named from the root, in quotes"
     yield from arrows_up(includes, STAGES, lambda f: f.split("/")[0])
     yield from arrows_up(includes, SOLVE_ROOMS, folder)
     for file, others in sorted(includes.items()):

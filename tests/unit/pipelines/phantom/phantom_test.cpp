@@ -48,6 +48,8 @@ TEST(Phantom, HasItsLandmarksInTheBrain) {
 TEST(Phantom, RefusesOptionsOutOfRange) {
   EXPECT_EQ(refusal([] { make_phantom({.size = 23}); }), "size is '23', but must be a whole number from 24 to 1024");
   EXPECT_NE(refusal([] { make_phantom({.spacing = 0.1}); }).find("spacing is '0.1'"), std::string::npos);
+  EXPECT_NE(refusal([] { make_phantom({.size = 24, .spacing = 0.25}); }).find("size times spacing is 6 mm"),
+            std::string::npos);
   EXPECT_NE(refusal([] { make_phantom({.csf_gap = 4.5}); }).find("(mm)"), std::string::npos);
 }
 

@@ -73,6 +73,17 @@ TEST_F(MakeScene, OfOwnNumbersNamesTheTissuesAndTheSkull) {
   EXPECT_EQ(scene.image.skull_label, 5);
 }
 
+TEST_F(MakeScene, RefusesVentriclesThatAreLargerThanAny) {
+  const std::string fault =
+      refusal({.t1 = {},
+               .labels = labels("grey_and_white.nii.gz", {0, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2}),
+               .labels_are = {},
+               .brain_mask = {},
+               .tumour = {},
+               .points = {write_load()}});
+  expect_parts(fault, {"grey_and_white.nii.gz", "label 2 holds", "more than ventricles do", "--labels-are"});
+}
+
 TEST_F(MakeScene, OfAMapWithATableNamesTheTable) {
   const auto map = labels("sub-1_dseg.nii.gz", {0, 40000, 40000, 40000, 7, 0});
   std::ofstream(folder_ / "own.txt") << "40000 Brain\n7 Ventricle\n";

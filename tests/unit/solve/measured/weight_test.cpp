@@ -154,6 +154,40 @@ TEST(SmoothMotion, OfTheOpeningIsFoundWhereThereIsOneAndOnlyThere) {
   EXPECT_LE(found, 1) << "of ten that are rough alone";
 }
 
+// What is said not to be known must say nothing, of the weight or of the noise.
+TEST(Weight, DoesNotDependOnHowLittleAFewPointsTell) {
+  std::mt19937 random(4);
+  const Points places = test::random_points(30, 100);
+  const Response response = rough_response(places);
+  const Points noise = 0.3 * Eigen::Map<const Points>(normals(90, random).data(), 30, 3);
+  const Points d = smoothly_drawn(response, {50, 4, 0.3, Eigen::Vector3d::UnitZ()}, random) + noise;
+  Points sigma = Points::Constant(30, 3, 0.3);
+  sigma.topRows(2).setConstant(30);
+  sigma.row(5).head<2>().setConstant(30);
+  const MeasuredFit some = choose_weight(response, d, sigma);
+  sigma = (sigma.array() > 1).select(1e6, sigma);
+  const MeasuredFit nothing = choose_weight(response, d, sigma);
+  EXPECT_NEAR(nothing.weight, some.weight, 0.05 * some.weight);
+  EXPECT_NEAR(nothing.smooth.along, some.smooth.along, 0.05 * some.smooth.along);
+  EXPECT_NEAR(nothing.noise_factor, some.noise_factor, 0.02);
+  EXPECT_NEAR(some.noise_factor, 1, 0.25);
+}
+
+// Where the registration is found beside it, what the brain moves alike under the opening looks the same.
+TEST(Weight, AnUnknownRegistrationIsKnownNoBetterThanTheMotionThatItHides) {
+  std::mt19937 random(5);
+  const Points cap = test::random_points(20, 20);
+  const Points d = 0.3 * Eigen::Map<const Points>(normals(60, random).data(), 20, 3),
+               sigma = Points::Constant(20, 3, 0.3);
+  Response response = rough_response(cap);
+  response.rigid = rigid_motions(cap, cap);
+  const MeasuredFit on_cortex = choose_weight(response, d, sigma);
+  EXPECT_EQ(on_cortex.smooth.length, 0);
+  EXPECT_GT(on_cortex.motion_deviation.head<3>().minCoeff(), 2.5);
+  response.carry.setZero();  // points that it does not move tell the two apart
+  EXPECT_LT(choose_weight(response, d, sigma).motion_deviation.head<3>().maxCoeff(), 0.5);
+}
+
 TEST(SmoothMotion, TakesNoiseOutOfThePointsAndItsEllipsoidsHoldTheTruth) {
   std::mt19937 random(9);
   constexpr int known = 30, asked = 10, draws = 40;
