@@ -75,7 +75,7 @@ const OptionTable<PhantomOptions>& phantom_options() {
 
 Phantom make_phantom(const PhantomOptions& options) {
   check_table(phantom_options(), options);
-  constexpr double smallest = 24;  // mm across; what reads it takes edges from 0.5 mm on
+  constexpr double smallest = 28;  // mm across: brains from 20 mm on are taken
   if (!(options.size * options.spacing >= smallest)) {
     throw std::invalid_argument("size times spacing is " + write_number(options.size * options.spacing) +
                                 " mm, at least " + write_number(smallest) + " are needed; give more or larger voxels");

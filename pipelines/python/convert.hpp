@@ -47,7 +47,7 @@ auto viewed(Member member) {
 Points points_of(const RowMajor<double>& array, const std::string& name);
 
 /// Triangles whose corners are rows of `vertices`. Throws std::invalid_argument.
-Surface surface_of(const RowMajor<double>& vertices, const RowMajor<std::int32_t>& triangles);
+Surface surface_of(const RowMajor<double>& vertices, const py::object& triangles);
 
 /// The grid of an image of nx × ny × nz voxels from its 4 × 4 matrix: voxel index to LPS, mm. Throws
 /// std::invalid_argument on axes that are not at right angles to each other.

@@ -159,8 +159,9 @@ Points points_of(const RowMajor<double>& array, const std::string& name) {
   return points;
 }
 
-Surface surface_of(const RowMajor<double>& vertices, const py::array& given) {
+Surface surface_of(const RowMajor<double>& vertices, const py::object& corners) {
   Surface surface{points_of(vertices, "vertices"), {}};
+  const py::array given = py::module_::import("numpy").attr("asarray")(corners);
   if (given.ndim() != 2 || given.shape(1) != 3) {
     throw std::invalid_argument("triangles must be an array of (m, 3) rows of vertices");
   }
@@ -211,10 +212,10 @@ std::string option_text(const py::handle& value) {
   if (value.is_none()) {
     return "";
   }
-  if (py::isinstance<py::array>(value) || py::hasattr(value, "dtype")) {  // numpy's numbers and truth values, too
+  if (py::isinstance<py::array>(value)) {
     return option_text(value.attr("tolist")());
   }
-  if (py::isinstance<py::bool_>(value)) {
+  if (py::isinstance<py::bool_>(value) || py::isinstance(value, py::module_::import("numpy").attr("bool_"))) {
     return value.cast<bool>() ? "yes" : "no";
   }
   if (py::isinstance<py::str>(value)) {

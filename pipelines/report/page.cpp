@@ -78,7 +78,7 @@ json failures(const json& stages) {
 json outdated_of(const json& stages) {
   json list = json::array();
   for (const auto& [name, entry] : stages.items()) {
-    if (entry.value("status", "") == "outdated") {
+    if (entry.value("status", "") == "outdated" && name != "report") {
       list.push_back({{"stage", name}});
     }
   }
@@ -129,11 +129,13 @@ json tiles(const PageContent& content, const json& stages, const std::vector<Mea
   const bool warped = content.no_image.empty();
   const auto bounded = std::ranges::count_if(measures, [](auto& row) { return row.verdict != Verdict::no_bound; });
   const auto within = std::ranges::count_if(measures, [](auto& row) { return row.verdict == Verdict::within; });
-  return json::array({tile(readable(content.largest_displacement) + " mm", "largest displacement"),
-                      tile(std::to_string(within) + " of " + std::to_string(bounded), "checks within their bounds"),
-                      tile(size("nodes"), "nodes"), tile(size("integration_points"), "integration points"),
-                      tile(readable(seconds) + " s", warped ? "from image to warped image" : "all stages that ran"),
-                      tile(readable(memory / 1000) + " GB", "peak memory")});
+  const bool solved = !content.displacements.empty();
+  return json::array(
+      {tile(solved ? readable(content.largest_displacement) + " mm" : "not known", "largest displacement"),
+       tile(std::to_string(within) + " of " + std::to_string(bounded), "checks within their bounds"),
+       tile(size("nodes"), "nodes"), tile(size("integration_points"), "integration points"),
+       tile(readable(seconds) + " s", warped ? "from image to warped image" : "all stages that ran"),
+       tile(readable(memory / 1000) + " GB", "peak memory")});
 }
 
 json figures_of(std::span<Figure> figures) {

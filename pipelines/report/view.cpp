@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipelines/report/slice_figures.hpp"
+#include "segmentation/geometry/point_tree.hpp"
 
 namespace brainshift::pipelines {
 
@@ -54,23 +55,26 @@ std::pair<double, double> grey_window(const std::array<Slice, 3>& slices) {
   return {low, *high > low ? low + headroom * (*high - low) : low + 1};
 }
 
-// Where a load is all around the brain, as a whole field is, nothing is open: its middle lies deep inside.
-bool is_all_around(const Points& loaded, const Surface& brain) {
-  const Vector3d middle = loaded.colwise().mean().transpose();
-  const double radius = (loaded.rowwise() - middle.transpose()).rowwise().norm().mean();
-  return (nearest_vertex(brain, middle) - middle).norm() > 0.7 * radius;  // half a ball: 0.6
+// Where most of the surface is loaded, as by a whole field, nothing is open.
+bool is_all_around(const Points& loaded, const Surface& brain, double reach) {
+  const PointTree tree(loaded);
+  Eigen::Index near = 0;
+  for (const Vector3d vertex : brain.vertices.rowwise()) {
+    near += tree.nearest(vertex.data()).second < reach * reach ? 1 : 0;
+  }
+  return 2 * near > brain.vertices.rows();
 }
 
 void find_opening(const RunData& run, View& view) {
   const Surface& brain = *run.brain;
   view.opening = loaded_positions(*run.solution);
-  if (view.opening.rows() > 0 && is_all_around(view.opening, brain)) {
-    view.opening.resize(0, 3);
-  }
   const auto& spacing = run.solution->spacing;
   view.opening_reach = spacing.empty()
                            ? 5.0
                            : std::accumulate(spacing.begin(), spacing.end(), 0.0) / static_cast<double>(spacing.size());
+  if (view.opening.rows() > 0 && is_all_around(view.opening, brain, view.opening_reach)) {
+    view.opening.resize(0, 3);
+  }
   if (view.opening.rows() == 0) {
     view.opening_centre = brain.vertices.colwise().mean().transpose();
     view.inward = -Vector3d::UnitZ();

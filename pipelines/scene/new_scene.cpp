@@ -169,8 +169,8 @@ class Writer {
     if (const auto found = volumes_.find(own::ventricles);
         found != volumes_.end() && found->second > largest_ventricles) {
       refuse(files_.labels, "its label 2 holds " + in_millilitres(found->second) +
-                                ", more than ventricles do, so its numbers are others than the program's own; give "
-                                "--labels-are with a table of them");
+                                ", rare for ventricles and usual for white matter, so its numbers may be others than "
+                                "the program's own; give --labels-are with a table of them");
     }
     take(files_.labels,
          "a label map with 1 parenchyma, 2 ventricles, 3 tumour, 4 fluid, 5 skull, 6 skin; correct the "

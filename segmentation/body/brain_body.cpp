@@ -70,11 +70,7 @@ Mask reached(Mask open, const Mask& brain) {
 
 // What can be reached from the brain without crossing the skull.
 Mask within(const LabelMap& labels, std::uint16_t skull, const Mask& brain) {
-  Mask open = mask_of(labels, std::array{skull});
-  for (std::uint8_t& voxel : open.voxels) {
-    voxel = voxel == 0 ? 1 : 0;
-  }
-  return reached(std::move(open), brain);
+  return reached(complement(mask_of(labels, std::array{skull})), brain);
 }
 
 // The area of the body's faces on the image's border, mm². A field of view cuts off a stem or a vertex; a mask that

@@ -6,13 +6,6 @@
 namespace brainshift {
 namespace {
 
-Mask complement(Mask mask) {
-  for (std::uint8_t& voxel : mask.voxels) {
-    voxel = voxel == 0 ? 1 : 0;
-  }
-  return mask;
-}
-
 // On a grid that holds all of it.
 Mask grown_part(const Mask& mask, double radius) {
   Mask part = cropped(mask, voxels_to(radius, mask.geometry) + 1);

@@ -10,10 +10,7 @@
 namespace brainshift {
 
 ScalarImage depth(const Mask& mask) {
-  Mask outside = mask;
-  for (std::uint8_t& voxel : outside.voxels) {
-    voxel = voxel == 0 ? 1 : 0;
-  }
+  const Mask outside = complement(mask);
   const auto seen = seen_by_itk(outside);
   auto filter = itk::SignedMaurerDistanceMapImageFilter<ItkImage<std::uint8_t>, ItkImage<float>>::New();
   filter->SetInput(seen);

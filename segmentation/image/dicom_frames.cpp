@@ -64,6 +64,16 @@ DicomSlice frame_of(const DicomSlice& whole, std::size_t frame, const GroupsOfFr
 
 }  // namespace
 
+DicomSlice with_place(const DicomSlice& slice) {
+  if (slice.frames != 1 || !slice.in_groups || !slice.position.empty()) {
+    return slice;
+  }
+  DicomSlice placed = frames_of(slice).front();
+  placed.frame = 0;
+  placed.rescale.clear();  // a library reads that of each file
+  return placed;
+}
+
 std::vector<DicomSlice> frames_of(const DicomSlice& whole) {
   const gdcm::File file = dicom::read_header(whole.file);
   const DataSet& header = file.GetDataSet();

@@ -14,4 +14,7 @@ namespace brainshift {
 /// position, orientation or spacing of a frame is not told: which place a frame without them has is not known.
 std::vector<DicomSlice> frames_of(const DicomSlice& whole);
 
+/// A slice as it is, or that of a file of one frame with the place that its functional groups tell.
+DicomSlice with_place(const DicomSlice& slice);
+
 }  // namespace brainshift

@@ -33,7 +33,7 @@ std::vector<DicomSlice> read_slices(const fs::path& folder) {
   std::vector<DicomSlice> slices;
   std::set<std::string> series;
   for (const fs::path& file : dicom_files(folder)) {
-    slices.push_back(read_dicom_slice(file));
+    slices.push_back(with_place(read_dicom_slice(file)));
     series.insert(slices.back().series);
   }
   if (series.empty()) {
@@ -50,6 +50,13 @@ bool close(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) {
            return std::abs(x - y) <= tolerance * std::max(1.0, std::abs(x));
          });
+}
+
+// Slope and intercept, which may be of any size: to a thousandth of the last bit of a value of 16 bits.
+bool rescaled_alike(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double tolerance = 1e-8;
+  return a.size() == b.size() && (a.size() != 2 || (std::abs(a[0] - b[0]) <= tolerance * std::abs(a[0]) &&
+                                                    std::abs(a[1] - b[1]) <= 1e-3 * std::abs(a[0])));
 }
 
 std::string name_of(const DicomSlice& slice) {
@@ -70,7 +77,7 @@ void check_alike(const DicomSlice& slice, const DicomSlice& first) {
   need(slice.pixel_representation == first.pixel_representation, "PixelRepresentation");
   need(close(slice.spacing, first.spacing), "PixelSpacing");
   need(close(slice.orientation, first.orientation), "ImageOrientationPatient");
-  need(close(slice.rescale, first.rescale), "RescaleSlope or RescaleIntercept");
+  need(rescaled_alike(slice.rescale, first.rescale), "RescaleSlope or RescaleIntercept");
   if (slice.frames != 1) {
     refuse(slice.file, "holds " + std::to_string(slice.frames) +
                            " frames and is not alone in its folder; leave it alone there, or take single slices");
@@ -81,8 +88,8 @@ Eigen::Vector3d position_of(const DicomSlice& slice) {
   return Eigen::Vector3d::Map(slice.position.data());
 }
 
-/// Sorts the slices along the normal; the distance of two neighbours. What is taken for even and upright is off by no
-/// more than a place that is rounded to a tenth of a millimetre, or a direction to three digits.
+/// Sorts the slices along the normal; the distance of two neighbours. Places that are rounded to a tenth of a
+/// millimetre are taken for even and upright.
 double in_order(const fs::path& folder, std::vector<DicomSlice>& slices, const Eigen::Vector3d& normal) {
   const auto height = [&](const DicomSlice& slice) { return normal.dot(position_of(slice)); };
   std::sort(slices.begin(), slices.end(),

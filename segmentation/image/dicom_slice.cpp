@@ -23,6 +23,7 @@ constexpr std::uint64_t preamble = 132;
 // Tags: group, element.
 constexpr std::uint32_t transfer_syntax = 0x00020010;
 constexpr std::uint32_t pixel_data = 0x7fe00010;
+constexpr std::uint32_t groups_of_frames = 0x52009230;
 constexpr std::uint32_t item = 0xfffee000, item_end = 0xfffee00d, sequence_end = 0xfffee0dd;
 
 struct DicomElement {
@@ -235,7 +236,7 @@ void check_slice(const DicomSlice& slice) {
     refuse(slice.file, "the DICOM slice holds " + std::to_string(slice.samples) +
                            " values a pixel, one is needed; choose a series of grey values");
   }
-  if (slice.frames == 1) {
+  if (slice.frames == 1 && !slice.in_groups) {
     need(slice.spacing.size() == 2, "PixelSpacing");
     need(slice.orientation.size() == 6, "ImageOrientationPatient");
     need(slice.position.size() == 3, "ImagePositionPatient");
@@ -300,6 +301,7 @@ DicomSlice read_dicom_slice(const fs::path& file) {
       check_pixels(reader, element, slice);
       return slice;
     }
+    slice.in_groups = slice.in_groups || element.tag == groups_of_frames;
     const auto& fields = dicom_fields();
     const auto field =
         std::find_if(fields.begin(), fields.end(), [&](const DicomField& known) { return known.tag == element.tag; });

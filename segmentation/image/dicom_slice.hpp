@@ -20,13 +20,14 @@ struct DicomSlice {
   std::vector<double> position;     ///< ImagePositionPatient, mm, LPS
   std::vector<double> rescale;      ///< RescaleSlope, RescaleIntercept; of a frame alone
   std::uint64_t frame = 0;          ///< of a file of several, from 1; 0: the file is a slice
+  bool in_groups = false;           ///< it has functional groups, which may tell the place of a frame
 };
 
 /// Whether the file is a regular one with DICM at byte 128, and no directory of others (DICOMDIR).
 bool is_dicom_slice(const std::filesystem::path& file);
 
 /// Throws std::invalid_argument, naming the file, when it is cut short, in its header or its pixels, or a field cannot
-/// be. Of a file of more than one frame dicom_frames.hpp tells where these lie.
+/// be. Where it has functional groups, dicom_frames.hpp tells where its frames lie.
 DicomSlice read_dicom_slice(const std::filesystem::path& file);
 
 /// Decimal numbers between backslashes; empty where one of them is none.

@@ -57,6 +57,13 @@ bool touches_border(const Mask& mask) {
   return count(mask) > 0 && ((box.lower == 0).any() || (box.upper == mask.geometry.size - 1).any());
 }
 
+Mask complement(Mask mask) {
+  for (std::uint8_t& voxel : mask.voxels) {
+    voxel = voxel == 0 ? 1 : 0;
+  }
+  return mask;
+}
+
 Mask cropped(const Mask& mask, const Eigen::Array3i& margin) {
   const Box box = bounding_box(mask);
   const Eigen::Array3i lower = box.lower - margin;
@@ -102,10 +109,7 @@ Mask holes_filled(const Mask& mask) {
   if (count(mask) == 0) {
     return mask;
   }
-  Mask outside = cropped(mask, 1);  // its outermost layer is empty, so the outside is one component, that of voxel 0
-  for (std::uint8_t& voxel : outside.voxels) {
-    voxel = voxel == 0 ? 1 : 0;
-  }
+  Mask outside = complement(cropped(mask, 1));  // its outermost layer is one component, that of voxel 0
   const Components found = components(outside);
   std::transform(found.number.begin(), found.number.end(), outside.voxels.begin(),
                  [](std::int32_t number) { return static_cast<std::uint8_t>(number != 1); });

@@ -34,6 +34,9 @@ void for_each_inside(const Mask& mask, const Visit& visit) {
 
 std::size_t count(const Mask& mask);
 
+/// 1 where the mask is 0.
+Mask complement(Mask mask);
+
 /// Volume of the voxels inside, mm³.
 double volume(const Mask& mask);
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <span>
 #include <stdexcept>
@@ -21,6 +20,7 @@
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
 #include "segmentation/image/image_series.hpp"
+#include "segmentation/image/name_alone.hpp"
 #include "segmentation/image/segments.hpp"
 #include "segmentation/image/whole_file.hpp"
 #include "segmentation/options/values.hpp"
@@ -88,46 +88,6 @@ Pointer<Pixel> read_mgh(const fs::path& file, const ImageHeader& header) {
   }
   return image;
 }
-
-/// Of NAME.nii.gz the library takes the voxels from NAME.nii where that lies beside it. A link that lies alone is read
-/// in its place then.
-class NameAlone {
- public:
-  NameAlone(const fs::path& file, ImageFormat format) : name_(file) {
-    std::error_code fault;
-    const fs::path beside = fs::path(file).replace_extension();
-    if (format != ImageFormat::nifti_gz || !fs::exists(beside, fault)) {
-      return;
-    }
-    std::string folder = (fs::temp_directory_path(fault) / "brainshift-image-XXXXXX").string();
-    if (!fault && mkdtemp(folder.data()) != nullptr) {
-      folder_ = folder;
-      name_ = folder_ / "image.nii.gz";
-      fs::create_symlink(fs::absolute(file), name_, fault);
-    }
-    if (fault || folder_.empty()) {
-      remove();
-      refuse(file, "cannot be told from " + beside.string() +
-                       " beside it, as no link can be made in the folder for "
-                       "temporary files; set TMPDIR, or move one of the two");
-    }
-  }
-  ~NameAlone() { remove(); }
-  NameAlone(const NameAlone&) = delete;
-  NameAlone& operator=(const NameAlone&) = delete;
-
-  std::string name() const { return name_.string(); }
-
- private:
-  void remove() const {
-    std::error_code ignored;
-    if (!folder_.empty()) {
-      fs::remove_all(folder_, ignored);
-    }
-  }
-
-  fs::path name_, folder_;
-};
 
 template <class ItkImageType>
 typename ItkImageType::Pointer read_by_itk(const fs::path& file, ImageFormat format, const ImageHeader& header) {

@@ -42,11 +42,7 @@ std::vector<bool> chosen_bodies(const Components& bodies, const ScalarImage& dep
 
 // The voxels of the CSF near the core: the core before it was eroded, without what hung on it by sheets.
 Mask grown_back(const Mask& core, const Mask& csf, double distance) {
-  Mask outside = core;
-  for (std::uint8_t& voxel : outside.voxels) {
-    voxel = voxel == 0 ? 1 : 0;
-  }
-  const ScalarImage away = depth(outside);
+  const ScalarImage away = depth(complement(core));
   Mask grown = csf;
   for (std::size_t i = 0; i < grown.voxels.size(); ++i) {
     grown.voxels[i] = csf.voxels[i] != 0 && away.voxels[i] <= distance ? 1 : 0;

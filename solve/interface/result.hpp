@@ -106,6 +106,7 @@ struct SmoothMotion {
 struct MeasuredFit {
   double weight = 0;    ///< s that was used, mJ
   SmoothMotion smooth;  ///< what the points say of it
+  bool rough = false;   ///< that motion is alike over the shortest of the lengths only, and far larger than the noise
   SmoothMotion hidden;  ///< of the opening, that an unknown registration takes: in deviation and covariance alone
   /// (m × 3) mm: with a smooth motion, the displacement of each point of the cortex as prior and noise have it.
   Points smoothed = Points(0, 3);

@@ -22,6 +22,7 @@ constexpr int candidates = 41;                             // of the weight
 constexpr int amplitudes = 16;                             // of a smooth motion
 constexpr std::array lengths = {0.3, 0.45, 0.7, 1., 1.5};  // of it, over the points' distance from their middle
 constexpr double least_gain = 3;                           // in the likelihood, of its three numbers
+constexpr double far_larger = 5;    // than the noise: a motion over so short a length that it may be noise itself
 constexpr double unseen_shift = 5;  // mm, an axis: of an opened cortex, before anything is measured
 
 /// low … high, geometric.
@@ -39,9 +40,12 @@ double extent_of(const Points& sites) {
   return std::sqrt(away.squaredNorm() / static_cast<double>(away.rows()));
 }
 
-/// What counts of standard deviations: one that is large tells nothing, and must not count for the others.
+/// The median: neither one that is large and tells nothing nor one that is small may speak for the others.
 double usual_sigma(const Points& sigma) {
-  return 1 / std::sqrt(sigma.cwiseAbs2().cwiseInverse().mean());
+  std::vector<double> values(sigma.data(), sigma.data() + sigma.size());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 /// Whether a motion of the opening cannot be told from the patient's registration, which is found beside it.
@@ -58,9 +62,10 @@ class Likelihood {
         displacement_(displacement.topRows(size_ / 3)),
         d_(stacked_rows(displacement_)),
         variance_(stacked_rows(sigma.topRows(size_ / 3)).cwiseAbs2()),
-        rigid_(response.rigid.topRows(size_)) {
+        rigid_(response.rigid.topRows(size_)),
+        noise_(usual_sigma(sigma)) {
     const double answer = answers().diagonal().mean();
-    const double least = 0.1 * usual_sigma(sigma), most = std::max(10 * displacement.cwiseAbs().maxCoeff(), 2 * least);
+    const double least = 0.1 * noise_, most = std::max(10 * displacement.cwiseAbs().maxCoeff(), 2 * least);
     weights_ = steps_between(least * least / answer / millijoule, most * most / answer / millijoule, candidates);
     amplitudes_ = steps_between(least, most, amplitudes);
     amplitudes_.insert(amplitudes_.begin(), 0);
@@ -151,6 +156,7 @@ class Likelihood {
           const Sizes sizes = mean_sizes(shapes, place);
           fit.weight = sizes.weight;
           fit.smooth = {share * extent, sizes.along, sizes.across, direction};
+          fit.rough = share == lengths.front() && sizes.along > far_larger * noise_;
         }
       }
     }
@@ -215,6 +221,7 @@ class Likelihood {
   Points displacement_;
   Eigen::VectorXd d_, variance_;
   Eigen::MatrixXd rigid_;
+  double noise_;                              // mm
   std::vector<double> weights_, amplitudes_;  // mJ, mm
 };
 
@@ -260,9 +267,10 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
   fit.motion_deviation = fit.noise_factor * chosen.motion_deviation();
   if (hides_motion(response)) {
     fit.hidden = {lengths.back() * extent_of(response.sites), unseen_shift, unseen_shift, Eigen::Vector3d::UnitX()};
-    const Prior doubt(response, fit.weight, fit.hidden);
+    const double larger = fit.noise_factor * fit.noise_factor;  // but for the hidden motion, which is not measured
+    const Prior doubt(response, larger * fit.weight, fit.hidden);
     fit.motion_deviation =
-        MeasuredGaussian(doubt.between(0, m, 0, m), response.rigid.topRows(m), d, variance).motion_deviation();
+        MeasuredGaussian(doubt.between(0, m, 0, m), response.rigid.topRows(m), d, larger * variance).motion_deviation();
   }
   if (fit.smooth.length > 0) {
     const Eigen::VectorXd smoothed = d - variance.cwiseProduct(chosen.push);
@@ -272,15 +280,21 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
 }
 
 Posterior::Posterior(const Response& response, const Points& displacement, const Points& sigma, const MeasuredFit& fit)
+    : Posterior(response, stacked_rows(displacement), stacked_rows(sigma).cwiseAbs2(), fit,
+                fit.noise_factor * fit.noise_factor) {}
+
+// What is hidden was not measured, so that it does not grow with the noise as all other variances do.
+Posterior::Posterior(const Response& response, const Eigen::VectorXd& d, const Eigen::VectorXd& variance,
+                     const MeasuredFit& fit, double larger)
     : response_(response),
-      measured_(displacement.size()),
-      factor_(fit.noise_factor * fit.noise_factor),
+      measured_(d.size()),
+      factor_(hides_motion(response) ? 1 : larger),
       likely_(response, fit.weight, fit.smooth),
-      careful_(response, fit.weight, hides_motion(response) ? fit.hidden : fit.smooth, Alike::matern),
-      answer_(likely_.between(0, measured_, 0, measured_), response.rigid.topRows(measured_),
-              stacked_rows(displacement), stacked_rows(sigma).cwiseAbs2()),
-      doubt_(careful_.between(0, measured_, 0, measured_), response.rigid.topRows(measured_),
-             stacked_rows(displacement), stacked_rows(sigma).cwiseAbs2()) {}
+      careful_(response, larger / factor_ * fit.weight, hides_motion(response) ? fit.hidden : fit.smooth,
+               Alike::matern),
+      answer_(likely_.between(0, measured_, 0, measured_), response.rigid.topRows(measured_), d, variance),
+      doubt_(careful_.between(0, measured_, 0, measured_), response.rigid.topRows(measured_), d,
+             larger / factor_ * variance) {}
 
 Eigen::MatrixXd Posterior::rigid_of(Eigen::Index first, Eigen::Index places) const {
   Eigen::MatrixXd rigid = response_.rigid.middleRows(measured_ + 3 * first, 3 * places);

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a BIDS folder holds and what it lacks; the plan; the table and which rows lie far from the others."""
+import hashlib
 import pathlib
 import sys
 import tempfile
@@ -88,6 +89,8 @@ class FinderTest(Folder):
         self.assertIn("no labels", self.find()[1]["sub-01"])
         self.make(DSEG)
         self.assertIn("no table of its numbers", self.find()[1]["sub-01"])
+        self.make("derivatives/freesurfer/sub-01/mri/aseg.mgz")
+        self.assertEqual(self.one().labels_are, "freesurfer")
         self.make(TABLE)
         (self.root / POINTS).unlink()
         self.assertIn("no load", self.find()[1]["sub-01"])
@@ -187,9 +190,14 @@ class PlanTest(Folder):
         plan.write_case(self.root, case, "1.0")
         self.assertNotEqual(file.stat().st_ino, first)
         self.assertIn("files=(--t1 'a b')", file.read_text())
-        self.assertFalse(plan.has_changed(self.root, case))
-        self.make("t1.nii.gz", text="a third one")
-        self.assertTrue(plan.has_changed(self.root, case))
+
+    def test_a_case_has_changed_where_a_file_holds_something_else(self):
+        self.make("t1.nii.gz", text="one")
+        case = plan.Case("sub-01", "", [], [], [str(self.root / "t1.nii.gz")])
+        record = {"inputs": [{"sha256": hashlib.sha256(b"one").hexdigest()}]}
+        self.assertFalse(plan.has_changed(record, case))
+        self.make("t1.nii.gz", text="two")
+        self.assertTrue(plan.has_changed(record, case))
 
     def test_an_image_whose_compression_is_damaged_has_no_grid(self):
         file = self.root / "a.nii.gz"

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A finished run's files under the names of BIDS derivatives."""
-import json
 
-from . import dataset
+from . import dataset, measures
 from .files import as_json, place, replace_text
 from .names import case_name
 
@@ -44,7 +43,7 @@ def publish(out, case, run, known):
             place(run / made, target(ending))
         else:
             target(ending).unlink(missing_ok=True)
-    record = json.loads((run / "run.json").read_text(encoding="utf-8"))
+    record = measures.record_of(run)
     about = {"Sources": [dataset.uri(item["path"], known) for item in record["inputs"]],
              "SpatialReference": "the intraoperative brain, on the grid of the preoperative image"}
     replace_text(target(LABEL_TABLE), label_table(record.get("label_names", {})))

@@ -95,7 +95,7 @@ class Finder:
 
     def _is_the_only_one(self, participant, session):
         """Whether what names no session is of this one: with others beside it, it may be of any."""
-        others = [f for f in (self.bids / f"sub-{participant}").glob("ses-*") if f.name != f"ses-{session}"]
+        others = [label for label in labels_of(self.bids / f"sub-{participant}", "ses") if label != session]
         return not session or bool(self.preop_session) or not others
 
     def _t1(self, files, participant):
@@ -109,16 +109,16 @@ class Finder:
         for best in BEST_LABELS:
             maps = [f for f in maps if names.parse(f.name).entities.get("desc") == best] or maps
         case.labels = self._one(maps, "dseg")
-        if case.labels:
-            case.labels_are = table_of(pathlib.Path(case.labels), self.derivatives)
-            if not case.labels_are:
-                raise Missing(f"{case.labels} has no table of its numbers: put a .tsv of its name with the columns index "
-                              "and name beside it, or dseg.tsv into the folder of derivatives")
+        case.labels_are = table_of(pathlib.Path(case.labels), self.derivatives) if case.labels else ""
+        if case.labels_are:
             return
-        case.labels = self._freesurfer(subjects)
+        without_table, case.labels = case.labels, self._freesurfer(subjects)
         if case.labels:
             case.labels_are = "freesurfer"
             return
+        if without_table:
+            raise Missing(f"{without_table} has no table of its numbers: put a .tsv of its name with the columns index "
+                          "and name beside it, or dseg.tsv into the folder of derivatives")
         masks = [f for f in self._matching(files, "mask", IMAGE) if own_space(f)]
         case.brain_mask = self._one([f for f in masks if names.parse(f.name).entities.get("desc") == "brain"], "mask")
         if not case.brain_mask:
@@ -190,7 +190,8 @@ def labels_of(folder, entity):
 def check_place(file):
     """A file of another participant or session than its folder's is somebody's mistake."""
     for entity, label in names.parse(file.name).entities.items():
-        if entity in ("sub", "ses") and f"{entity}-{label}" not in file.parts:
+        folders = [part for part in file.parts[:-1] if part.startswith(f"{entity}-")]
+        if entity in ("sub", "ses") and folders and f"{entity}-{label}" not in folders:
             raise Missing(f"{file} is by its name of {entity}-{label}, but does not lie in a folder of that name; see "
                           "whose it is")
 
@@ -198,7 +199,8 @@ def check_place(file):
 def is_stripped(t1):
     """What the image's sidecar says."""
     try:
-        about = json.loads(pathlib.Path(t1.partition(".nii")[0] + ".json").read_text(encoding="utf-8"))
+        image = pathlib.Path(t1)
+        about = json.loads(image.with_name(image.name.partition(".")[0] + ".json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return False
     return isinstance(about, dict) and about.get("SkullStripped") is True

@@ -2,6 +2,7 @@
 """The measures of runs as one table, and which of its rows lie far from the others."""
 import csv
 import io
+import json
 import statistics
 
 COLUMNS = {  # name: where it stands in run.json, what it is, its unit
@@ -23,6 +24,10 @@ COSTS = {
     "peak_memory_mb": ("Most memory that a stage held", "MB"),
 }
 FAR = 3.5  # median absolute deviations, scaled to standard deviations: Iglewicz and Hoaglin's
+
+
+def record_of(run):
+    return json.loads((run / "run.json").read_text(encoding="utf-8"))
 
 
 def looked_up(stages, path):

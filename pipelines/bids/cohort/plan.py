@@ -6,6 +6,7 @@ know is that it is newer than the marks. So a file that was replaced by an older
 """
 import concurrent.futures
 import gzip
+import hashlib
 import json
 import os
 import re
@@ -42,23 +43,20 @@ class Case(NamedTuple):
 def write_case(work, case, version):
     folder = work / case.name
     folder.mkdir(parents=True, exist_ok=True)
-    text = "\n".join([f"# {version}", *files_of(case), f"options=({shlex.join(set_words(case))})"]) + "\n"
+    states = [(os.stat(file), file) for file in case.inputs if os.path.exists(file)]
+    lines = [f"# {version}", *(f"# {s.st_size} {s.st_mtime_ns} {json.dumps(file)}" for s, file in states),
+             f"scene={shlex.quote(case.scene)}", f"files=({shlex.join(case.words)})",
+             f"options=({shlex.join(set_words(case))})"]
+    text = "\n".join(lines) + "\n"
     file = folder / "case.sh"
     if not file.exists() or file.read_text(encoding="utf-8") != text:
         replace_text(file, text)
 
 
-def files_of(case):
-    """Lines of case.sh: the files as they are now, and what is made of them."""
-    states = [(os.stat(file), file) for file in case.inputs if os.path.exists(file)]
-    return [*(f"# {s.st_size} {s.st_mtime_ns} {json.dumps(file)}" for s, file in states),
-            f"scene={shlex.quote(case.scene)}", f"files=({shlex.join(case.words)})"]
-
-
-def has_changed(work, case):
-    """Whether the case was planned of other files than there are now."""
-    file = work / case.name / "case.sh"
-    return file.exists() and file.read_text(encoding="utf-8").splitlines()[1:-1] != files_of(case)
+def has_changed(record, case):
+    """Whether a file of the case is none of those that its run, by run.json, was made of."""
+    made_of = {given.get("sha256") for given in record["inputs"]}
+    return any(hashlib.sha256(Path(file).read_bytes()).hexdigest() not in made_of for file in case.inputs)
 
 
 def set_words(case):

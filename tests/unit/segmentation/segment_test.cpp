@@ -99,6 +99,7 @@ TEST(Segment, ATissueThatLiesApartFromTheBrainGetsNoSurface) {
   }
   SegmentOptions options = two_labels();
   options.brain_labels.push_back(7);
+  options.closing = 2;
   options.tissue_surfaces = true;
   const Segmentation result = segment(input, options);
   EXPECT_EQ(result.tissues.size(), 2U);

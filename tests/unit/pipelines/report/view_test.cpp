@@ -43,6 +43,20 @@ TEST(View, ALoadAllAroundIsNoOpening) {
   EXPECT_NEAR(view.slices[0].plane.corner.z(), vertices.col(2).mean(), 1e-9);
 }
 
+TEST(View, OpeningsOnBothSidesAreOpenings) {
+  RunData run = small_run();
+  const Points& vertices = run.brain->vertices;
+  run.solution->positions = vertices;
+  run.solution->displacement = Points::Constant(vertices.rows(), 3, 1.0);
+  run.solution->spacing.assign(static_cast<std::size_t>(vertices.rows()), 5.0);
+  run.solution->reaction_force = Points::Zero(vertices.rows(), 3);
+  const Eigen::VectorXd across = vertices.col(0).cwiseAbs();
+  for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
+    run.solution->reaction_force(i, 0) = across[i] > 0.9 * across.maxCoeff() ? 1 : 0;
+  }
+  EXPECT_GT(make_view(run).opening.rows(), 1);
+}
+
 TEST(View, WithoutALoadThePlanesCutTheMiddle) {
   RunData run = small_run();
   run.solution->reaction_force.setZero();

@@ -81,7 +81,7 @@ TEST_F(MakeScene, RefusesVentriclesThatAreLargerThanAny) {
                .brain_mask = {},
                .tumour = {},
                .points = {write_load()}});
-  expect_parts(fault, {"grey_and_white.nii.gz", "label 2 holds", "more than ventricles do", "--labels-are"});
+  expect_parts(fault, {"grey_and_white.nii.gz", "label 2 holds", "rare for ventricles", "--labels-are"});
 }
 
 TEST_F(MakeScene, OfAMapWithATableNamesTheTable) {

@@ -170,6 +170,27 @@ TEST(DicomSeries, FramesThatAreMissingTwiceThereOrShiftedAreRefused) {
   EXPECT_TRUE(says(rescaled.fault(), {"RescaleSlope", "frame 2"}));
 }
 
+TEST(DicomSeries, SmallSlopesOfFramesAreToldApart) {
+  Frames frames;
+  for (DrawnSlice& frame : frames.frames) {
+    frame.rescale = "2e-5\\0";
+  }
+  EXPECT_EQ(frames.fault(), "");
+  frames.frames[2].rescale = "4e-5\\0";
+  EXPECT_TRUE(says(frames.fault(), {"RescaleSlope", "frame 3"}));
+}
+
+TEST(DicomSeries, EnhancedFilesOfOneFrameEachAreASeries) {
+  const ScratchFolder folder;
+  for (int k = 0; k < 5; ++k) {
+    folder.write(slice_name(k), drawn_frames({Series::slice(k)}, true));
+  }
+  const Series series;
+  const ScalarImage slices = read_image(series.folder.path()), frames = read_image(folder.path());
+  EXPECT_TRUE(same_geometry(frames.geometry, slices.geometry));
+  EXPECT_EQ(frames.voxels, slices.voxels);
+}
+
 TEST(DicomSeries, AShearOfAFewTenthsOfAMillimetreIsRefused) {
   Series series;
   for (int k = 0; k < 5; ++k) {

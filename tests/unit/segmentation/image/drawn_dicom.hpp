@@ -37,6 +37,7 @@ struct DrawnSlice {
   std::string sequence;
   std::string modality = "MR", study, frame_of_reference;
   std::string rescale;  ///< slope and intercept, a backslash between
+  bool bare = false;    ///< it tells no place
   std::string sop_class = "1.2.840.10008.5.1.4.1.1.4";
 
   std::string header() const {
@@ -48,11 +49,11 @@ struct DrawnSlice {
            element(8, 0x18, "UI", "1.2.3.5." + position.substr(position.rfind('\\') + 1)) +
            element(8, 0x60, "CS", modality) + sequence + element(0x10, 0x10, "PN", "Somebody") +
            (study.empty() ? "" : element(0x20, 0xd, "UI", study)) + element(0x20, 0xe, "UI", series) +
-           element(0x20, 0x32, "DS", position) + element(0x20, 0x37, "DS", orientation) +
+           (bare ? "" : element(0x20, 0x32, "DS", position) + element(0x20, 0x37, "DS", orientation)) +
            (frame_of_reference.empty() ? "" : element(0x20, 0x52, "UI", frame_of_reference)) +
            element(0x28, 2, "US", little_endian(1, 2)) + element(0x28, 4, "CS", "MONOCHROME2") +
            element(0x28, 0x10, "US", little_endian(rows, 2)) + element(0x28, 0x11, "US", little_endian(columns, 2)) +
-           element(0x28, 0x30, "DS", spacing) + element(0x28, 0x100, "US", little_endian(bits, 2)) +
+           (bare ? "" : element(0x28, 0x30, "DS", spacing)) + element(0x28, 0x100, "US", little_endian(bits, 2)) +
            element(0x28, 0x101, "US", little_endian(bits, 2)) + element(0x28, 0x102, "US", little_endian(bits - 1, 2)) +
            element(0x28, 0x103, "US", little_endian(0, 2)) + rescaling();
   }
@@ -74,9 +75,10 @@ struct DrawnSlice {
   std::string bytes() const { return header() + element(0x7fe0, 0x10, "OW", pixels()); }
 };
 
-/// An enhanced MR object of several slices.
-inline std::string drawn_frames(const std::vector<DrawnSlice>& frames) {
+/// An enhanced MR object of several slices. bare: their places are in the functional groups alone.
+inline std::string drawn_frames(const std::vector<DrawnSlice>& frames, bool bare = false) {
   DrawnSlice whole = frames.front();
+  whole.bare = bare;
   whole.sop_class += ".1";
   whole.sequence = element(0x28, 8, "IS", std::to_string(frames.size()));
   std::vector<std::string> groups;

@@ -171,6 +171,10 @@ TEST(Weight, DoesNotDependOnHowLittleAFewPointsTell) {
   EXPECT_NEAR(nothing.smooth.along, some.smooth.along, 0.05 * some.smooth.along);
   EXPECT_NEAR(nothing.noise_factor, some.noise_factor, 0.02);
   EXPECT_NEAR(some.noise_factor, 1, 0.25);
+  sigma = (sigma.array() > 1).select(0.3, sigma);
+  const double plain = choose_weight(response, d, sigma).noise_factor;
+  sigma.row(9).setConstant(0.01);
+  EXPECT_NEAR(choose_weight(response, d, sigma).noise_factor, plain, 0.25) << "nor on how much one tells";
 }
 
 // Where the registration is found beside it, what the brain moves alike under the opening looks the same.
@@ -184,8 +188,27 @@ TEST(Weight, AnUnknownRegistrationIsKnownNoBetterThanTheMotionThatItHides) {
   const MeasuredFit on_cortex = choose_weight(response, d, sigma);
   EXPECT_EQ(on_cortex.smooth.length, 0);
   EXPECT_GT(on_cortex.motion_deviation.head<3>().minCoeff(), 2.5);
+  const Points twice = Points::Constant(20, 3, 0.15);  // noise that is twice what is given
+  const MeasuredFit noisy = choose_weight(response, d, twice, 1e-9);
+  EXPECT_GT(noisy.noise_factor, 1.3);
+  EXPECT_NEAR(noisy.motion_deviation[0], on_cortex.motion_deviation[0], 0.3) << "what is hidden is no noise";
   response.carry.setZero();  // points that it does not move tell the two apart
   EXPECT_LT(choose_weight(response, d, sigma).motion_deviation.head<3>().maxCoeff(), 0.5);
+}
+
+// Of a body that is stiff, neither energy nor a smooth motion has room for noise of single points.
+TEST(SmoothMotion, OverTheShortestLengthIsNoiseThatWasNotGiven) {
+  std::mt19937 random(6);
+  const Points places = test::random_points(30, 100);
+  Response response = smooth_response(places);
+  response.sites = places;
+  response.carry = Eigen::MatrixXd::Identity(90, 90);
+  const SmoothMotion truth{50, 4, 0.3, Eigen::Vector3d::UnitZ()};
+  const Points smooth = smoothly_drawn(rough_response(places), truth, random);
+  const Points noise = 2 * Eigen::Map<const Points>(normals(90, random).data(), 30, 3);
+  EXPECT_TRUE(choose_weight(response, smooth + noise, Points::Constant(30, 3, 0.01)).rough);
+  EXPECT_FALSE(choose_weight(response, smooth + noise, Points::Constant(30, 3, 2)).rough);
+  EXPECT_FALSE(choose_weight(response, smooth, Points::Constant(30, 3, 0.1)).rough);
 }
 
 TEST(SmoothMotion, TakesNoiseOutOfThePointsAndItsEllipsoidsHoldTheTruth) {
