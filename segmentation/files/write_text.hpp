@@ -12,12 +12,12 @@ namespace brainshift {
 /// Throws as fail_to_write() where the disk does not take all of it; then nothing is left of the file.
 inline void write_text(const std::filesystem::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);
-  const bool opened = stream.is_open();  // else what is there is not ours
+  std::error_code ignored;
+  const bool ours = stream.is_open() && std::filesystem::is_regular_file(file, ignored);  // and no device
   stream << text;
   stream.close();
   if (!stream) {
-    std::error_code ignored;
-    if (opened) {
+    if (ours) {
       std::filesystem::remove(file, ignored);
     }
     fail_to_write(file);
