@@ -40,10 +40,11 @@ double extent_of(const Points& sites) {
   return std::sqrt(away.squaredNorm() / static_cast<double>(away.rows()));
 }
 
-/// The median: neither one that is large and tells nothing nor one that is small may speak for the others.
+/// The lower quartile: neither those that are large and tell nothing, as of components that nobody measured, nor a few
+/// that are small may speak for the others.
 double usual_sigma(const Points& sigma) {
   std::vector<double> values(sigma.data(), sigma.data() + sigma.size());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }

@@ -171,10 +171,15 @@ TEST(Weight, DoesNotDependOnHowLittleAFewPointsTell) {
   EXPECT_NEAR(nothing.smooth.along, some.smooth.along, 0.05 * some.smooth.along);
   EXPECT_NEAR(nothing.noise_factor, some.noise_factor, 0.02);
   EXPECT_NEAR(some.noise_factor, 1, 0.25);
+  sigma.rightCols<2>().setConstant(30);  // one component alone is measured
+  EXPECT_NEAR(choose_weight(response, d, sigma).noise_factor, 1, 0.4);
   sigma = (sigma.array() > 1).select(0.3, sigma);
   const double plain = choose_weight(response, d, sigma).noise_factor;
   sigma.row(9).setConstant(0.01);
   EXPECT_NEAR(choose_weight(response, d, sigma).noise_factor, plain, 0.25) << "nor on how much one tells";
+  sigma.setConstant(0.3);
+  sigma.rightCols<2>().setConstant(30);
+  EXPECT_NEAR(choose_weight(response, d, sigma).noise_factor, 1, 0.4) << "one component alone is measured";
 }
 
 // Where the registration is found beside it, what the brain moves alike under the opening looks the same.
