@@ -65,7 +65,7 @@ DicomSlice frame_of(const DicomSlice& whole, std::size_t frame, const GroupsOfFr
 }  // namespace
 
 DicomSlice with_place(const DicomSlice& slice) {
-  if (slice.frames != 1 || !slice.in_groups || !slice.position.empty()) {
+  if (slice.frames != 1 || slice.is_placed()) {
     return slice;
   }
   DicomSlice placed = frames_of(slice).front();
@@ -86,7 +86,7 @@ std::vector<DicomSlice> frames_of(const DicomSlice& whole) {
   std::vector<DicomSlice> frames;
   for (std::size_t frame = 0; frame < whole.frames; ++frame) {
     const DicomSlice slice = frame_of(whole, frame, {item(each, frame), shared});
-    if (slice.position.size() != 3 || slice.orientation.size() != 6 || slice.spacing.size() != 2) {
+    if (!slice.is_placed()) {
       refuse(whole.file, "frame " + std::to_string(slice.frame) +
                              " has no position, orientation or spacing that can be used; convert the series to "
                              ".nii.gz");

@@ -21,6 +21,8 @@ struct DicomSlice {
   std::vector<double> rescale;      ///< RescaleSlope, RescaleIntercept; of a frame alone
   std::uint64_t frame = 0;          ///< of a file of several, from 1; 0: the file is a slice
   bool in_groups = false;           ///< it has functional groups, which may tell the place of a frame
+
+  bool is_placed() const { return spacing.size() == 2 && orientation.size() == 6 && position.size() == 3; }
 };
 
 /// Whether the file is a regular one with DICM at byte 128, and no directory of others (DICOMDIR).

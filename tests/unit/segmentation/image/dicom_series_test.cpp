@@ -191,6 +191,15 @@ TEST(DicomSeries, EnhancedFilesOfOneFrameEachAreASeries) {
   EXPECT_EQ(frames.voxels, slices.voxels);
 }
 
+TEST(DicomSeries, AnEnhancedFileThatTellsAPartOfItsPlaceIsReadByItsGroups) {
+  const ScratchFolder folder;
+  const std::string bare = drawn_frames({Series::slice(0)}, true);
+  const std::size_t samples = bare.find(element(0x28, 2, "US", little_endian(1, 2)));
+  folder.write("one.dcm",
+               bare.substr(0, samples) + element(0x20, 0x32, "DS", Series::slice(0).position) + bare.substr(samples));
+  EXPECT_TRUE(read_image(folder.path()).geometry.origin.isApprox(Eigen::Vector3d(-1, -2, 0), 1e-6));
+}
+
 TEST(DicomSeries, AShearOfAFewTenthsOfAMillimetreIsRefused) {
   Series series;
   for (int k = 0; k < 5; ++k) {
