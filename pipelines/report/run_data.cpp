@@ -41,23 +41,6 @@ json read_record(const fs::path& file) {
   return record;
 }
 
-// A file that a stage left; empty where the stage is outdated.
-class Artefacts {
- public:
-  Artefacts(const fs::path& run_folder, const json& record)
-      : run_folder_(run_folder), stages_(record.value("stages", json::object())) {}
-
-  fs::path operator()(const fs::path& file) const {
-    const std::string stage = file.begin()->string();
-    const bool holds = !stages_.contains(stage) || stages_.at(stage).value("status", "") != outdated;
-    return holds ? run_folder_ / file : fs::path();
-  }
-
- private:
-  const fs::path& run_folder_;
-  json stages_;
-};
-
 // As it was when the run was made; else why there is none.
 std::optional<ScalarImage> read_t1(const json& record, std::string& fault) {
   for (const auto& input : record.value("inputs", json::array())) {
@@ -97,7 +80,11 @@ RunData read_run(const fs::path& run_folder) {
               .brain = {},
               .solution = {},
               .history = {}};
-  const Artefacts made(run_folder, run.record);
+  const json stages = run.record.value("stages", json::object());
+  const auto made = [&](const fs::path& file) {  // by a stage; empty where that is outdated
+    const json entry = stages.value(file.begin()->string(), json::object());
+    return entry.value("status", "") == outdated ? fs::path() : run_folder / file;
+  };
   const auto image = [](const fs::path& file) { return read_image(file); };
   run.t1 = read_t1(run.record, run.no_image);
   // The field takes as long to read as all the others together.

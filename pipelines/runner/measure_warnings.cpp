@@ -88,12 +88,15 @@ Warnings warnings_of_cavity(const solve::SolveMeasures& measures) {
 
 Warnings warnings_of_noise(const solve::SolveMeasures& measures) {
   constexpr double far_less = 0.4;  // what was given counts as one point, so that few points do not come so low
-  if (measures.measured && measures.measured->rough) {
+  if (!measures.measured) {
+    return {};
+  }
+  if (measures.measured->rough) {
     return {"the measured points move alike over " + with_digits(measures.measured->smooth.length) +
             " mm only, far more than the noise that is given: no cortex does, so the noise is likely larger, or some "
             "points are wrong; give the noise of one component in mm, as a standard deviation"};
   }
-  if (!measures.measured || measures.measured->noise_factor >= far_less) {
+  if (measures.measured->noise_factor >= far_less) {
     return {};
   }
   return {

@@ -25,6 +25,7 @@
 #include "segmentation/files/vtk_claims.hpp"
 #include "segmentation/files/vtk_faults.hpp"
 #include "segmentation/files/vtu_file.hpp"
+#include "segmentation/files/write_text.hpp"
 
 namespace brainshift {
 namespace {
@@ -136,13 +137,10 @@ void write_legacy_as(const fs::path& file, vtkPointSet& model, const fs::path& a
   writer->SetFileVersion(legacy_version(as_in) < new_cells_since ? vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2
                                                                  : vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1);
   writer->WriteToOutputStringOn();
-  const bool made = writer->Write() == 1;
-  std::ofstream out(file, std::ios::binary);
-  out.write(writer->GetOutputString(), static_cast<std::streamsize>(writer->GetOutputStringLength()));
-  out.close();
-  if (!made || !out) {
+  if (writer->Write() != 1) {
     fail_to_write(file);
   }
+  write_text(file, std::string(writer->GetOutputString(), static_cast<std::size_t>(writer->GetOutputStringLength())));
 }
 
 void check_points(const fs::path& file, vtkPointSet& model) {

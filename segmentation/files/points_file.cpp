@@ -3,17 +3,16 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <variant>
 
 #include "segmentation/files/frame.hpp"
 #include "segmentation/files/lower_case.hpp"
-#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/point_table.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
+#include "segmentation/files/write_text.hpp"
 
 namespace brainshift {
 
@@ -105,11 +104,7 @@ bool is_placed(const Json& point) {
 }
 
 void write_json(const std::filesystem::path& out, const Json& document) {
-  std::ofstream stream(out);
-  stream << document.dump(2) << '\n';
-  if (!stream.flush()) {
-    fail_to_write(out);
-  }
+  write_text(out, document.dump(2) + '\n');
 }
 
 }  // namespace

@@ -14,7 +14,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
@@ -25,6 +24,7 @@
 #include "segmentation/files/vtk_cells.hpp"
 #include "segmentation/files/vtk_claims.hpp"
 #include "segmentation/files/vtk_faults.hpp"
+#include "segmentation/files/write_text.hpp"
 
 namespace brainshift::vtu {
 namespace {
@@ -48,14 +48,10 @@ void write(const std::filesystem::path& file, vtkXMLWriter& writer, vtkDataObjec
   writer.SetEncodeAppendedData(1);
   writer.SetCompressorTypeToZLib();
   writer.WriteToOutputStringOn();
-  const bool made = writer.Write() == 1;
-  const std::string text = writer.GetOutputString();
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  if (!made || !out) {
+  if (writer.Write() != 1) {
     fail_to_write(file);
   }
+  write_text(file, writer.GetOutputString());
 }
 
 }  // namespace

@@ -228,7 +228,7 @@ class Likelihood {
 
 /// By how much what was measured departs from prior and noise. Of components whose σ is far from the usual one nothing
 /// is said: they agree with whatever there is.
-double noise_factor(const Prior& prior, const Eigen::MatrixXd& rigid, const Eigen::VectorXd& d,
+double noise_factor(const Eigen::MatrixXd& prior, const Eigen::MatrixXd& rigid, const Eigen::VectorXd& d,
                     const Eigen::VectorXd& variance, double usual) {
   constexpr double far_off = 3;
   std::vector<Eigen::Index> telling;
@@ -237,8 +237,7 @@ double noise_factor(const Prior& prior, const Eigen::MatrixXd& rigid, const Eige
       telling.push_back(i);
     }
   }
-  const Eigen::MatrixXd whole = prior.between(0, d.size(), 0, d.size());
-  const MeasuredGaussian of_these(whole(telling, telling), rigid(telling, Eigen::all), d(telling), variance(telling));
+  const MeasuredGaussian of_these(prior(telling, telling), rigid(telling, Eigen::all), d(telling), variance(telling));
   const double freedom = static_cast<double>(telling.size()) - static_cast<double>(rigid.cols());
   constexpr double given = 3;  // what was given of the noise counts as much as one measured point
   return freedom > 0 ? std::sqrt((given + of_these.squares) / (given + freedom)) : 1;
@@ -261,8 +260,8 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
     fit = likelihood.best();
     fit.weights = likelihood.rows(fit);
   }
-  const Prior prior(response, fit.weight, fit.smooth);
-  const MeasuredGaussian chosen(prior.between(0, m, 0, m), response.rigid.topRows(m), d, variance);
+  const Eigen::MatrixXd prior = Prior(response, fit.weight, fit.smooth).between(0, m, 0, m);
+  const MeasuredGaussian chosen(prior, response.rigid.topRows(m), d, variance);
   fit.noise_factor = noise_factor(prior, response.rigid.topRows(m), d, variance, usual_sigma(sigma));
   fit.motion = chosen.motion;
   fit.motion_deviation = fit.noise_factor * chosen.motion_deviation();

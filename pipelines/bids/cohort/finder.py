@@ -65,7 +65,8 @@ class Finder:
 
     def _sessions(self, participant, wanted):
         """Those in which there is a T1w or a load; one without a name where there are no sessions at all."""
-        there = {label for root in (self.bids, *self.derivatives) for label in labels_of(root / f"sub-{participant}", "ses")}
+        there = {label for root in (self.bids, *self.derivatives)
+                 for label in labels_of(root / f"sub-{participant}", "ses")}
         if not there:
             return [] if wanted else [""]
         there.discard(self.preop_session)
@@ -189,9 +190,11 @@ def labels_of(folder, entity):
 
 def check_place(file):
     """A file of another participant or session than its folder's is somebody's mistake."""
-    for entity, label in names.parse(file.name).entities.items():
+    entities = names.parse(file.name).entities
+    for entity in ("sub", "ses"):
+        label = entities.get(entity)
         folders = [part for part in file.parts[:-1] if part.startswith(f"{entity}-")]
-        if entity in ("sub", "ses") and folders and f"{entity}-{label}" not in folders:
+        if label and folders and f"{entity}-{label}" not in folders:
             raise Missing(f"{file} is by its name of {entity}-{label}, but does not lie in a folder of that name; see "
                           "whose it is")
 
