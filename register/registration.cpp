@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/registration.hpp"
 
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -53,21 +54,21 @@ void check(const RegisterInput& input, const RegisterOptions& options) {
 
 /// The images that are warped, without what was taken out.
 struct Emptied {
-  std::optional<ScalarImage> t1;  ///< these: where something was
+  std::vector<std::size_t> voxels;  ///< of what was taken out
+  std::optional<ScalarImage> t1;    ///< these: where something was
   std::optional<LabelMap> labels;
   device::Images images;
 
-  Emptied(const RegisterInput& input, const RegisterOptions& options, const BrainZones& zones, std::size_t& voxels)
+  Emptied(const RegisterInput& input, const RegisterOptions& options, const BrainZones& zones)
       : images{input.t1.voxels.empty() ? nullptr : &input.t1, input.labels ? &*input.labels : nullptr} {
-    const std::vector<std::size_t> empty = input.cavity
-                                               ? cavity_voxels(zones, *input.cavity, input.t1.geometry, images.labels)
-                                               : std::vector<std::size_t>();
-    voxels = empty.size();
-    if (images.t1 != nullptr && !empty.empty()) {
-      images.t1 = &t1.emplace(emptied(input.t1, empty, static_cast<float>(options.cavity_value)));
+    if (input.cavity) {
+      voxels = cavity_voxels(zones, *input.cavity, input.t1.geometry, images.labels);
     }
-    if (images.labels != nullptr && !empty.empty()) {
-      images.labels = &labels.emplace(emptied(*input.labels, empty, static_cast<std::uint16_t>(options.cavity_label)));
+    if (images.t1 != nullptr && !voxels.empty()) {
+      images.t1 = &t1.emplace(emptied(input.t1, voxels, static_cast<float>(options.cavity_value)));
+    }
+    if (images.labels != nullptr && !voxels.empty()) {
+      images.labels = &labels.emplace(emptied(*input.labels, voxels, static_cast<std::uint16_t>(options.cavity_label)));
     }
   }
   Emptied(const Emptied&) = delete;
@@ -90,13 +91,17 @@ void register_on_processor(const RegisterInput& input, const device::Images& ima
   }
 }
 
-std::size_t landmarks_in_cavity(const BrainZones& zones, const Points& landmarks) {
-  std::size_t count = 0;
-  for (Eigen::Index p = 0; zones.wall && p < landmarks.rows(); ++p) {
-    const Eigen::Vector3d x = landmarks.row(p);
-    count += zones.wall->value(x) < 0 && zones.outside.value(x) <= 0 ? 1 : 0;
+/// Counts the landmarks in what was taken out, of whose error nothing is known.
+void look_at_cavity(const BrainZones& zones, Registration& result) {
+  for (Eigen::Index p = 0; zones.wall && p < result.preop_landmarks.rows(); ++p) {
+    const Eigen::Vector3d x = result.preop_landmarks.row(p);
+    if (zones.wall->value(x) < 0 && zones.outside.value(x) <= 0) {
+      ++result.measures.cavity_landmarks;
+      if (!result.landmark_error.empty()) {
+        result.landmark_error[static_cast<std::size_t>(p)] = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
   }
-  return count;
 }
 
 }  // namespace
@@ -109,8 +114,7 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   const BrainZones zones = brain_zones(input.brain, grid, options.fade, input.cavity ? &input.cavity->wall : nullptr);
   check_covers(input, zones);
   Registration result;
-  std::size_t cavity_voxels = 0;
-  const Emptied emptied(input, options, zones, cavity_voxels);
+  const Emptied emptied(input, options, zones);
   if (!device::register_if_asked(input, emptied.images, options, zones, progress, result)) {
     register_on_processor(input, emptied.images, options, zones, progress, result);
   }
@@ -125,9 +129,13 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   result.jacobian = jacobian(result.forward);
   const std::size_t not_inverted = result.measures.not_inverted;
   result.measures = measure_fields(result.forward, result.resampling, result.jacobian, zones.zone, input.solution);
-  result.measures.cavity_voxels = cavity_voxels;
+  result.measures.cavity_voxels = emptied.voxels.size();
+  if (!emptied.voxels.empty()) {
+    const LabelMap nothing{grid, std::vector<std::uint16_t>(grid.voxel_count(), 0)};
+    result.removed = registration::emptied(nothing, emptied.voxels, std::uint16_t{1});
+  }
   result.measures.landmarks_outside = mover.moved().outside;
-  result.measures.cavity_landmarks = landmarks_in_cavity(zones, input.landmarks);
+  look_at_cavity(zones, result);
   result.measures.not_inverted = not_inverted;
   result.measures.seconds = seconds;
   report(progress, 1.0, "done");

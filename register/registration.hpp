@@ -16,10 +16,11 @@ namespace brainshift::registration {
 Registration register_images(const RegisterInput& input, const RegisterOptions& options, const Progress& progress = {});
 
 /// Writes warped.nii.gz, warped_labels.nii.gz, the fields intraop_to_preop.nii.gz and preop_to_intraop.nii.gz, the
-/// transforms of write_transform_files(), jacobian.nii.gz and landmarks.csv (`label,x,y,z` preop, `intraop_x,…`,
-/// `ux,uy,uz`, mm LPS, and of a solution that has it `estimated_error`, mm, empty outside the brain; a landmark without
-/// a name of its own has its number, from 1 on) into an existing folder; the image, labels and landmarks only when
-/// there are any. Throws std::runtime_error, naming the file, when one cannot be written whole.
+/// transforms of write_transform_files(), jacobian.nii.gz, removed.nii.gz and landmarks.csv (`label,x,y,z` preop,
+/// `intraop_x,…`, `ux,uy,uz`, mm LPS, and of a solution that has it `estimated_error`, mm, empty where it is not known;
+/// a landmark without a name of its own has its number, from 1 on) into an existing folder; image, labels, landmarks
+/// and what was removed only when there are any. Throws std::runtime_error, naming the file, when one cannot be written
+/// whole.
 void write_registration(const std::filesystem::path& folder, const Registration& registration);
 
 }  // namespace brainshift::registration

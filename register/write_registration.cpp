@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "register/files/register_fields.hpp"
 #include "register/files/transform_files.hpp"
 #include "segmentation/files/not_written.hpp"
 #include "segmentation/files/text_lines.hpp"
@@ -83,6 +84,9 @@ void write_registration(const std::filesystem::path& folder, const Registration&
   write_image(folder / "jacobian.nii.gz", registration.jacobian);
   if (registration.warped_labels) {
     write_image(folder / "warped_labels.nii.gz", *registration.warped_labels);
+  }
+  if (registration.removed) {
+    write_image(folder / removed_name, *registration.removed);
   }
   if (registration.landmarks.rows() > 0) {
     write_landmarks(folder / "landmarks.csv", registration);

@@ -2,9 +2,11 @@
 #include "pipelines/runner/warp_files.hpp"
 
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "pipelines/runner/artefacts.hpp"
 #include "pipelines/runner/read_run_record.hpp"
 #include "register/files/warped_name.hpp"
 #include "segmentation/files/refuse.hpp"
@@ -20,11 +22,12 @@ namespace {
 std::string told(const fs::path& file, const registration::WarpedFile& warped) {
   const std::string name = file.filename().string() + ": ", frame = frame_note(file);
   const std::string noted = frame.empty() ? "" : "; warning: " + frame;
+  const std::string emptied = warped.removed == 0 ? "" : ", 0 where tissue was taken out";
   if (warped.is_label_map) {
-    return name + "a label map, each voxel took the nearest label" + noted;
+    return name + "a label map, each voxel took the nearest label" + emptied + noted;
   }
   if (warped.is_image) {
-    return name + "an image, interpolated" + noted +
+    return name + "an image, interpolated" + emptied + noted +
            (warped.no_series.empty() ? "" : "; no DICOM series was written: " + warped.no_series);
   }
   const registration::MovedPoints& moved = warped.moved;
@@ -32,6 +35,10 @@ std::string told(const fs::path& file, const registration::WarpedFile& warped) {
                          write_number(std::round(100 * moved.largest) / 100) + " mm";
   if (moved.outside > 0) {
     sentence += "; " + std::to_string(moved.outside) + " lie outside the run's image and stay where they were";
+  }
+  if (moved.removed > 0) {
+    sentence += "; warning: of all points " + std::to_string(moved.removed) + (moved.removed == 1 ? " lies" : " lie") +
+                " in what was taken out, where a displacement means nothing";
   }
   return sentence;
 }
@@ -68,6 +75,18 @@ void check_is_one_state(const fs::path& run) {
   }
 }
 
+/// A state that its sequence no longer has stays where it was.
+void check_is_of_its_sequence(const fs::path& run) {
+  const fs::path state = fs::weakly_canonical(run), states = state.parent_path();
+  if (states.filename() != "states") {
+    return;
+  }
+  const auto record = read_run_record(states.parent_path());
+  if (record.is_object() && !(record.contains("states") && record["states"].contains(state.filename().string()))) {
+    refuse(run, "the sequence has not come to this state when it ran last, or has it no more; run it again");
+  }
+}
+
 /// A later run that did not get so far, or still goes on, leaves the fields of an earlier one.
 void check_up_to_date(const fs::path& fields) {
   const auto record = read_run_record(fields / "..");
@@ -77,6 +96,27 @@ void check_up_to_date(const fs::path& fields) {
   const std::string status = record.value(nlohmann::ordered_json::json_pointer("/stages/register/status"), "");
   if (status != "done" && status != "kept") {
     refuse(fields, "its fields are of an earlier run: the scene has changed since; run it again to the end");
+  }
+}
+
+/// Points move by one field, images by the other: a field that was replaced alone would part them.
+void check_both_or_neither_replaced(const fs::path& folder) {
+  std::ifstream stream(folder / "stage.json");
+  const auto record = nlohmann::ordered_json::parse(stream, nullptr, false);
+  if (!record.is_object() || !record.contains("artefacts")) {
+    return;  // fields alone
+  }
+  nlohmann::ordered_json fields = nlohmann::ordered_json::object();
+  for (const char* name : {registration::forward_name, registration::resampling_name}) {
+    if (record["artefacts"].contains(name)) {
+      fields[name] = record["artefacts"][name];
+    }
+  }
+  const std::vector<std::string> replaced = changes_of(fields, folder).edited;
+  if (replaced.size() == 1) {
+    refuse(folder / replaced.front(),
+           "it is another than the run made, and the field of the other direction is not: points would go by the one "
+           "and images by the other; replace both, or run the scene again");
   }
 }
 
@@ -94,9 +134,11 @@ std::vector<std::string> warp_files(const std::vector<fs::path>& files, registra
 
 std::vector<std::string> warp_files(const WarpJob& job, const fs::path& out) {
   check_is_one_state(job.run);
+  check_is_of_its_sequence(job.run);
   const fs::path stage = job.run / "register";
   const fs::path folder = fs::is_directory(stage) ? stage : job.run;
   check_up_to_date(folder);
+  check_both_or_neither_replaced(folder);
   registration::RegisterFields fields(folder, job.towards, folder / "../solve/solution.vtu");
   registration::WarpAnyOptions options = job.options;
   if (!job.like.empty()) {

@@ -12,13 +12,6 @@
 
 namespace brainshift::registration {
 
-namespace {
-
-constexpr const char* forward_name = "preop_to_intraop.nii.gz";
-constexpr const char* resampling_name = "intraop_to_preop.nii.gz";
-
-}  // namespace
-
 RegisterFields::RegisterFields(std::filesystem::path folder, Towards towards, std::filesystem::path solution)
     : folder_(std::move(folder)), towards_(towards), solution_file_(std::move(solution)) {
   for (const char* name : {forward_name, resampling_name}) {
@@ -34,6 +27,14 @@ const VectorImage& RegisterFields::read(bool forward) {
     field = read_vector_image(folder_ / (forward ? forward_name : resampling_name));
   }
   return *field;
+}
+
+const std::optional<LabelMap>& RegisterFields::removed() {
+  if (!looked_for_removed_ && towards_ == Towards::intraop && std::filesystem::exists(folder_ / removed_name)) {
+    removed_ = read_label_map(folder_ / removed_name);
+  }
+  looked_for_removed_ = true;
+  return removed_;
 }
 
 void RegisterFields::read_nodes() {
@@ -69,7 +70,12 @@ std::vector<PointValues> RegisterFields::values_of_points(const Points& points) 
   if (at_nodes_.empty()) {
     return {};
   }
-  const Eigen::MatrixXd found = look_up_(points);
+  Eigen::MatrixXd found = look_up_(points);
+  for (Eigen::Index p = 0; p < points.rows(); ++p) {
+    if (is_removed(points.row(p))) {
+      found.row(p).setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
   std::vector<PointValues> values;
   for (std::size_t c = 0; c < at_nodes_.size(); ++c) {
     const auto column = found.col(static_cast<Eigen::Index>(c));

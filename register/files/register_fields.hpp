@@ -15,6 +15,13 @@
 
 namespace brainshift::registration {
 
+/// Files of a register folder: the map of points and that of images.
+inline constexpr const char* forward_name = "preop_to_intraop.nii.gz";
+inline constexpr const char* resampling_name = "intraop_to_preop.nii.gz";
+
+/// Another: 1 in the preop voxels of what a resection has taken out; absent where nothing was.
+inline constexpr const char* removed_name = "removed.nii.gz";
+
 /// Which brain things are taken to.
 enum class Towards : std::uint8_t { intraop, preop };
 
@@ -31,10 +38,15 @@ class RegisterFields {
   const VectorImage& of_points() { return read(towards_ == Towards::intraop); }
   const VectorImage& of_images() { return read(towards_ == Towards::preop); }
 
+  /// Whether a place of the preop brain lies in what a resection has taken out. Never towards preop: nothing is there
+  /// that could be taken along.
+  bool is_removed(const Eigen::Vector3d& place) { return removed() && label_at(*removed(), place) != 0; }
+  const std::optional<LabelMap>& removed();
+
   /// How far the displacement may be off, mm, at points (n × 3, LPS) before they are moved: what the run has of
   /// "estimated_error", for want of nodes, and "uncertainty", the standard deviation of its uncertainty.vtu; NaN
-  /// outside the brain, where nothing is known. Throws std::invalid_argument, naming the file, when one of both cannot
-  /// be read.
+  /// outside the brain and in what was taken out, where nothing is known. Throws std::invalid_argument, naming the
+  /// file, when one of both cannot be read.
   std::vector<PointValues> values_of_points(const Points& points);
   /// The same at the voxels of a warped image's grid; 0 outside.
   std::vector<std::pair<std::string, ScalarImage>> values_on(const ImageGeometry& grid);
@@ -48,6 +60,8 @@ class RegisterFields {
   Towards towards_;
   std::filesystem::path solution_file_;
   std::optional<VectorImage> forward_, resampling_;
+  std::optional<LabelMap> removed_;
+  bool looked_for_removed_ = false;
   std::optional<Solution> solution_;
   std::vector<PointValues> at_nodes_;
   NodalLookUp look_up_;

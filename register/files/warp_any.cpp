@@ -61,25 +61,47 @@ MoveFile mover_of(const fs::path& file) {
   return found == movers.end() ? nullptr : found->second;
 }
 
-WarpedFile warp_labels(const LabelMap& labels, const VectorImage& field, const fs::path& out,
-                       const WarpAnyOptions& options) {
+/// Draws 0 where a resection has taken tissue out. Returns of how many voxels.
+template <class T>
+std::size_t take_out(RegisterFields& fields, Image<T>& image) {
+  if (!fields.removed()) {
+    return 0;
+  }
+  const LabelMap there = on_grid(*fields.removed(), image.geometry);
+  std::size_t voxels = 0;
+  for (std::size_t v = 0; v < image.voxels.size(); ++v) {
+    if (there.voxels[v] != 0) {
+      image.voxels[v] = T{};
+      ++voxels;
+    }
+  }
+  return voxels;
+}
+
+WarpedFile warp_labels(LabelMap labels, RegisterFields& fields, const fs::path& out, const WarpAnyOptions& options) {
   const ImageGeometry grid = options.grid.value_or(labels.geometry);
-  write_image(out, warp(labels, field, grid));
-  return {.is_image = true, .is_label_map = true, .grid = grid, .moved = {}};
+  const std::size_t removed = take_out(fields, labels);
+  write_image(out, warp(labels, fields.of_images(), grid));
+  return {.is_image = true, .is_label_map = true, .grid = grid, .moved = {}, .removed = removed};
 }
 
 /// Volume by volume, interpolated: labels in time are rare.
-WarpedFile warp_series(const fs::path& in, const VectorImage& field, const fs::path& out,
-                       const WarpAnyOptions& options) {
+WarpedFile warp_series(const fs::path& in, RegisterFields& fields, const fs::path& out, const WarpAnyOptions& options) {
   if (options.values == Values::labels) {
     refuse(in, "label maps of four dimensions are not warped; extract the volumes");
   }
   ImageSeries series = read_image_series(in);
+  std::size_t removed = 0;
   for (ScalarImage& volume : series.volumes) {
-    volume = warp(volume, field, options.interpolation, options.grid.value_or(volume.geometry));
+    removed = take_out(fields, volume);
+    volume = warp(volume, fields.of_images(), options.interpolation, options.grid.value_or(volume.geometry));
   }
   write_image_series(out, series);
-  return {.is_image = true, .is_label_map = false, .grid = series.volumes.front().geometry, .moved = {}};
+  return {.is_image = true,
+          .is_label_map = false,
+          .grid = series.volumes.front().geometry,
+          .moved = {},
+          .removed = removed};
 }
 
 /// Whether the name is one of an image, as image readers take it; a folder may hold DICOM.
@@ -90,24 +112,24 @@ bool may_be_image(const fs::path& file) {
          std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
-WarpedFile warp_image(const fs::path& in, const VectorImage& field, Towards towards, const fs::path& out,
-                      const WarpAnyOptions& options) {
+WarpedFile warp_image(const fs::path& in, RegisterFields& fields, const fs::path& out, const WarpAnyOptions& options) {
   if (is_image_series(in)) {
-    return warp_series(in, field, out, options);
+    return warp_series(in, fields, out, options);
   }
   if (options.values == Values::labels) {
-    return warp_labels(read_label_map(in), field, out, options);
+    return warp_labels(read_label_map(in), fields, out, options);
   }
-  const ScalarImage image = read_image(in);
+  ScalarImage image = read_image(in);
   if (options.values == Values::recognised && looks_like_labels(image)) {
-    return warp_labels(read_label_map(in), field, out, options);
+    return warp_labels(read_label_map(in), fields, out, options);
   }
   const ImageGeometry grid = options.grid.value_or(image.geometry);
-  const ScalarImage warped = warp(image, field, options.interpolation, grid);
+  const std::size_t removed = take_out(fields, image);
+  const ScalarImage warped = warp(image, fields.of_images(), options.interpolation, grid);
   write_image(out, warped);
-  WarpedFile result{.is_image = true, .is_label_map = false, .grid = grid, .moved = {}};
+  WarpedFile result{.is_image = true, .is_label_map = false, .grid = grid, .moved = {}, .removed = removed};
   if (fs::is_directory(in)) {
-    result.no_series = write_warped_series(series_name(out), warped, in, towards);
+    result.no_series = write_warped_series(series_name(out), warped, in, fields.towards());
   }
   return result;
 }
@@ -122,7 +144,7 @@ WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& 
            "model (.vtp, .vtu, .vtk, .gii, .stl, .ply, .obj), tracts (.tck, .trk) or points (.mrk.json, .fcsv, .csv)");
   }
   if (move == nullptr) {
-    const WarpedFile warped = warp_image(in, fields.of_images(), fields.towards(), out, options);
+    const WarpedFile warped = warp_image(in, fields, out, options);
     for (const auto& [name, image] : fields.values_on(warped.grid)) {
       write_image(values_name(name, out), image);
     }
@@ -132,7 +154,9 @@ WarpedFile warp_any(const fs::path& in, RegisterFields& fields, const fs::path& 
     refuse(out,
            "the moved points of " + in.string() + " keep its format; write to a " + in.extension().string() + " file");
   }
-  PointMover mover(fields.of_points(), [&](const Points& places) { return fields.values_of_points(places); });
+  PointMover mover(
+      fields.of_points(), [&](const Points& places) { return fields.values_of_points(places); },
+      [&](const Eigen::Vector3d& place) { return fields.is_removed(place); });
   move(in, mover, out);
   return {.is_image = false, .is_label_map = false, .grid = {}, .moved = mover.moved()};
 }

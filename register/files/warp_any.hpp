@@ -23,8 +23,9 @@ struct WarpAnyOptions {
 
 struct WarpedFile {
   bool is_image = false, is_label_map = false;
-  ImageGeometry grid;  ///< of a warped image
-  MovedPoints moved;   ///< of what is no image
+  ImageGeometry grid;       ///< of a warped image
+  MovedPoints moved;        ///< of what is no image
+  std::size_t removed = 0;  ///< voxels of an image that a resection has taken out: they are drawn as 0
   /// Why an image that was a DICOM series has not become one again.
   std::string no_series = {};
 };
@@ -37,12 +38,12 @@ struct WarpedFile {
 /// - .gii: GIFTI surfaces, all arrays, metadata and coordinate systems stay;
 /// - .obj, .ply: models, all else in them stays; .stl: a surface;
 /// - .csv (`x,y,z` among its columns, frame named by a line "# frame: LPS" or "# frame: RAS"), .mrk.json, .fcsv:
-/// points. Images are resampled, all else is moved, in the frame of its file, and keeps what else it holds. `out` must
-/// have the same ending. What the run knows of how far the displacement may be off (RegisterFields::values_of_points())
-/// goes along: in models of VTK, .ply and .trk as arrays, in a .csv as columns, in 3D Slicer's markups as words,
-/// beside images, .gii and .tck as files (values_name() of warped_name.hpp); .obj and .stl have no place for it. Throws
-/// std::invalid_argument, naming the file, when it cannot be used, and std::runtime_error when `out` cannot be written
-/// whole.
+/// points. Images are resampled, without what a resection has taken out; all else is moved, in the frame of its file,
+/// and keeps what else it holds. `out` must have the same ending. What the run knows of how far the displacement may be
+/// off (RegisterFields::values_of_points()) goes along: in models of VTK, .ply and .trk as arrays, in a .csv as
+/// columns, in 3D Slicer's markups as words, beside images, .gii and .tck as files (values_name() of warped_name.hpp);
+/// .obj and .stl have no place for it. Throws std::invalid_argument, naming the file, when it cannot be used, and
+/// std::runtime_error when `out` cannot be written whole.
 WarpedFile warp_any(const std::filesystem::path& in, RegisterFields& fields, const std::filesystem::path& out,
                     const WarpAnyOptions& options = {});
 

@@ -35,11 +35,13 @@ struct Registration {
   VectorImage resampling;  ///< intraop_to_preop: intraop point -> displacement back, rounded to 1/4096 mm
   ScalarImage warped;      ///< without voxels where the T1 has none
   std::optional<LabelMap> warped_labels;
+  std::optional<LabelMap> removed;               ///< preop, 1 where a resection has taken tissue out; absent: none was
   ScalarImage jacobian;                          ///< determinant of the forward map's gradient, in the world
   Points landmarks = Points(0, 3);               ///< intraop
   Points preop_landmarks = Points(0, 3);         ///< as they came in
   std::vector<std::string> landmark_names = {};  ///< one each, as users call them; none: they have numbers
-  std::vector<double> landmark_error;  ///< the solution's estimated error at each, mm, NaN outside; none without one
+  std::vector<double> landmark_error;  ///< the solution's estimated error at each, mm, NaN outside and in what
+                                       ///< was taken out; none without one
   RegisterMeasures measures;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace brainshift::registration {
 struct MovedPoints {
   std::size_t points = 0;
   std::size_t outside = 0;  ///< of the field's image: they stay
+  std::size_t removed = 0;  ///< in what a resection has taken out: where they go means nothing
   double largest = 0;       ///< displacement, mm
 };
 
@@ -24,8 +26,9 @@ struct MovedPoints {
 /// the outermost half voxel is inside. The field must outlive it.
 class PointMover {
  public:
-  explicit PointMover(const VectorImage& field, ValuesOfPoints values = {})
-      : sampler_(field), values_(std::move(values)) {}
+  explicit PointMover(const VectorImage& field, ValuesOfPoints values = {},
+                      std::function<bool(const Eigen::Vector3d&)> is_removed = {})
+      : sampler_(field), values_(std::move(values)), is_removed_(std::move(is_removed)) {}
 
   /// mm, LPS.
   Eigen::Vector3d displacement(const Eigen::Vector3d& place) {
@@ -35,6 +38,7 @@ class PointMover {
       ++moved_.outside;
       return Eigen::Vector3d::Zero();
     }
+    moved_.removed += is_removed_ && is_removed_(place) ? 1 : 0;
     const Eigen::Vector3d u = sampler_.value(index);
     moved_.largest = std::max(moved_.largest, u.norm());
     return u;
@@ -61,6 +65,7 @@ class PointMover {
  private:
   FieldSampler sampler_;
   ValuesOfPoints values_;
+  std::function<bool(const Eigen::Vector3d&)> is_removed_;
   MovedPoints moved_;
 };
 

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
+#include "register/files/warp_any.hpp"
 #include "tests/unit/register/builders.hpp"
+#include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift::registration::cavity_voxels_test {
 
@@ -50,6 +53,33 @@ TEST(CavityVoxels, DrawNoTissue) {
   });
   EXPECT_GT(drawn, 0U);
   EXPECT_EQ(result.measures.folded_voxels, 0U);
+}
+
+/// As of a run's own images, so of other files that are taken along.
+TEST(CavityVoxels, AreEmptyInOtherFilesToo) {
+  const RegisterInput input = hollow_head(sinking);
+  const Registration result = register_images(input, {});
+  const test::ScratchFolder folder;
+  write_registration(folder.path(), result);
+  write_image(folder / "labels.nii.gz", *input.labels);
+  write_image(folder / "t1.nii.gz", input.t1);
+  std::ostringstream points;
+  points << "# frame: LPS\nx,y,z\n"
+         << centre.x() << ',' << centre.y() << ',' << centre.z() << '\n'
+         << centre.x() << ',' << centre.y() << ',' << centre.z() + inner + 6 << '\n';
+  folder.write("points.csv", points.str());
+  RegisterFields fields(folder.path(), Towards::intraop);
+  const WarpedFile labels = warp_any(folder / "labels.nii.gz", fields, folder / "out_labels.nii.gz");
+  EXPECT_EQ(labels.removed, result.measures.cavity_voxels);
+  EXPECT_EQ(std::ranges::count(read_label_map(folder / "out_labels.nii.gz").voxels, 2), 0);
+  warp_any(folder / "t1.nii.gz", fields, folder / "out_t1.nii.gz");
+  const ScalarImage t1 = read_image(folder / "out_t1.nii.gz");
+  for (std::size_t v = 0; v < t1.voxels.size(); ++v) {
+    EXPECT_NEAR(t1.voxels[v], result.warped.voxels[v], 1e-3) << v;
+  }
+  EXPECT_EQ(warp_any(folder / "points.csv", fields, folder / "out_points.csv").moved.removed, 1U);
+  RegisterFields back(folder.path(), Towards::preop);
+  EXPECT_EQ(warp_any(folder / "labels.nii.gz", back, folder / "back_labels.nii.gz").removed, 0U);
 }
 
 TEST(CavityVoxels, LeaveTheTissueAroundWhereTheSolverPutIt) {
