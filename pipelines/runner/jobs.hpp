@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct SolveJob {
   std::filesystem::path landmarks = {};  ///< where the spread of the answer is wanted
   std::optional<Load> load;              ///< absent: what the nodes prescribe; the forces of the nodes act in any case
   std::map<std::int32_t, solve::Material> materials;
+  /// Of the map, that are not of the brain; absent: not known. With them a number that has no material is refused.
+  std::optional<std::set<std::uint16_t>> other_labels = {};
   solve::SolveOptions options;
   Loading loading;
   solve::Plane plane = solve::Plane::none;

@@ -271,6 +271,11 @@ SolveJob solve_job(const Scene& scene, const fs::path& folder) {
   for (const Tissue& tissue : scene.tissues) {
     job.materials[tissue.label] = tissue.material;
   }
+  const auto takes_all_numbers = [](const Tissue& tissue) { return tissue.tissue_class == 0 && tissue.labels.empty(); };
+  if (std::ranges::all_of(scene.tissues, takes_all_numbers)) {
+    job.other_labels.emplace(scene.image.other_labels.begin(), scene.image.other_labels.end());
+    job.other_labels->insert(scene.image.skull_label.value_or(0));
+  }
   if (scene.uncertainty) {
     job.uncertainty = uncertainty_job(scene, folder);
   }

@@ -2,6 +2,7 @@
 #include "pipelines/runner/jobs.hpp"
 
 #include <iomanip>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -13,6 +14,7 @@
 #include "pipelines/runner/warnings.hpp"
 #include "pipelines/scene/field_load.hpp"
 #include "segmentation/files/naming.hpp"
+#include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/geometry/collinear.hpp"
 #include "solve/cut/septum.hpp"
@@ -206,6 +208,27 @@ void note_replaced(const SolveJob& job, const solve::Conditions& own, std::vecto
   }
 }
 
+/// A segmentation that another program made, or that was edited, may hold a number that the scene has no tissue for.
+void check_labels(const SolveJob& job, const solve::Model& model) {
+  if (!model.labels || !job.other_labels) {
+    return;
+  }
+  std::map<std::uint16_t, std::size_t> nodes;
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    const std::uint16_t label = label_at(*model.labels, model.cloud.positions.row(a));
+    if (model.cloud.on_surface[static_cast<std::size_t>(a)] == 0 && label != 0 && !job.materials.contains(label) &&
+        !job.other_labels->contains(label)) {
+      ++nodes[label];
+    }
+  }
+  if (!nodes.empty()) {
+    const auto& [label, count] = *nodes.begin();
+    refuse(job.labels, "label " + std::to_string(label) + ", in which " + std::to_string(count) +
+                           " nodes inside the brain lie, has no material; give it a <tissue>, or list it in the "
+                           "image's other_labels if it is not of the brain");
+  }
+}
+
 SolveInput read_input(const SolveJob& job) {
   SolveInput input;
   solve::Model& model = input.model;
@@ -215,6 +238,7 @@ SolveInput read_input(const SolveJob& job) {
   model.cells = read_background_cells(job.cells);
   model.labels = labels_if(job.labels);
   model.materials = job.materials;
+  check_labels(job, model);
   model.plane = job.plane;
   model.gravity = job.loading.gravity;
   if (job.gravity) {
@@ -299,6 +323,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
   warn(warnings_of(result.measures), said);
   warn(warnings_of_weight(input.model), said);
   warn(warnings_of_rooms(input.model), said);
+  warn(warnings_of_levels(input.model), said);
   warn(warnings_of(input.model, result.solution), said);
   if (said.failure.empty()) {
     said.failure = turn_fault(input.model, result.solution);

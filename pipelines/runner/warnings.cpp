@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "segmentation/geometry/collinear.hpp"
@@ -53,6 +54,18 @@ double median_distance(const Points& points, const Points& surface) {
   return median(std::move(distances));
 }
 
+/// The first row of each place.
+std::vector<Eigen::Index> row_of_each_place(const Points& positions) {
+  std::set<std::array<double, 3>> places;
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index p = 0; p < positions.rows(); ++p) {
+    if (places.insert({positions(p, 0), positions(p, 1), positions(p, 2)}).second) {
+      rows.push_back(p);
+    }
+  }
+  return rows;
+}
+
 /// Of a load without noise: two displacements in one place, of which the mean counts.
 Warnings warnings_of_repeated(const solve::CraniotomyLoad& load) {
   constexpr double alike = 1;  // mm
@@ -70,14 +83,25 @@ Warnings warnings_of_repeated(const solve::CraniotomyLoad& load) {
   return {};
 }
 
-/// How far the measured points move away from the middle of the surface in the mean, mm, where that is most of how they
-/// move and enough to be seen; else 0.
+/// How far the measured points that move most, at least half as far as the farthest, move away from the middle of the
+/// surface in the mean, mm, where that is most of how they move and enough to be seen; else 0. Of a load all over the
+/// brain few move.
 double moved_out(const solve::CraniotomyLoad& load, const Points& surface) {
-  constexpr double seen = 1, most = 0.7;
+  constexpr double seen = 1, most = 0.7, much = 0.5;
+  constexpr int enough = 3;  // fewer may be outliers
   const Eigen::RowVector3d middle = surface.colwise().mean();
-  const Points outwards = (load.positions.rowwise() - middle).rowwise().normalized();
-  const double out = load.displacement.cwiseProduct(outwards).rowwise().sum().mean();
-  return out > std::max(seen, most * load.displacement.rowwise().norm().mean()) ? out : 0;
+  const double farthest = load.displacement.rowwise().norm().maxCoeff();
+  double out = 0, moved = 0;
+  int count = 0;
+  for (Eigen::Index p = 0; p < load.positions.rows(); ++p) {
+    const Eigen::RowVector3d u = load.displacement.row(p);
+    if (u.norm() >= much * farthest) {
+      out += u.dot((load.positions.row(p) - middle).normalized());
+      moved += u.norm();
+      ++count;
+    }
+  }
+  return count >= enough && out > std::max(seen * count, most * moved) ? out / count : 0;
 }
 
 /// "(1 2 3), (4 5 6)", whole mm.
@@ -87,6 +111,38 @@ std::string listed(const Points& places) {
     text += (text.empty() ? "(" : ", (") + write_numbers(Eigen::RowVector3d(x.array().round())) + ")";
   }
   return text;
+}
+
+/// Of a load without noise: neighbours that would tear the brain between them, as where two points were taken for each
+/// other. Noise does not part them so far: what parts them is much more than what parts most.
+Warnings warnings_of_neighbours(const solve::CraniotomyLoad& load) {
+  constexpr double much = 3, most_strain = 1, of_most = 4;  // mm; 1; 1
+  const std::vector<Eigen::Index> rows = row_of_each_place(load.positions);
+  if (load.sigma.rows() > 0 || rows.size() < 3) {
+    return {};
+  }
+  const Points places = load.positions(rows, Eigen::all), moved = load.displacement(rows, Eigen::all);
+  const PointTree tree(places);
+  std::vector<Eigen::Index> nearest(rows.size());
+  std::vector<double> torn(rows.size());
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    std::array<std::size_t, 2> near{};  // the place itself is one
+    std::array<double, 2> squared{};
+    const auto row = static_cast<Eigen::Index>(p);
+    const Eigen::RowVector3d place = places.row(row);
+    tree.nearest(place.data(), near.size(), near.data(), squared.data());
+    nearest[p] = static_cast<Eigen::Index>(near[1]);
+    torn[p] = (moved.row(row) - moved.row(nearest[p])).norm();
+  }
+  const auto farthest = std::ranges::max_element(torn) - torn.begin();
+  const Points both = places({farthest, nearest[static_cast<std::size_t>(farthest)]}, Eigen::all);
+  const double apart = (both.row(0) - both.row(1)).norm(), most = torn[static_cast<std::size_t>(farthest)];
+  if (most <= std::max({much, most_strain * apart, of_most * median(torn)})) {
+    return {};
+  }
+  return {"the measured points at " + listed(both) + " mm, " + with_digits(apart) +
+          " mm apart, move by vectors that differ by " + with_digits(most) +
+          " mm; were points before and after paired as they belong?"};
 }
 
 }  // namespace
@@ -101,14 +157,20 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
                        " mm off the brain's surface (median); are load and image in the same frame, and were the "
                        "points taken on the cortex?");
   }
-  append(warnings_of_repeated(load), warnings);
+  const Warnings repeated = warnings_of_repeated(load);
+  append(repeated.empty() ? warnings_of_neighbours(load) : repeated, warnings);
+  constexpr double hardly = 0.05;  // mm
   if (load.displacement.isZero(0)) {
     warnings.emplace_back("all measured displacements are 0");
+  } else if (const double most = load.displacement.rowwise().norm().maxCoeff(); most < hardly) {
+    warnings.push_back("no measured point moves by more than " + with_digits(most) +
+                       " mm, which nobody can measure; displacements in mm are expected");
   }
   if (const double out = moved_out(load, surface); out > 0) {
-    warnings.push_back("the measured points move out of the head, by " + with_digits(out) +
-                       " mm in the mean, as those of a brain that swells; if it sank, turn the signs: a displacement "
-                       "is where a point came to less where it was");
+    warnings.push_back(
+        "the measured points move out of the head, by " + with_digits(out) +
+        " mm where they move most, as those of a brain that swells; if it sank, turn the signs: a displacement "
+        "is where a point came to less where it was");
   }
   constexpr double hardly_any = 0.1;
   if (const double share = solve::share_not_taken(load.positions, cloud, prescribed); share > hardly_any) {
@@ -246,6 +308,29 @@ Warnings warnings_of_rooms(const solve::Model& model) {
   return warnings;
 }
 
+Warnings warnings_of_levels(const solve::Model& model) {
+  constexpr double skull = 20;  // mm that a cavity's fluid may stand above the brain
+  Warnings warnings;
+  if (!model.fluid) {
+    return warnings;
+  }
+  const Eigen::Vector3d down = model.fluid->gravity.normalized();
+  const double top = (model.cloud.positions * down).minCoeff();
+  if (const double above = top - model.fluid->level; above > 0) {
+    warnings.push_back(
+        "the fluid's surface lies " + with_digits(above) +
+        " mm above the whole brain, so that none has drained; is the level of this frame (LPS), and does "
+        "gravity point the right way?");
+  }
+  if (model.resection && model.resection->fluid_level && top - *model.resection->fluid_level > skull) {
+    warnings.push_back("the surface of the fluid in the cavity lies " +
+                       with_digits(top - *model.resection->fluid_level) +
+                       " mm above the whole brain, and presses on the wall as such a column would; is the level of "
+                       "this frame (LPS)?");
+  }
+  return warnings;
+}
+
 Warnings warnings_of_weight(const solve::Model& model) {
   if (model.gravity.isZero() || !model.skull) {
     return {};
@@ -287,11 +372,17 @@ Warnings warnings_of(const registration::RegisterMeasures& measures) {
   if (measures.folded_voxels > 0) {
     warnings.push_back("the field folds in " + std::to_string(measures.folded_voxels) + " voxels (Jacobian down to " +
                        with_digits(measures.field_jacobian_min) +
-                       "), where the warped images mean nothing; look at the load, or solve with more nodes");
+                       "), where the warped images mean nothing; look at the load, or solve with more nodes; "
+                       "beside falx, tentorium and cuts a field cannot jump");
   }
   if (measures.landmarks_outside > 0) {
     warnings.push_back(std::to_string(measures.landmarks_outside) +
                        " landmarks lie outside the image and stay where they were; are they in its frame?");
+  }
+  if (measures.cavity_landmarks > 0) {
+    warnings.push_back(std::to_string(measures.cavity_landmarks) +
+                       (measures.cavity_landmarks == 1 ? " landmark lies" : " landmarks lie") +
+                       " in what was taken out, where a displacement means nothing");
   }
   return warnings;
 }

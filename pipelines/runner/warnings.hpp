@@ -18,8 +18,8 @@ namespace brainshift::pipelines {
 /// What is no fault, but most likely not what the user means: a sentence each.
 using Warnings = std::vector<std::string>;
 
-/// Of points that lie off the brain's surface, that are too few or lie on a line, do not move, move out of the head, or
-/// are lost. prescribed: what became of them.
+/// Of points that lie off the brain's surface, that are too few or lie on a line, hardly move, move out of the head,
+/// contradict their neighbours, or are lost. prescribed: what became of them.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Points& prescribed);
 
 /// The same of those on the cortex, and of many that count as inside the brain. conditions: what became of them.
@@ -52,6 +52,9 @@ Warnings warnings_of(const solve::Model& model, const Solution& solution);
 /// image has it goes along with a brain that turns, and turns it on.
 std::string turn_fault(const solve::Model& model, const Solution& solution);
 
+/// Of levels of the fluid above the brain.
+Warnings warnings_of_levels(const solve::Model& model);
+
 /// Of soft tissue, as fluid is modelled, that a drained level leaves with its whole weight.
 Warnings warnings_of_rooms(const solve::Model& model);
 
@@ -62,7 +65,7 @@ Warnings warnings_of(const std::optional<solve::Outlier>& outlier);
 /// Of measured points that count for less than half.
 Warnings warnings_of(const solve::LessenedPoints& lessened);
 
-/// Of a field that folds, and of landmarks outside the image.
+/// Of a field that folds, and of landmarks outside the image or in what was taken out.
 Warnings warnings_of(const registration::RegisterMeasures& measures);
 
 /// Adds them to the notes of a stage, each marked as a warning.

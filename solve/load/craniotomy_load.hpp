@@ -76,7 +76,7 @@ struct OpeningOptions {
 /// (openings()) each by itself. Returns (n × 3) mm, one row a node. Throws std::invalid_argument on an option out of
 /// range; on no measured point or one that is not finite; with the distance and the point, on one too far from the
 /// surface (a wrong frame, most often: says so if flipping x and y would bring it near) or that moves by more than half
-/// of the body; and when no node is loaded.
+/// of the body; on points of more than one side of the brain; and when no node is loaded.
 Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load,
                                    const OpeningOptions& options = {});
 

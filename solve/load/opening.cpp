@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -62,6 +63,31 @@ double margin_of(const CraniotomyLoad& load, const OpeningOptions& options, cons
   return cloud.spacing[static_cast<std::size_t>(nodes[PointTree(surface).nearest(place.data()).first])];
 }
 
+/// An opening is one sheet over its plane. Points on both sides of the brain project on each other, so that nodes
+/// beside them lie off the sheet that is laid through them. spacing, taken: of the places of the surface; 1 where they
+/// are under the opening.
+void check_one_sheet(const CraniotomyLoad& load, const OpeningShape& opening, const Points& surface,
+                     const std::vector<double>& spacing, const std::vector<std::uint8_t>& taken) {
+  constexpr std::ptrdiff_t few = 2;
+  constexpr double most = 0.25, beside = 0.5;  // spacings
+  const Points places = distinct_points(load.positions), local = opening.local(surface);
+  const PointTree measured(places);
+  std::ptrdiff_t at_points = 0, off = 0;
+  for (std::size_t n = 0; n < taken.size(); ++n) {
+    const auto row = static_cast<Eigen::Index>(n);
+    if (opening.beyond_rim(local.row(row)) <= 0 && distance_to(measured, surface.row(row)) <= beside * spacing[n]) {
+      ++at_points;
+      off += taken[n] == 0 ? 1 : 0;
+    }
+  }
+  if (off > few && static_cast<double>(off) > most * static_cast<double>(at_points)) {
+    throw std::invalid_argument("load: " + std::to_string(off) + " of " + std::to_string(at_points) +
+                                " surface nodes beside measured points lie off the opening that these make: they do "
+                                "not lie about one opening, as on both sides of the brain or all around it; give those "
+                                "of one opening, of surfaces the part that is exposed");
+  }
+}
+
 }  // namespace
 
 Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options) {
@@ -69,19 +95,26 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
   check_load(load);
   const std::vector<std::int32_t> nodes = nodes_to_load(cloud);
   const Points surface = cloud.positions(nodes, Eigen::all);
+  std::vector<double> spacing;
+  for (const std::int32_t node : nodes) {
+    spacing.push_back(cloud.spacing[static_cast<std::size_t>(node)]);
+  }
   check_near_surface(load.positions, surface, options.farthest);
   check_moved(load.displacement, surface);
   Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
   for (const CraniotomyLoad& part : openings(load)) {
     const OpeningShape opening(part, surface, margin_of(part, options, cloud, nodes));
     const Points candidates = opening.local(surface);
+    std::vector<std::uint8_t> taken(nodes.size(), 0);
     share_work(candidates.rows(), splines_a_part, [&](std::int64_t n) {
       const std::int32_t node = nodes[static_cast<std::size_t>(n)];
-      const double past = on_rim * cloud.spacing[static_cast<std::size_t>(node)];
+      const double past = on_rim * spacing[static_cast<std::size_t>(n)];
       if (const auto displacement = opening.displacement_at(candidates.row(n), past, options.depth)) {
         prescribed.row(node) = *displacement;
+        taken[static_cast<std::size_t>(n)] = 1;
       }
     });
+    check_one_sheet(part, opening, surface, spacing, taken);
   }
   if (prescribed.array().isNaN().all()) {
     const Points places = distinct_points(load.positions);

@@ -73,6 +73,11 @@ TEST_F(JobsTest, ALoadIsReadFromWhereItIsMeasured) {
   Load surfaces;
   surfaces.surfaces = {folder_ / "ball.vtp", folder_ / "ball.vtp"};
   EXPECT_NEAR(read_load(surfaces, {}).displacement.norm(), 0, 1e-6);
+  Surface sunk = read_surface(folder_ / "ball.vtp");
+  sunk.vertices.col(2).array() -= 2;
+  write_surface(folder_ / "sunk.vtp", sunk);
+  surfaces.surfaces = {folder_ / "ball.vtp", folder_ / "sunk.vtp"};
+  EXPECT_LT(read_load(surfaces, {}).displacement.col(2).mean(), -0.5) << "from before to after";
   Load simulated;
   simulated.simulated = solve::SimulatedCraniotomy{.centre = {0, 0, 20}, .radius = 12, .depth = 3};
   EXPECT_NEAR(read_load(simulated, folder_ / "ball.vtp").displacement.rowwise().norm().maxCoeff(), 3, 0.3);
@@ -215,6 +220,25 @@ TEST_F(JobsTest, WhatASolveJobNamesIsInItsModel) {
     EXPECT_TRUE(std::isnan(prescribed(node, 2)) || input.model.cloud.positions(node, 2) > 10);
   }
   EXPECT_TRUE((prescribed.col(2).array() == -1).any());
+}
+
+TEST_F(JobsTest, ANumberOfTheMapThatHasNoMaterialIsRefusedWhereTheOthersAreKnown) {
+  LabelMap labels{image().geometry, std::vector<std::uint16_t>(image().voxels.size(), 1)};
+  for (int k = 6; k < 14; ++k) {
+    for (int j = 6; j < 14; ++j) {
+      for (int i = 6; i < 14; ++i) {
+        labels.at(i, j, k) = 17;
+      }
+    }
+  }
+  write_image(folder_ / "labels.nii.gz", labels);
+  SolveJob job = solve_job();
+  job.labels = folder_ / "labels.nii.gz";
+  EXPECT_NO_THROW(read_input(job)) << "of a stage alone nobody knows the others";
+  job.other_labels = {4, 5};
+  expect_parts(refusal([&] { read_input(job); }), {"labels.nii.gz: label 17", "no material", "other_labels"});
+  job.other_labels = {4, 17};
+  EXPECT_NO_THROW(read_input(job));
 }
 
 TEST_F(JobsTest, WithoutALoadTheNodesPrescribeTheirOwn) {

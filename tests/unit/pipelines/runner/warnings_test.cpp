@@ -83,6 +83,41 @@ TEST(Warnings, TellOfPointsThatMoveOutOfTheHeadAsIfASignWereTurned) {
   EXPECT_TRUE(moved({0, 0, 0.5}).empty()) << "hardly";
 }
 
+TEST(Warnings, TellOfPointsThatMoveOutOfTheHeadWhereMostDoNotMove) {
+  const Points points = opening(60);
+  solve::CraniotomyLoad load{points, Points::Zero(points.rows(), 3), {}};
+  load.displacement.col(2).head(4).setConstant(2);
+  const Warnings said = warnings_of(load, ball(), prescribed_on_top());
+  ASSERT_EQ(said.size(), 1U);
+  expect_parts(said.front(), {"move out of the head"});
+}
+
+TEST(Warnings, TellOfNeighboursThatWereTakenForEachOther) {
+  const Points points = opening(60);
+  solve::CraniotomyLoad load{points, Eigen::RowVector3d(0, 0, -3).replicate(points.rows(), 1), {}};
+  const auto of_load = [&] { return warnings_of(load, ball(), prescribed_on_top()); };
+  EXPECT_TRUE(of_load().empty());
+  Eigen::Index other = 0;
+  Eigen::VectorXd apart = (points.rowwise() - points.row(0)).rowwise().norm();
+  apart[0] = 1e9;
+  const double near = apart.minCoeff(&other);
+  const Eigen::RowVector3d between = points.row(other) - points.row(0);
+  load.displacement.row(0) += between * std::max(1.0, 4 / near);
+  load.displacement.row(other) -= between * std::max(1.0, 4 / near);
+  ASSERT_EQ(of_load().size(), 1U);
+  expect_parts(of_load().front(), {"mm apart, move by vectors that differ by", "paired as they belong"});
+  load.sigma = Points::Constant(points.rows(), 3, 0.5);
+  EXPECT_TRUE(of_load().empty()) << "the noise says who is wrong";
+}
+
+TEST(Warnings, TellOfDisplacementsInMetres) {
+  const Points points = opening(60);
+  const solve::CraniotomyLoad load{points, Eigen::RowVector3d(0, 0, -0.004).replicate(points.rows(), 1), {}};
+  const Warnings said = warnings_of(load, ball(), prescribed_on_top());
+  ASSERT_EQ(said.size(), 1U);
+  expect_parts(said.front(), {"by more than 0.004 mm", "in mm are expected"});
+}
+
 TEST(Warnings, TellOfTwoDisplacementsInOnePlaceThatContradictEachOther) {
   const Points points = opening(60);
   solve::CraniotomyLoad load{points, Points::Constant(points.rows(), 3, 2)};
@@ -202,6 +237,22 @@ TEST(Warnings, TellOfAnErrorThatIsLargeBesideTheAnswer) {
   EXPECT_TRUE(warnings_of(solve::Model(), solution).empty());
   solution.estimated_error.assign(solution.estimated_error.size(), 1.5);
   expect_parts(warnings_of(solve::Model(), solution).front(), {"1.5 mm", "more than half", "more nodes"});
+}
+
+TEST(Warnings, TellOfFluidThatStandsAboveTheBrain) {
+  solve::Model model;
+  model.cloud = ball();
+  EXPECT_TRUE(warnings_of_levels(model).empty());
+  const double top = model.cloud.positions.col(1).minCoeff();
+  model.fluid = solve::DrainedFluid{.gravity = {0, 9.8, 0}, .gravity_of_image = {0, 9.8, 0}, .level = top + 5};
+  model.resection = solve::Resection{.labels = {}, .fluid_level = top - 10};
+  EXPECT_TRUE(warnings_of_levels(model).empty());
+  model.fluid->level = top - 30;
+  model.resection->fluid_level = top - 60;
+  const Warnings both = warnings_of_levels(model);
+  ASSERT_EQ(both.size(), 2U);
+  expect_parts(both[0], {"30 mm above the whole brain", "none has drained"});
+  expect_parts(both[1], {"60 mm above the whole brain", "in the cavity"});
 }
 
 TEST(Warnings, TellOfATissueAsSoftAsFluidThatIsNoRoom) {

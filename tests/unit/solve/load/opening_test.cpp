@@ -123,6 +123,13 @@ TEST(Opening, PrescribesNothingBetweenTwoThatLieApart) {
   }
 }
 
+TEST(Opening, RefusesPointsAllAroundButTakesAWideCap) {
+  const NodeCloud cloud = head();
+  EXPECT_NO_THROW(prescribed_on_surface_nodes(cloud, measured(1500, 1.0)));
+  const std::string said = refusal([&] { prescribed_on_surface_nodes(cloud, measured(3000, 3.1)); });
+  EXPECT_NE(said.find("all around it"), std::string::npos) << said;
+}
+
 TEST(Opening, PrescribesAllThreeComponentsOfANodeOrNone) {
   const Points prescribed = prescribed_on_surface_nodes(head(), measured(60, 0.35));
   for (const auto& row : prescribed.rowwise()) {
