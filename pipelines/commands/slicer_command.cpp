@@ -3,12 +3,16 @@
 // The command-line module of 3D Slicer: its description, and a run by Slicer's rules. Progress and notes go to standard
 // output, as Slicer shows what stands on standard error as a fault. A computation that does not converge ends with 0
 // and a warning among the return parameters, as Slicer drops the outputs of a module that fails.
+#include <tinyxml2.h>
+
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
 
+#include "pipelines/checksum/sha256.hpp"
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/printable.hpp"
 #include "pipelines/runner/own_folder.hpp"
@@ -21,6 +25,7 @@
 #include "pipelines/scene/parse_scene.hpp"
 #include "pipelines/scene/presets.hpp"
 #include "pipelines/slicer/description.hpp"
+#include "segmentation/files/refuse.hpp"
 #include "segmentation/image/image.hpp"
 
 namespace brainshift::pipelines {
@@ -103,6 +108,54 @@ void check_outputs(const SlicerArguments& arguments) {
   });
 }
 
+/// The scene with options as attributes, PATH=VALUE each: 'brainshift run' on it does the same. None is of a part that
+/// the scene lacks.
+std::string with_options(const std::string& scene, const std::vector<std::string>& options) {
+  tinyxml2::XMLDocument document;
+  document.Parse(scene.c_str());
+  tinyxml2::XMLElement& root = *document.RootElement();
+  for (const std::string& option : options) {
+    const std::size_t dot = option.find('.'), equals = option.find('=');
+    const std::string part = option.substr(0, dot), value = option.substr(equals + 1);
+    tinyxml2::XMLElement* element = root.FirstChildElement(part.c_str());
+    for (auto* stage = root.FirstChildElement("stage"); stage != nullptr && element == nullptr;
+         stage = stage->NextSiblingElement("stage")) {
+      element = stage->Attribute("name", part.c_str()) != nullptr ? stage : nullptr;
+    }
+    if (element == nullptr) {
+      element = root.InsertNewChildElement("stage");
+      element->SetAttribute("name", part.c_str());
+    }
+    if (!value.empty()) {
+      element->SetAttribute(option.substr(dot + 1, equals - dot - 1).c_str(), value.c_str());
+    }
+  }
+  tinyxml2::XMLPrinter text;
+  document.Print(&text);
+  return text.CStr();
+}
+
+constexpr std::string_view mark = "<!-- As the module of 3D Slicer wrote it: ";
+
+/// By which a scene is known that nobody has edited since.
+std::string mark_of(const std::string& text) {
+  return std::string(mark) + sha256_of_text(text) + " -->\n";
+}
+
+/// Throws std::invalid_argument where somebody has edited the scene that would be written over.
+void refuse_edited(const fs::path& file) {
+  if (!fs::exists(file)) {
+    return;
+  }
+  std::ifstream stream(file, std::ios::binary);
+  const std::string all{std::istreambuf_iterator<char>(stream), {}}, text = all.substr(0, all.rfind(mark));
+  if (all != text + mark_of(text)) {
+    refuse(file,
+           "it was edited, or an earlier version wrote it, and the module would write over it; run it with 'brainshift "
+           "run', or choose another folder");
+  }
+}
+
 /// The scene of what Slicer hands over, in the run's folder.
 Scene scene_of(const SlicerArguments& arguments, const fs::path& folder) {
   FilesAtHand files{.t1 = arguments.value("t1"),
@@ -121,14 +174,17 @@ Scene scene_of(const SlicerArguments& arguments, const fs::path& folder) {
   for (const std::string& sentence : made.taken) {
     std::cout << printable(sentence) << '\n';
   }
-  write_whole(folder / "scene.xml", made.text);
-  std::vector<std::string> overrides = preset_overrides(arguments.value("preset"));
+  std::vector<std::string> options = preset_overrides(arguments.value("preset"));
   for_each_parameter(Kind::option, [&](const SlicerParameter& option) {
     if (arguments.values.contains(option.flag) && !option.path.empty() && option.flag != "labels_are") {
-      overrides.push_back(option.path + "=" + arguments.value(option.flag));
+      options.push_back(option.path + "=" + arguments.value(option.flag));
     }
   });
-  Scene scene = parse_scene(folder / "scene.xml", overrides);
+  const fs::path file = folder / "scene.xml";
+  refuse_edited(file);
+  const std::string text = with_options(made.text, options);
+  write_whole(file, text + mark_of(text));
+  Scene scene = parse_scene(file, {});
   check_scene(scene);
   return scene;
 }
@@ -180,6 +236,23 @@ void write_outputs(const SlicerArguments& arguments, const fs::path& folder, Int
   });
 }
 
+/// What did not converge, then what the stages warn of.
+std::string warnings_of(const RunOutcome& outcome) {
+  std::string text = outcome.failure;
+  for (const auto& [name, stage] : outcome.record["stages"].items()) {
+    if (stage.value("status", "") == "outdated") {
+      continue;
+    }
+    for (const auto& note : stage.value("notes", nlohmann::ordered_json::array())) {
+      const std::string sentence = note.is_string() ? note.get<std::string>() : "";
+      if (sentence.starts_with("warning: ")) {
+        text += (text.empty() ? "" : "; ") + sentence.substr(std::string_view("warning: ").size());
+      }
+    }
+  }
+  return text;
+}
+
 void write_returned(const SlicerArguments& arguments, const RunOutcome& outcome) {
   if (arguments.return_file.empty()) {
     return;
@@ -189,7 +262,7 @@ void write_returned(const SlicerArguments& arguments, const RunOutcome& outcome)
   for_each_parameter(Kind::returned, [&](const SlicerParameter& returned) {
     const auto measure = measures.find(returned.flag);
     text += returned.flag + " = " +
-            (returned.flag == "warning"  ? printable(outcome.failure)
+            (returned.flag == "warning"  ? printable(warnings_of(outcome))
              : measure != measures.end() ? measure->dump()
                                          : returned.default_value) +
             "\n";

@@ -26,6 +26,7 @@ FILES = {
     "report": "report/index.html",
 }
 OVERLAYS = {"uncertainty": "Uncertainty (mm)", "error": "Estimated error (mm)"}
+MOST_POINTS = 300  # markups are made for points that were placed by hand, not for the thousands of a surface
 COLOURS = "vtkMRMLColorTableNodeFileViridis.txt"
 
 
@@ -65,6 +66,13 @@ def measured_points(file):
         x, y, z, ux, uy, uz = (float(row[name]) for name in ("x", "y", "z", "ux", "uy", "uz"))
         points.append(((-x, -y, z), (-x - ux, -y - uy, z + uz)))
     return points
+
+
+def evenly_chosen(points, most=MOST_POINTS):
+    """[(row, point)], rows counted from 1: all of the points, or as many as `most`, from the first to the last."""
+    if len(points) <= most:
+        return list(enumerate(points, 1))
+    return [(row + 1, points[row]) for row in (i * (len(points) - 1) // (most - 1) for i in range(most))]
 
 
 def largest_displacement(record):
@@ -123,8 +131,8 @@ def _name_segments(node, names):
 
 def _add_points(slicer, name, colour, places):
     node = slicer.mrmlScene.AddNewNodeByClass("vtkMRMLMarkupsFiducialNode", name)
-    for i, place in enumerate(places, 1):
-        node.AddControlPoint(list(place), str(i))
+    for row, place in places:
+        node.AddControlPoint(list(place), str(row))
     node.CreateDefaultDisplayNodes()
     node.GetDisplayNode().SetSelectedColor(*colour)
     node.GetDisplayNode().SetPointLabelsVisibility(False)
@@ -159,9 +167,13 @@ def show(run, slicer, t1=None):
         nodes["brain"].SetName("Brain warped")
         _show_brain(slicer, nodes["brain"], largest)
     if "load" in files:
-        before, after = zip(*measured_points(files["load"]))
+        points = measured_points(files["load"])
+        chosen = evenly_chosen(points)
+        before, after = ([(row, pair[i]) for row, pair in chosen] for i in (0, 1))
         nodes["before"] = _add_points(slicer, "Measured before", (0.2, 0.4, 1.0), before)
         nodes["after"] = _add_points(slicer, "Measured after", (1.0, 0.3, 0.2), after)
+        if len(chosen) < len(points):
+            slicer.util.showStatusMessage(f"{len(chosen)} of {len(points)} measured points are shown.")
     for what in OVERLAYS:
         if what in nodes:
             _show_overlay(slicer, nodes[what], OVERLAYS[what])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The module Brain Shift of 3D Slicer: widgets alone. What is behind them stands in BrainShiftLib."""
-import tempfile
+"""The module Brain Shift of 3D Slicer: its widgets and its nodes. What knows nothing of Slicer is in BrainShiftLib."""
+from contextlib import contextmanager
 from pathlib import Path
 
 import ctk
@@ -10,6 +10,71 @@ from BrainShiftLib import logic, open_in_slicer
 from slicer.ScriptedLoadableModule import ScriptedLoadableModule, ScriptedLoadableModuleWidget
 
 MODULES = Path(__file__).parent
+RESULT = "BrainShift.result"  # an attribute: it is saved with the scene, and a copy of a node has it, too
+
+
+def is_result(node):
+    return node.GetAttribute(RESULT) == "1"
+
+
+def part_from_files(node):
+    """Takes away the storage node of what was loaded: its file is removed, or overwritten by the next run there.
+
+    Slicer then saves the node with the scene, and asks where; without StorableModified it may take it for saved.
+    """
+    storage = node.GetStorageNode()
+    if storage:
+        node.SetAndObserveStorageNodeID(None)
+        slicer.mrmlScene.RemoveNode(storage)
+        node.StorableModified()
+
+
+def transforms_above(node):
+    chain = []
+    while (node := node.GetParentTransformNode()) is not None:
+        chain.append(node)
+    return chain
+
+
+def own_transforms(node):
+    """The transforms above a node that are no results of this module: its registrations, the nearest first."""
+    return [transform for transform in transforms_above(node) if not is_result(transform)]
+
+
+def hang(chain):
+    """Puts each of the nodes under the next; None is the world."""
+    for node, above in zip(chain, chain[1:]):
+        if node.GetParentTransformNode() is not above:
+            node.SetAndObserveTransformNodeID(above.GetID() if above else None)
+
+
+def take_along(node, shift):
+    """Puts the node under the shift, in the place of an earlier one. Its own registrations come first."""
+    above_shift = transforms_above(shift)  # these come after it, and under it they would make a circle
+    hang([node, *(own for own in own_transforms(node) if own not in above_shift), shift])
+
+
+@contextmanager
+def out_of_results(node):
+    """The node under its own registrations alone; afterwards it lies where it lay."""
+    own = [node, *own_transforms(node)]
+    places = [(member, member.GetParentTransformNode()) for member in own]
+    try:
+        hang([*own, None])
+        yield node
+    finally:
+        for place in places:
+            hang(place)
+
+
+def refused_input(nodes):
+    """The sentence about the first input that an earlier run has shifted; else empty."""
+    for name in ("t1", "labels"):
+        if is_result(nodes[name]):
+            return f"{nodes[name].GetName()} is a result of an earlier Apply: choose what was there before the shift."
+    if any(is_result(transform) for transform in transforms_above(nodes["after"])):
+        return "The points after lie under the result of an earlier Apply: take them out of it, as they were measured."
+    return ""
 
 
 class BrainShiftPanel(ScriptedLoadableModule):
@@ -29,7 +94,8 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
         ScriptedLoadableModuleWidget.setup(self)
         self.runner = None
         self.nodes = {}
-        self.run = None
+        self.run = None  # whose result is shown
+        self.coming = None  # the one that is computed
         self._set_up_inputs()
         self._set_up_run()
         self._set_up_results()
@@ -37,6 +103,7 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
         self.timer = qt.QTimer()
         self.timer.setInterval(200)
         self.timer.timeout.connect(self.on_timer)
+        self.observer = slicer.mrmlScene.AddObserver(slicer.mrmlScene.EndCloseEvent, self.on_scene_closed)
 
     def _section(self, title):
         box = ctk.ctkCollapsibleButton()
@@ -135,7 +202,7 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
     def _enable_results(self):
         self.contours.enabled = self.move.enabled = "transform" in self.nodes
         self.overlay.enabled = open_in_slicer.overlay_of(self.nodes) is not None
-        self.report.enabled = self.run is not None and "report" in open_in_slicer.files_of(self.run)
+        self.report.enabled = self.run is not None and "report" in open_in_slicer.files_of(self.run.path)
 
     def chosen(self):
         return {
@@ -146,34 +213,36 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
         }
 
     def _export(self, nodes):
-        """Writes the nodes, with the transforms above them, into the run's folder; {flag: file}."""
-        inputs = self.run / "inputs"
+        """Writes the nodes, as they lay before any shift, into the run's folder; {flag: file}."""
+        inputs = self.coming.path / "inputs"
         inputs.mkdir(parents=True, exist_ok=True)
         labels = "labels.seg.nrrd" if nodes["labels"].IsA("vtkMRMLSegmentationNode") else "labels.nrrd"
         names = {"t1": "t1.nrrd", "labels": labels, "before": "before.mrk.json", "after": "after.mrk.json"}
         for flag, name in names.items():
-            if not slicer.util.exportNode(nodes[flag], str(inputs / name), world=True):
-                raise ValueError(f"{inputs / name} could not be written")
+            with out_of_results(nodes[flag]) as node:
+                # The properties are given, as the default of Slicer keeps the file format of the call before.
+                if not slicer.util.exportNode(node, str(inputs / name), {}, world=True):
+                    raise ValueError(f"{inputs / name} could not be written")
         return {flag: inputs / name for flag, name in names.items()}
 
     def on_apply(self):
         nodes = self.chosen()
-        missing = logic.missing_input(nodes)
-        if missing:
-            slicer.util.errorDisplay(missing)
-            return
-        try:
-            command = logic.command_of(self.program.currentPath, MODULES)
-            temporary = self.folder.currentPath or tempfile.mkdtemp(dir=slicer.app.temporaryPath)
-            self.run = Path(temporary).resolve()
-            options = {"preset": self.preset.currentText, "noise": self.noise.text}
-            arguments = logic.arguments_of(command, self._export(nodes), self.run, options)
-        except (OSError, ValueError) as fault:
-            slicer.util.errorDisplay(str(fault))
+        refusal = logic.missing_input(nodes) or refused_input(nodes)
+        if refusal:
+            slicer.util.errorDisplay(refusal)
             return
         self.log.clear()
-        # In the environment that Slicer was started in: its libraries are not the program's.
-        self.runner = logic.Runner(slicer.util.launchConsoleProcess(arguments))
+        try:
+            command = logic.command_of(self.program.currentPath, MODULES)
+            self.coming = logic.RunFolder(self.folder.currentPath, slicer.app.temporaryPath)
+            options = {"preset": self.preset.currentText, "noise": self.noise.text}
+            arguments = logic.arguments_of(command, self._export(nodes), self.coming.path, options)
+            # In the environment that Slicer was started in: its libraries are not the program's.
+            self.runner = logic.Runner(slicer.util.launchConsoleProcess(arguments))
+        except (OSError, ValueError) as fault:
+            self._drop_coming()
+            slicer.util.errorDisplay(str(fault))
+            return
         self.apply.enabled, self.cancel.enabled = False, True
         self.timer.start()
 
@@ -197,18 +266,53 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
 
     def _finish(self):
         if self.runner.cancelled:
+            self._drop_coming()
             self.log.appendPlainText("Cancelled.")
             return
         if self.runner.process.returncode != 0:
+            self._drop_coming()
             slicer.util.errorDisplay("brainshift ended without a result.", detailedText=self.log.toPlainText())
             return
-        record = open_in_slicer.record_of(self.run)
-        self.nodes = open_in_slicer.show(self.run, slicer, t1=self.t1.currentNode())
+        self._drop_shown()
+        self.run, self.coming = self.coming, None
+        self._show()
+
+    def _show(self):
+        t1 = self.t1.currentNode()
+        record = open_in_slicer.record_of(self.run.path)
+        self.nodes = open_in_slicer.show(self.run.path, slicer, t1=t1)
+        for what, node in self.nodes.items():
+            if node is not t1:
+                part_from_files(node)
+            if what != "t1":
+                node.SetAttribute(RESULT, "1")
         rows = logic.quality_table(record)
         self.table.setRowCount(len(rows))
         for i, row in enumerate(rows):
             for j, text in enumerate(row):
                 self.table.setItem(i, j, qt.QTableWidgetItem(text))
+        self._enable_results()
+        failure = logic.failure_of(record)
+        if failure:
+            slicer.util.warningDisplay(f"{failure}; what is shown is what there is.")
+
+    def _drop_coming(self):
+        if self.coming:
+            self.coming.drop()
+            self.coming = None
+
+    def _drop_shown(self):
+        if self.run:
+            self.run.drop()
+            self.run = None
+
+    def on_scene_closed(self, caller, event):
+        """Nothing of the closed scene is kept, nor does the result of its run come into the next."""
+        if self.coming:
+            self.runner.cancel()
+        self._drop_shown()
+        self.nodes = {}
+        self.table.setRowCount(0)
         self._enable_results()
 
     def on_contours(self, checked):
@@ -221,16 +325,17 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
     def on_move(self):
         shift = self.nodes["transform"]
         for node in self.moved.checkedNodes():
-            if node in self.nodes.values() and node is not self.nodes.get("t1"):
-                continue
-            while (above := node.GetParentTransformNode()) is not None and above is not shift:
-                node = above  # a registration of the node's own comes before the shift
-            if above is None:
-                node.SetAndObserveTransformNodeID(shift.GetID())
+            if not is_result(node):
+                take_along(node, shift)
 
     def on_report(self):
-        qt.QDesktopServices.openUrl(qt.QUrl.fromLocalFile(str(open_in_slicer.files_of(self.run)["report"])))
+        qt.QDesktopServices.openUrl(qt.QUrl.fromLocalFile(str(open_in_slicer.files_of(self.run.path)["report"])))
 
     def cleanup(self):
-        if self.runner and not self.runner.ended():
+        slicer.mrmlScene.RemoveObserver(self.observer)
+        self.timer.stop()
+        if self.coming:
             self.runner.cancel()
+            self.runner.reader.join(5)  # seconds: the folder can go when nothing writes into it
+        self._drop_coming()
+        self._drop_shown()

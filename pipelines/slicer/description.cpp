@@ -147,7 +147,7 @@ SlicerGroup results() {
           {returned("largest_displacement_mm", "double", "largest displacement (mm)", "of the nodes"),
            returned("estimated_error_95_mm", "double", "estimated error (mm)",
                     "95 % of the nodes are off by less, for want of nodes"),
-           returned("warning", "string", "warning", "what did not converge; else empty")}};
+           returned("warning", "string", "warning", "what did not converge, and what the run warns of; else empty")}};
 }
 
 void push_text(tinyxml2::XMLPrinter& xml, const char* name, const std::string& text) {

@@ -18,6 +18,7 @@ from pathlib import Path
 from unittest.mock import MagicMock, patch
 
 from heads import make_head
+from stub_scene import Nodes
 
 PARAVIEW = shutil.which("pvbatch") and shutil.which("xvfb-run") and find_spec("paraview")
 SKIPPED = 77  # for ctest
@@ -38,34 +39,6 @@ def setUpModule():
     sys.dont_write_bytecode = True
     sys.path.insert(0, str(modules))
     from BrainShiftLib import logic, open_in_slicer
-
-
-class Nodes:
-    """A stub of slicer whose loaders take files that are there alone."""
-
-    def __init__(self):
-        self.slicer, self.loaded = MagicMock(), {}
-        for kind in ("Volume", "Segmentation", "Transform", "Model"):
-            getattr(self.slicer.util, f"load{kind}").side_effect = self._loader(kind)
-        self.points = []
-        self.slicer.mrmlScene.AddNewNodeByClass.side_effect = self._add
-
-    def _loader(self, kind):
-        def load(file, properties=None):
-            assert Path(file).is_file(), file
-            node = MagicMock(name=kind)
-            node.GetSegmentation().GetNumberOfSegments.return_value = 2
-            node.GetSegmentation().GetNthSegment(0).GetLabelValue.return_value = 3
-            self.loaded[Path(file).name] = node
-            return node
-
-        return load
-
-    def _add(self, kind, name):
-        assert kind == "vtkMRMLMarkupsFiducialNode"
-        node = MagicMock(name=name)
-        self.points.append(node)
-        return node
 
 
 class InSlicer(unittest.TestCase):
@@ -102,6 +75,23 @@ class InSlicer(unittest.TestCase):
         self.assertEqual(open_in_slicer.contour_levels(3.9), "0.5 1 1.5 2 2.5 3 3.5")
         self.assertEqual(open_in_slicer.contour_levels(8), "1 2 3 4 5 6 7 8")
         self.assertEqual(open_in_slicer.contour_levels(0.3), "0.15")
+
+    def test_of_thousands_of_points_few_are_shown(self):
+        rows = [((i, 0, 0), (i, 1, 0)) for i in range(4230)]
+        stub = Nodes()
+        with patch.dict(sys.modules, {"vtk": MagicMock()}), patch.object(
+            open_in_slicer, "measured_points", return_value=rows
+        ):
+            nodes = open_in_slicer.show(run, stub.slicer)
+        calls = (nodes[name].AddControlPoint.call_args_list for name in ("before", "after"))
+        before, after = ([call[0] for call in those] for those in calls)
+        self.assertEqual((len(before), len(after)), (300, 300))
+        self.assertEqual((before[0], before[-1]), (([0, 0, 0], "1"), ([4229, 0, 0], "4230")))
+        self.assertEqual([name for _, name in before], [name for _, name in after])
+        steps = {b[0][0] - a[0][0] for a, b in zip(before, before[1:])}
+        self.assertEqual(steps, {14, 15})
+        stub.slicer.util.showStatusMessage.assert_called_with("300 of 4230 measured points are shown.")
+        self.assertEqual(open_in_slicer.evenly_chosen("abc"), [(1, "a"), (2, "b"), (3, "c")])
 
     def test_the_script_of_the_run_is_the_one_of_the_module(self):
         for name in ("open_in_slicer.py", "open_in_paraview.py"):
@@ -151,7 +141,6 @@ class Logic(unittest.TestCase):
         record["stages"]["solve"]["failure"] = "not converged"
         self.assertIn(("solve", "not converged", ""), logic.quality_table(record))
 
-
     def test_in_paraview_one_looks_over_the_opening_wherever_the_head_lies(self):
         script = SourceFileLoader("open_in_paraview", str(run / "open_in_paraview.py"))
         module = module_from_spec(spec_from_loader(script.name, script))
@@ -170,9 +159,8 @@ class Panel(unittest.TestCase):
         self.stub.slicer.util.launchConsoleProcess.side_effect = lambda words: subprocess.Popen(
             words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
         )
-        self.stub.slicer.util.exportNode.side_effect = lambda node, file, world: bool(
-            shutil.copy(node.file, file)
-        )
+        self.stub.slicer.app.temporaryPath = str(folder / "temporary")
+        Path(self.stub.slicer.app.temporaryPath).mkdir(exist_ok=True)
         base = types.SimpleNamespace(
             ScriptedLoadableModule=type("Base", (), {"__init__": lambda self, parent: None}),
             ScriptedLoadableModuleWidget=type("Widget", (), {"setup": lambda self: None, "layout": MagicMock()}),
@@ -197,7 +185,7 @@ class Panel(unittest.TestCase):
         self.panel.folder.currentPath = str(folder / self._testMethodName)
         self.panel.preset.currentText, self.panel.noise.text = "fast", ""
         files = {**head, "t1": run / "inputs" / "t1.nrrd"}
-        self.nodes = {name: MagicMock(file=file) for name, file in files.items()}
+        self.nodes = {name: self.stub.node(name, file=file) for name, file in files.items()}
         self.nodes["labels"].IsA.side_effect = lambda kind: kind == "vtkMRMLSegmentationNode"
         for name, node in self.nodes.items():
             getattr(self.panel, name).currentNode.return_value = node
@@ -205,6 +193,18 @@ class Panel(unittest.TestCase):
     def follow(self):
         self.panel.runner.reader.join()
         self.panel.on_timer()
+
+    def apply(self):
+        self.panel.on_apply()
+        self.follow()
+
+    def take_along(self, *nodes):
+        self.panel.moved.checkedNodes.return_value = nodes
+        self.panel.on_move()
+
+    @staticmethod
+    def temporary():
+        return list((folder / "temporary").iterdir())
 
     def test_a_run_is_shown_when_it_has_ended(self):
         self.panel.on_apply()
@@ -218,16 +218,13 @@ class Panel(unittest.TestCase):
         self.assertGreaterEqual(self.panel.table.setRowCount.call_args[0][0], 6)
 
         transform = self.panel.nodes["transform"]
-        other, registered, registration, moved = MagicMock(), MagicMock(), MagicMock(), MagicMock()
-        for node, parent in ((other, None), (registered, registration), (registration, None), (moved, transform)):
-            node.GetParentTransformNode.return_value = parent
-        self.panel.moved.checkedNodes.return_value = [other, registered, moved, self.panel.nodes["warped"]]
-        self.panel.on_move()
-        for node in (other, registration):
-            node.SetAndObserveTransformNodeID.assert_called_once_with(transform.GetID())
-        for node in (registered, moved):
-            node.SetAndObserveTransformNodeID.assert_not_called()
-        self.panel.nodes["warped"].SetAndObserveTransformNodeID.assert_not_called()
+        other, registration = self.stub.node("other"), self.stub.node("registration")
+        registered, moved = self.stub.node("registered", registration), self.stub.node("moved", transform)
+        self.take_along(other, registered, moved, self.panel.nodes["warped"])
+        for node in (other, registration, moved):
+            self.assertIs(node.under, transform)
+        self.assertIs(registered.under, registration)
+        self.assertIsNone(self.panel.nodes["warped"].under)
         self.panel.on_overlay(0.4)
         layers = self.stub.slicer.util.setSliceViewerLayers
         layers.assert_called_with(foreground=self.panel.nodes["error"], foregroundOpacity=0.4)
@@ -255,6 +252,153 @@ class Panel(unittest.TestCase):
         self.follow()
         self.assertIn("without a result", self.stub.slicer.util.errorDisplay.call_args[0][0])
         self.assertEqual(self.panel.nodes, {})
+
+    def test_a_second_apply_takes_the_place_of_the_first(self):
+        scanner = self.stub.node("where the scanner stands")
+        before = self.stub.node("before", scanner)
+        registration = self.stub.node("registration", before)
+        other, registered = self.stub.node("other"), self.stub.node("registered", registration)
+        self.apply()
+        first = self.panel.nodes["transform"]
+        self.take_along(other, registered)
+        self.assertEqual(self.stub.above(registered), [registration, before, scanner, first])
+        self.apply()
+        second = self.panel.nodes["transform"]
+        self.assertIsNot(first, second)
+        for _ in range(2):
+            self.take_along(other, registered)
+            self.assertEqual(self.stub.above(other), [second])
+            self.assertEqual(self.stub.above(registered), [registration, before, scanner, second])
+
+    def test_results_of_a_loaded_scene_are_known(self):
+        self.apply()
+        shift = self.panel.nodes["transform"]
+        late, early = self.stub.node("moved with the result"), self.stub.node("registration")
+        older = self.stub.result("Brain shift", late)
+        registered = self.stub.node("registered", early)
+        early.under = older
+        doubled = self.stub.node("doubled", self.stub.result("Brain shift", older))
+        warped = self.stub.result("T1 warped")
+        self.take_along(registered, doubled, warped)
+        self.assertEqual(self.stub.above(registered), [early, late, shift])
+        self.assertEqual(self.stub.above(doubled), [late, shift])
+        self.assertIsNone(warped.under)
+
+    def test_what_stands_above_the_shift_stays_above_it(self):
+        self.apply()
+        shift, room = self.panel.nodes["transform"], self.stub.node("room")
+        shift.under = room
+        under_both, under_room = self.stub.node("under both", shift), self.stub.node("under the room", room)
+        self.take_along(under_both, under_room)
+        for node in (under_both, under_room):
+            self.assertEqual(self.stub.above(node), [shift, room])
+
+    def test_inputs_are_written_as_they_lay_before_any_shift(self):
+        registration, tracked = self.stub.node("registration"), self.stub.node("tracked")
+        shift = self.stub.result("Brain shift")
+        registration.under = shift
+        self.nodes["t1"].under = self.nodes["before"].under = registration
+        self.nodes["labels"].under, self.nodes["after"].under = shift, tracked
+        self.apply()
+        own = {"t1": [registration], "labels": [], "before": [registration], "after": [tracked]}
+        self.assertEqual(self.stub.exported, own)
+        self.assertEqual(self.stub.above(self.nodes["t1"]), [registration, shift])
+        self.assertEqual(self.stub.above(self.nodes["labels"]), [shift])
+
+    def test_inputs_lie_where_they_lay_when_one_cannot_be_written(self):
+        self.nodes["t1"].under = shift = self.stub.result("Brain shift")
+        self.stub.slicer.util.exportNode.side_effect = OSError("no room")
+        self.panel.folder.currentPath = ""
+        self.panel.on_apply()
+        self.stub.slicer.util.errorDisplay.assert_called_with("no room")
+        self.assertIs(self.nodes["t1"].under, shift)
+        self.assertEqual(self.temporary(), [])
+
+    def test_what_a_shift_has_moved_is_no_input(self):
+        self.nodes["after"].under = self.stub.result("Brain shift")
+        self.panel.on_apply()
+        self.assertIn("points after lie under", self.stub.slicer.util.errorDisplay.call_args[0][0])
+        for name in ("labels", "t1"):
+            self.nodes[name].SetAttribute("BrainShift.result", "1")
+            self.panel.on_apply()
+            self.assertIn(f"{name} is a result", self.stub.slicer.util.errorDisplay.call_args[0][0])
+        self.assertIsNone(self.panel.runner)
+
+    def test_a_temporary_run_goes_when_nothing_shows_it_any_more(self):
+        self.panel.folder.currentPath = ""
+        self.apply()
+        (first,) = self.temporary()
+        self.assertTrue((first / "report" / "index.html").is_file(), "it can still be opened")
+        self.apply()
+        (second,) = self.temporary()
+        self.assertNotEqual(first, second)
+        self.panel.noise.text = "much"
+        self.apply()
+        self.assertEqual(self.temporary(), [second], "what is shown stays")
+        self.panel.cleanup()
+        self.assertEqual(self.temporary(), [])
+        self.stub.slicer.mrmlScene.RemoveObserver.assert_called_once_with(self.panel.observer)
+
+    def test_a_run_that_is_left_unended_goes(self):
+        self.panel.folder.currentPath = ""
+        self.panel.on_apply()
+        self.panel.cleanup()
+        self.assertTrue(self.panel.runner.ended())
+        self.assertEqual(self.temporary(), [])
+
+    def test_results_are_saved_with_the_scene(self):
+        user = self.nodes["t1"].storage = self.stub.node("storage")
+        self.apply()
+        removed = [call[0][0].file for call in self.stub.slicer.mrmlScene.RemoveNode.call_args_list]
+        self.assertEqual({Path(file).name for file in removed}, set(self.stub.loaded))
+        for node in self.stub.loaded.values():
+            self.assertIsNone(node.GetStorageNode())
+            node.StorableModified.assert_called_once_with()
+        self.assertIs(self.nodes["t1"].storage, user)
+        self.assertTrue((folder / self._testMethodName / "report" / "index.html").is_file())
+
+    def test_a_t1_of_the_run_itself_is_saved_with_the_scene(self):
+        self.panel.on_apply()
+        self.panel.t1.currentNode.return_value = None  # removed while it ran
+        self.follow()
+        t1 = self.panel.nodes["t1"]
+        self.assertIsNone(t1.GetStorageNode())
+        self.take_along(t1)
+        self.assertIs(t1.under, self.panel.nodes["transform"])
+
+    def close_scene(self):
+        event, observer = self.stub.slicer.mrmlScene.AddObserver.call_args[0]
+        self.assertIs(event, self.stub.slicer.mrmlScene.EndCloseEvent)
+        observer(self.stub.slicer.mrmlScene, "EndCloseEvent")
+
+    def test_nothing_of_a_closed_scene_is_kept(self):
+        self.panel.folder.currentPath = ""
+        self.apply()
+        self.close_scene()
+        self.assertEqual((self.panel.nodes, self.panel.run, self.temporary()), ({}, None, []))
+        self.assertFalse(self.panel.contours.enabled or self.panel.move.enabled)
+        self.assertFalse(self.panel.overlay.enabled or self.panel.report.enabled)
+        self.panel.table.setRowCount.assert_called_with(0)
+
+    def test_the_run_of_a_closed_scene_is_not_shown_in_the_next(self):
+        self.panel.folder.currentPath = ""
+        self.panel.on_apply()
+        self.close_scene()
+        self.follow()
+        self.assertEqual((self.panel.nodes, self.temporary()), ({}, []))
+        self.assertTrue(self.panel.apply.enabled)
+        self.stub.slicer.util.errorDisplay.assert_not_called()
+
+    def test_a_run_that_does_not_converge_is_shown_with_its_warning(self):
+        few = lambda command, inputs, run, options: arguments_of(command, inputs, run, {**options, "max_steps": 20})
+        arguments_of = logic.arguments_of
+        with patch.object(logic, "arguments_of", few):
+            self.apply()
+        self.stub.slicer.util.errorDisplay.assert_not_called()
+        self.assertIn("20 steps", self.stub.slicer.util.warningDisplay.call_args[0][0])
+        self.assertIn("transform", self.panel.nodes)
+        failure = logic.failure_of(open_in_slicer.record_of(self.panel.run.path))
+        self.assertIn(("solve", failure, ""), logic.quality_table(open_in_slicer.record_of(self.panel.run.path)))
 
 
 @unittest.skipUnless(PARAVIEW, "ParaView is not installed")

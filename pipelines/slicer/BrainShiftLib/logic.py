@@ -4,6 +4,7 @@ import os
 import queue
 import re
 import shutil
+import tempfile
 import threading
 from html import unescape
 from pathlib import Path
@@ -60,6 +61,19 @@ def read_line(line):
     return float(fractions[-1]) if fractions else None, unescape(comments[-1]) if comments else None, text
 
 
+class RunFolder:
+    """Where a run lies: in the folder that was chosen, or in a temporary one."""
+
+    def __init__(self, chosen, temporary):
+        self.is_temporary = not chosen
+        self.path = Path(chosen or tempfile.mkdtemp(dir=temporary)).resolve()
+
+    def drop(self):
+        """Removes a temporary folder; what was chosen stays."""
+        if self.is_temporary:
+            shutil.rmtree(self.path, ignore_errors=True)
+
+
 class Runner:
     """A started process, whose lines are collected beside the window's own thread."""
 
@@ -90,6 +104,11 @@ class Runner:
         """It removes what it was writing, and ends."""
         self.cancelled = True
         self.process.terminate()
+
+
+def failure_of(record):
+    """Why the computation of a run.json is not whole; else empty."""
+    return next((stage["failure"] for stage in record.get("stages", {}).values() if stage.get("failure")), "")
 
 
 def quality_table(record):
