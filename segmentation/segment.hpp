@@ -10,8 +10,9 @@
 
 namespace brainshift::segmentation {
 
-/// Writes labels.nii.gz, brain.vtp, skull.vtp, tissue_<label>.vtp and membership_<class>.nii.gz (class 0 is the
-/// darkest) into a folder, which is made if need be. Throws std::runtime_error when a file cannot be written whole.
+/// Writes labels.nii.gz, closed.nii.gz (what closing took in), brain.vtp, skull.vtp, tissue_<label>.vtp and
+/// membership_<class>.nii.gz (class 0 is the darkest) into a folder, which is made if need be. Throws
+/// std::runtime_error when a file cannot be written whole.
 void write_segmentation(const std::filesystem::path& folder, const Segmentation& segmentation);
 
 /// Runs the stage. Throws std::invalid_argument when the input cannot be used (what, why, what to do).

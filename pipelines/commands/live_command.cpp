@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -25,22 +27,30 @@ struct LiveArguments {
   std::optional<solve::Device> device;
 };
 
-/// Seconds from a file's last change until now.
-double age_of(const FileState& state) {
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  return static_cast<double>(now.tv_sec - state.second) + 1e-9 * static_cast<double>(now.tv_nsec - state.nanosecond);
+double now() {
+  timespec time{};
+  clock_gettime(CLOCK_REALTIME, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// When a file was last written, renamed or moved to its place, s; now where it is gone.
+double changed_at(const std::filesystem::path& file) {
+  struct stat state {};
+  return ::stat(file.c_str(), &state) == 0
+             ? static_cast<double>(state.st_ctim.tv_sec) + 1e-9 * static_cast<double>(state.st_ctim.tv_nsec)
+             : now();
 }
 
 /// A load that cannot be answered is told and passed over: the next one may be right.
 /// told: the warnings of the answer before, which are not repeated.
 void answer_next(LiveRun& run, FileWatch& watch, const LiveArguments& arguments, bool quiet, Warnings& told) {
   try {
-    const FileState state = watch.next();
+    watch.next();
+    const double changed = changed_at(arguments.load);
     const LiveRun::Answer answer = run.answer(arguments.load);
     if (!quiet) {
       std::printf("%s: %.3f s after the file's change, largest displacement %.3f mm, error bound %.4f mm\n",
-                  printable(answer.folder.string()).c_str(), age_of(state), answer.largest_displacement,
+                  printable(answer.folder.string()).c_str(), now() - changed, answer.largest_displacement,
                   answer.error_bound);
       std::fflush(stdout);
     }

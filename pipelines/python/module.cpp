@@ -304,7 +304,7 @@ PYBIND11_MODULE(_core, m) {
       "solve_each", &solve_each, py::arg("body"), py::arg("materials"), py::arg("load"), py::arg("labels") = none,
       py::arg("skull") = none, py::arg("boundary") = none, py::arg("progress") = none,
       "A study of materials: solve() with each of a list of materials, prepared once and stepped together, sixteen in "
-      "about 2.5 times the time of one. Returns (n, 3) displacements, mm, the same as solve()'s to rounding; None "
+      "about three times the time of one. Returns (n, 3) displacements, mm, the same as solve()'s to rounding; None "
       "where it finds no rest; warns of what is odd about the load alone. The load has no noise. Options are those of "
       "solve().");
   m.def("register", &register_images, py::arg("solution"), py::arg("brain"), py::arg("t1"), py::arg("labels") = none,

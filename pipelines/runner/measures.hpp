@@ -10,7 +10,7 @@
 
 namespace brainshift::pipelines {
 
-/// What run.json says of each stage's result: every field of its measures.
+/// What run.json says of each stage's result: sizes and measures. What only a warning tells is among the notes.
 StageReport report_of(const segmentation::Segmentation& result);
 StageReport report_of(const discretise::DiscretiseMeasures& measures);
 StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics);

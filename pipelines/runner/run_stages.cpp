@@ -130,6 +130,20 @@ StageRecord make_told(const StagePlan& plan, const fs::path& folder, InputStates
   return record;
 }
 
+/// What the record says of a stage that is kept.
+nlohmann::ordered_json entry_of(const Kept& kept) {
+  nlohmann::ordered_json entry = kept.record.entry;
+  entry["status"] = "kept";
+  if (!kept.edited.empty()) {
+    if (!entry.contains("notes") || !entry["notes"].is_array()) {
+      entry["notes"] = nlohmann::ordered_json::array();
+    }
+    entry["notes"].push_back("warning: not as this stage made it: " + listed(kept.edited) +
+                             "; the stage's figures and checks are of what it made");
+  }
+  return entry;
+}
+
 /// Whoever may read a script may start it.
 void make_executable(const fs::path& script) {
   constexpr fs::perms all_read = fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read;
@@ -193,8 +207,7 @@ RunOutcome run_stages(const Scene& scene, const RunOptions& options, const fs::p
     const bool taken = take_over(plan, plan_stamp, before, out / name);
     const std::optional<Kept> old = options.force && !taken ? std::nullopt : kept(plan, plan_stamp, out / name);
     if (old) {
-      outcome.record["stages"][name] = old->record.entry;
-      outcome.record["stages"][name]["status"] = "kept";
+      outcome.record["stages"][name] = entry_of(*old);
       tally.tell(RunEvent::Kind::kept, stage, 0, listed(old->edited));
       tally.tell_notes(stage, old->record.entry);
     } else {

@@ -144,6 +144,12 @@ void UpdatedRun::make_kept(const SolveJob& job, const Progress& progress) {
   if (const std::string why = solve::cannot_keep(input.model, input.options); !why.empty()) {
     refuse(run_, "the run cannot be updated: " + why + "; run a scene with the new load");
   }
+  if (solution.positions.rows() != input.model.cloud.positions.rows() ||
+      solution.positions != input.model.cloud.positions) {
+    refuse(run_ / "solve" / "solution.vtu",
+           "its nodes are not those of the run's cloud: another program made it, or it was replaced; run the scene "
+           "again, from the solve stage on");
+  }
   kept_ =
       naming(run_.string(), [&] { return solve::keep(input.model, input.options, solution.displacement, progress); });
   try {

@@ -10,7 +10,7 @@
 
 namespace brainshift::registration {
 
-/// All measures but not_inverted, which the inversion counts.
+/// The measures of two fields that go there and back: not those of the inversion, of cavities and of landmarks.
 RegisterMeasures measure_fields(const VectorImage& forward, const VectorImage& resampling, const ScalarImage& jacobian,
                                 const std::vector<Zone>& zone, const Solution& solution);
 

@@ -39,6 +39,9 @@ void read_columns(std::string_view names, std::size_t line, PointTable& table) {
       fail_at_line(table.file, line,
                    "a header with the columns x, y and z is expected, found \"" + std::string(names) + "\"");
     }
+    if (std::ranges::count(table.columns, wanted) > 1) {
+      fail_at_line(table.file, line, "the column " + std::string(wanted) + " stands here twice; take one of them out");
+    }
   }
 }
 

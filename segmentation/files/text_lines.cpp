@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/files/text_lines.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -26,7 +27,11 @@ std::string read_text(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> read_lines(const std::filesystem::path& file) {
-  std::istringstream text(read_text(file));
+  std::string all = read_text(file);
+  if (all.find('\n') == std::string::npos) {  // the line ends of old Macs
+    std::ranges::replace(all, '\r', '\n');
+  }
+  std::istringstream text(std::move(all));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) {
     if (line.ends_with('\r')) {

@@ -9,7 +9,7 @@
 
 namespace brainshift {
 
-/// The lines of a text file, without line ends (LF or CRLF), byte order mark and blank lines at the end. Throws
+/// The lines of a text file, without line ends (LF, CRLF or CR), byte order mark and blank lines at the end. Throws
 /// std::invalid_argument, naming the file, when it cannot be read or is empty.
 std::vector<std::string> read_lines(const std::filesystem::path& file);
 

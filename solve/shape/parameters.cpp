@@ -33,8 +33,9 @@ Points parameters_from_displacement(const RowMatrix& v, const Points& displaceme
   const double largest = displacement.cwiseAbs().maxCoeff();
   const double error = (v * parameters - displacement).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   if (!(error <= 1e-9 * largest)) {
-    throw std::runtime_error("the shape functions' parameters could not be found from the displacement: " +
-                             std::to_string(error) + " mm is left at a node; the cloud has nodes too close together");
+    throw std::runtime_error(
+        "no field can be laid through the displacements at the nodes: two of them lie too close together, or in one "
+        "place");
   }
   return parameters;
 }

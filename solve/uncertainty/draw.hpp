@@ -8,8 +8,8 @@ namespace brainshift::solve {
 
 /// Sample `sample` >= 1 of the constants of a model; the same for the same seed and sample, whatever was drawn before:
 /// a longer series begins as a shorter one. Each tissue's moduli are multiplied by exp(stiffness · ε), its Poisson's
-/// ratio is uniform (a law of one's own keeps its constants); gravity is turned about the two axes across it, now and
-/// of the image by the same turn; the fluid's surface is turned with it about the middle of the nodes and moved.
+/// ratio is uniform (of a law of one's own that alone is drawn); gravity is turned about the two axes across it, now
+/// and of the image by the same turn; the fluid's surface is turned with it about the middle of the nodes and moved.
 Constants drawn_constants(const Model& model, const UncertaintyOptions& options, int sample);
 
 /// Whether anything can come out of a draw but what the model says.

@@ -225,6 +225,10 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
   if (!why.empty()) {
     throw std::invalid_argument("the run cannot be updated: " + why);
   }
+  if (displacement.rows() != solved.cloud.positions.rows()) {
+    throw std::invalid_argument("the run cannot be updated: its solution has " + std::to_string(displacement.rows()) +
+                                " nodes, its cloud " + std::to_string(solved.cloud.positions.rows()));
+  }
   std::optional<ThinnedBody> thinned;
   std::optional<Model> weighed;
   if (solved.conditions.measured) {
