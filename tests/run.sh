@@ -12,7 +12,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../pipelines/setup.sh"
 case ${1:-} in
   '')
     install_packages clang-14 clang-format libbenchmark-dev libclang-rt-14-dev libomp-14-dev pybind11-dev python3 \
-      python3-dev python3-matplotlib python3-nibabel python3-numpy
+      python3-dev python3-matplotlib python3-nibabel python3-numpy python3-pydicom
     ;;
   --no-install) ;;
   *)

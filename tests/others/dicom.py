@@ -94,8 +94,9 @@ def by_pydicom(source, made, warped):
 def by_dciodvfy(source, made, warped):
     faults = set()
     for file in sorted(made.iterdir()):
-        said = subprocess.run(["dciodvfy", file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace").stdout
-        faults |= {line for line in said.splitlines() if line.startswith("Error")}
+        done = subprocess.run(["dciodvfy", file], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
+        assert "MRImage" in done.stdout, f"dciodvfy does not say what it read: {done.stdout}"
+        faults |= {line for line in done.stdout.splitlines() if line.startswith("Error")}
     assert not faults, "\n".join(sorted(faults))
     yield "no error"
 

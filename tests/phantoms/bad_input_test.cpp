@@ -226,6 +226,15 @@ TEST_F(BadInput, OutputThatCannotBeWritten) {
   expect_refused("brainshift phantom --quiet --size 24 --spacing 8 --out " + at("file/head"), {at("file")}, 1);
 }
 
+TEST_F(BadInput, APhantomWhereAPatientLies) {
+  const std::string phantom = "brainshift phantom --quiet --size 24 --spacing 8 --out " + at("patient");
+  ASSERT_EQ(run_shell(phantom).code, 0);
+  EXPECT_EQ(run_shell(phantom).code, 0) << "the same again";
+  write_text(at("patient/t1.nii.gz"), "a patient's");
+  expect_refused(phantom, {at("patient/t1.nii.gz"), "choose another folder"});
+  EXPECT_EQ(contents_of(at("patient/t1.nii.gz")), "a patient's");
+}
+
 TEST_F(BadInput, AFullDisk) {
   // A limit on the size of files stands for it: writes fail from there on. One block is 512 bytes.
   expect_refused("ulimit -f 8\n" + run_scene("scene.xml"), {"out/"}, 1);

@@ -4,16 +4,19 @@
 // contradict the others. One head serves all, and one run of it with all its points is the truth.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <sstream>
 
 #include "discretise/interface/node_cloud.hpp"
 #include "segmentation/geometry/point_tree.hpp"
 #include "segmentation/image/image.hpp"
 #include "solve/load/craniotomy_load.hpp"
+#include "solve/load/rigid_fit.hpp"
 #include "solve/output/solution_file.hpp"
 #include "tests/phantoms/program.hpp"
 
@@ -252,6 +255,48 @@ TEST_F(Load, ThatIsRobustHoldsAgainstTwoWrongPointsOfTwentyAndCostsLittleWhereNo
   EXPECT_LT(with_two, 1.2 * without);
   EXPECT_LT(robust_none, 1.05 * none);
   EXPECT_GT(plain_with_two, 1.2 * without);
+}
+
+/// The twelve numbers of an ITK text transform.
+solve::RigidMotion read_rigid(const fs::path& file) {
+  const std::string text = contents_of(file), before_numbers = "Parameters: ";
+  std::istringstream numbers(text.substr(text.find(before_numbers) + before_numbers.size()));
+  solve::RigidMotion motion;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      numbers >> motion.rotation(row, column);
+    }
+  }
+  numbers >> motion.translation[0] >> motion.translation[1] >> motion.translation[2];
+  return motion;
+}
+
+TEST_F(Load, ThatATrackerSeesTurnedTellsItsTurnAndTheShift) {
+  constexpr double angle = 0.05;
+  const solve::CraniotomyLoad cortex = twenty(measured, 1);
+  std::vector<Eigen::Index> inside;
+  const Eigen::RowVector3d centre = truth.positions.colwise().mean();
+  for (Eigen::Index node = 0; node < truth.positions.rows(); node += 5) {
+    if ((truth.positions.row(node) - centre).norm() < 30) {
+      inside.push_back(node);
+    }
+  }
+  Points places(cortex.positions.rows() + std::ssize(inside), 3), shift = places;
+  places << cortex.positions, truth.positions(inside, Eigen::all);
+  shift << cortex.displacement, truth.displacement(inside, Eigen::all);
+  const Eigen::Vector3d middle = places.colwise().mean();
+  solve::RigidMotion tracker;
+  tracker.rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  tracker.translation = middle + Eigen::Vector3d(3, -2, 2) - tracker.rotation * middle;
+  solve::CraniotomyLoad seen{places, tracker(places + shift) - places, {}};
+  solve::write_craniotomy_csv(at("head/seen.csv"), seen);
+  const Solution found = solved_with("<load noise=\"0.5\" registration=\"unknown\"><craniotomy file=\"seen.csv\"/>");
+  EXPECT_LT(off_95(found, truth), 0.5);
+  const auto measures = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"]["measures"];
+  EXPECT_NEAR(measures["registration_angle_deg"].get<double>(), angle * 180 / 3.14159265, 0.15);
+  EXPECT_NEAR(measures["registration_shift_mm"].get<double>(), Eigen::Vector3d(3, -2, 2).norm(), 0.2);
+  const solve::RigidMotion written = read_rigid(at("other/solve/registration_error.tfm"));
+  EXPECT_LT((written(places) - tracker(places)).rowwise().norm().maxCoeff(), 0.5);
 }
 
 TEST_F(Load, ThatIsRobustSaysWhichPointsCountForLess) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "solve/output/solution_file.hpp"
 #include "tests/phantoms/program.hpp"
 
 namespace brainshift::run_test {
@@ -282,13 +283,65 @@ TEST_F(Run, StagesAloneGiveWhatTheRunGave) {
       "/segment/brain.vtp --skull " + r + "/segment/skull.vtp --load " + head_folder() +
       "/craniotomy.csv --material 1:3000,0.49 --material 2:10,0.1 --material 3:9000,0.49,1000 --tolerance 0.1 --out " +
       out + "/solve\n" + "brainshift register --solution " + out + "/solve/solution.vtu --brain " + out +
-      "/segment/brain.vtp --t1 " + head_folder() + "/t1.nii.gz --warp " + r + "/segment/brain.vtp --out " + out +
-      "/register");
+      "/segment/brain.vtp --t1 " + head_folder() + "/t1.nii.gz --labels " + out +
+      "/segment/labels.nii.gz --landmarks " + head_folder() + "/landmarks.mrk.json --warp " + r +
+      "/segment/brain.vtp --out " + out + "/register");
   ASSERT_EQ(result.code, 0) << result.err;
-  for (const char* file : {"/segment/brain.vtp", "/discretise/cells.vtu", "/solve/solution.vtu"}) {
+  for (const char* file : {"/segment/brain.vtp", "/discretise/cells.vtu", "/solve/solution.vtu",
+                           "/register/landmarks.csv", "/register/warped.nii.gz", "/register/warped_labels.nii.gz"}) {
     EXPECT_EQ(contents_of(out + file), contents_of(r + file)) << file;
   }
   EXPECT_TRUE(fs::exists(out + "/register/warped_brain.vtp"));
+}
+
+TEST_F(Run, ALoadOfMarkupsIsThatOfTheirDisplacements) {
+  const std::string out = (*scratch / "markups").string(), r = finished().string();
+  const std::string markups = "printf '# CoordinateSystem = LPS\n# columns = id,x,y,z,label\n'; awk -F, 'NR > 2 ";
+  const ProgramResult result = run_shell(
+      "set -e\nmkdir " + out + "\ncd " + head_folder() + "\n(" + markups +
+      "{ printf \"%d,%s,%s,%s,p%d\\n\", NR, $1, $2, $3, NR }' craniotomy.csv) > before.fcsv\n(" + markups +
+      "{ printf \"%d,%.17g,%.17g,%.17g,p%d\\n\", NR, $1 + $4, $2 + $5, $3 + $6, NR }' craniotomy.csv) > after.fcsv\n" +
+      "for load in '--markups before.fcsv after.fcsv' '--load craniotomy.csv'; do\n  brainshift solve $load --nodes " +
+      r + "/discretise/nodes.vtu --cells " + r + "/discretise/cells.vtu --labels labels.nii.gz --surface " + r +
+      "/segment/brain.vtp --skull " + r + "/segment/skull.vtp --material 1:3000,0.49 --material 2:10,0.1 --material " +
+      "3:9000,0.49,1000 --tolerance 0.1 --out " + out + "/$(echo $load | cut -c3-6)\ndone");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Solution of_markups = read_solution(out + "/mark/solution.vtu"),
+                 of_csv = read_solution(out + "/load/solution.vtu");
+  EXPECT_GT(of_csv.displacement.rowwise().norm().maxCoeff(), 5);
+  EXPECT_LT((of_markups.displacement - of_csv.displacement).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST_F(Run, WarpedFilesGoIntoAFolder) {
+  write_text(*scratch / "afile", "");
+  const ProgramResult result = run_shell("brainshift warp " + finished().string() + " " + head_folder() +
+                                         "/landmarks.mrk.json --out " + (*scratch / "afile").string());
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("afile: this is a file"), std::string::npos) << result.err;
+}
+
+TEST_F(Run, OneOfTheTwoFieldsIsNotReplacedAlone) {
+  const fs::path out = copy_of_finished("replaced");
+  const std::string warp =
+      "brainshift warp " + out.string() + " " + head_folder() + "/landmarks.mrk.json --out " + out.string() + "/moved";
+  fs::copy(out / "register/intraop_to_preop.nii.gz", out / "register/preop_to_intraop.nii.gz",
+           fs::copy_options::overwrite_existing);
+  const ProgramResult result = run_shell(warp);
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("preop_to_intraop.nii.gz: it is another than the run made"), std::string::npos)
+      << result.err;
+}
+
+TEST_F(Run, AReplacedSolutionIsSaidToBeOne) {
+  const fs::path out = copy_of_finished("resolved");
+  Solution other = read_solution(out / "solve/solution.vtu");
+  other.displacement *= 0.5;
+  write_solution(out / "solve/solution.vtu", other);
+  ASSERT_EQ(run(out, "--quiet").code, 0);
+  EXPECT_EQ(statuses(out), "kept kept kept done done");
+  EXPECT_NE(record(out)["stages"]["solve"]["notes"].dump().find("not as this stage made it: solution.vtu"),
+            std::string::npos);
+  EXPECT_NE(contents_of(out / "report/index.html").find("not as this stage made it"), std::string::npos);
 }
 
 TEST_F(Run, AFolderThatIsNotOursIsNotOverwritten) {

@@ -69,6 +69,13 @@ TEST_F(Sequence, HasAnImageOfEachStateAndEndsWhereARunOfTheLastEnds) {
   EXPECT_LT((last - whole).rowwise().norm().maxCoeff(), 0.02) << "twice the tolerance";
   EXPECT_TRUE(half_written(at("out")).empty());
 
+  fs::copy(at("out/states/drained"), at("out/states/gone"), fs::copy_options::recursive);
+  const ProgramResult gone =
+      run_shell("brainshift warp " + at("out/states/gone") + " " + at("t1.nii.gz") + " --out " + at("warped"));
+  EXPECT_EQ(gone.code, 2);
+  EXPECT_NE(gone.err.find("has it no more"), std::string::npos) << gone.err;
+  fs::remove_all(at("out/states/gone"));
+
   const ProgramResult failed =
       run_shell(run_scene("operation.xml") + " --until register" + options + " --set solve.max_steps=20");
   EXPECT_EQ(failed.code, 3) << failed.err;

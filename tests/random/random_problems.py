@@ -32,6 +32,7 @@ FIELDS = ("seed", "body", "cloud", "cells", "basis", "tissues", "load", "rim", "
 FINER = 1.6  # the reference's cloud, in each direction
 FINER_SMALL = 1.26  # twice the nodes
 SMALL_TOLERANCE = 0.05  # mm
+LEAST_GOOD, FEWEST = 0.8, 10  # share of the problems; of fewer it says nothing
 FACTOR = 5  # of the estimate: what it may be off by
 MOST = 1 / 3  # of the largest displacement: where there is no estimate, and no rim
 EXACT = 1e-3  # of the largest displacement: of states that are known on paper
@@ -186,6 +187,10 @@ def main():
             if row["verdict"] == "good" and not arguments.keep:
                 shutil.rmtree(arguments.out / str(seed))
     bad = [row for row in rows if row["verdict"] not in ("good", "neither solves", "bound unknown")]
+    good = sum(row["verdict"] == "good" for row in rows)
+    if len(rows) >= FEWEST and good < LEAST_GOOD * len(rows):  # a program that solves nothing is not told by references that are its own
+        print(f"{good} of {len(rows)} are good")
+        return 1
     return 1 if bad else 0
 
 

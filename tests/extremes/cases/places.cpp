@@ -64,7 +64,7 @@ Row image_in_metres() {
     segmentation::segment(input, options);
   } catch (const std::invalid_argument& refusal) {
     row.did = "exit 2: " + std::string(refusal.what());
-    row.holds = row.did.find("metres") != std::string::npos;
+    row.holds = row.did.find("in metres") != std::string::npos;
   }
   return row;
 }

@@ -69,6 +69,19 @@ TEST_F(RegisterImages, RefusesATolerancOfZero) {
   refusal(input, options);
 }
 
+TEST_F(RegisterImages, InvertsTheFieldAsFarAsItIsTold) {
+  RegisterOptions loosely, closely;
+  loosely.inverse_tolerance = 1;
+  closely.inverse_tolerance = 1e-4;
+  const Registration far = register_images(input, loosely), near = register_images(input, closely);
+  double most = 0;
+  for (std::size_t v = 0; v < near.resampling.voxels.size(); ++v) {
+    most = std::max(most, (at(far.resampling, v) - at(near.resampling, v)).norm());
+  }
+  EXPECT_GT(most, 0.01) << "the field between voxels hides it in the measures";
+  EXPECT_LT(most, 1.1);
+}
+
 TEST_F(RegisterImages, DoesWithoutLabelsAndLandmarks) {
   input.labels.reset();
   const Registration result = register_images(input, {});

@@ -101,15 +101,23 @@ TEST(StageMeasures, OfARegistrationCountItsVoxelsAndLandmarks) {
   result.landmarks = Points::Zero(5, 3);
   result.measures.brain_voxels = 6;
   result.measures.moved_voxels = 7;
+  result.measures.inverse_mean = 0.125;
+  result.measures.inverse_999 = 0.375;
+  result.measures.inverse_max = 0.625;
+  result.measures.not_inverted = 9;
   result.measures.jacobian_min = 0.5;
+  result.measures.jacobian_max = 1.5;
   result.measures.field_jacobian_min = 0.25;
   result.measures.folded_voxels = 8;
+  result.measures.largest_displacement = 10.5;
+  result.measures.fit_error = 1.25;
+  result.measures.seconds = 3.5;
   const StageReport report = report_of(result);
   EXPECT_EQ(report.sizes,
             ordered_json::parse(R"({"voxels": 24, "brain_voxels": 6, "moved_voxels": 7, "landmarks": 5})"));
-  EXPECT_EQ(report.measures["jacobian_min"], 0.5);
-  EXPECT_EQ(report.measures["field_jacobian_min"], 0.25);
-  EXPECT_EQ(report.measures["folded_voxels"], 8);
+  EXPECT_EQ(report.measures, ordered_json::parse(R"({"inverse_mean_mm": 0.125, "inverse_999_mm": 0.375,
+    "inverse_max_mm": 0.625, "not_inverted": 9, "jacobian_min": 0.5, "jacobian_max": 1.5, "field_jacobian_min": 0.25,
+    "folded_voxels": 8, "largest_displacement_mm": 10.5, "fit_error_mm": 1.25, "seconds_fields_and_images": 3.5})"));
 }
 
 }  // namespace brainshift::pipelines::measures_test

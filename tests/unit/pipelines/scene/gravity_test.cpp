@@ -28,6 +28,8 @@ TEST(DrainedFluidOfAScene, TakesTheLevelInAnyOfItsThreeForms) {
   gravity.image_direction = Eigen::Vector3d(0, 0, -1);
   EXPECT_DOUBLE_EQ(drained_fluid(gravity, column()).level, 12);
   EXPECT_LT(drained_fluid(gravity, column()).gravity_of_image.z(), -9.8);
+  gravity.fluid_density = 850;
+  EXPECT_EQ(drained_fluid(gravity, column()).density, 850);
 }
 
 TEST_F(SceneFile, GravityIsHeldByTheSkullOrALoad) {

@@ -79,6 +79,15 @@ TEST_F(SceneFile, ThePhysicsOfTheSolveStageArrives) {
   EXPECT_EQ(scene.solve.points_per_cell, 3);
 }
 
+TEST_F(SceneFile, WhatLiesBeforeAndAfterArrivesAsSuch) {
+  const Scene surfaces = parse("<scene><load><surfaces before=\"a.vtp\" after=\"b.vtp\"/></load></scene>");
+  EXPECT_EQ(surfaces.load->surfaces->before, folder_ / "a.vtp");
+  EXPECT_EQ(surfaces.load->surfaces->after, folder_ / "b.vtp");
+  const Scene markups = parse("<scene><load><markups before=\"a.fcsv\" after=\"b.fcsv\"/></load></scene>");
+  EXPECT_EQ(markups.load->markups->before, folder_ / "a.fcsv");
+  EXPECT_EQ(markups.load->markups->after, folder_ / "b.fcsv");
+}
+
 TEST_F(SceneFile, CutsAndResectionArrive) {
   const Scene scene = parse(R"(<scene>
   <cuts contact="yes">

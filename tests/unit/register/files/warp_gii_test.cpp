@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/files/warp_gii.hpp"
 
+#include <gifti_io.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -72,6 +73,15 @@ std::vector<double> numbers_of(const std::string& text, int n) {
   return {std::istream_iterator<double>(words), {}};
 }
 
+/// The numbers of a file of one array of floats.
+std::vector<double> shape_of(const std::filesystem::path& file) {
+  gifti_image* const shape = gifti_read_image(file.c_str(), 1);
+  const auto* const values = static_cast<const float*>(shape->darray[0]->data);
+  std::vector<double> numbers(values, values + shape->darray[0]->nvals);
+  gifti_free_image(shape);
+  return numbers;
+}
+
 void expect_near(const std::vector<double>& found, const std::vector<double>& expected) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -131,7 +141,8 @@ TEST_F(WarpGii, TheErrorAtItsVerticesIsASurfacesShape) {
   warp_gii(folder_.write("lh.surf.gii", surface(no_metadata, in_ras)), mover, folder_ / "warped_lh.surf.gii");
   const std::string text = test::bytes_of(folder_ / "estimated_error_warped_lh.shape.gii");
   expect_parts(text, {"NIFTI_INTENT_SHAPE", "Dim0=\"3\"", "estimated_error"});
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "uncertainty_warped_lh.shape.gii"));
+  expect_near(shape_of(folder_ / "estimated_error_warped_lh.shape.gii"), {8, 9, 9});
+  expect_near(shape_of(folder_ / "uncertainty_warped_lh.shape.gii"), {16, 18, 18});
 }
 
 TEST_F(WarpGii, WhatCannotBeUsedIsRefused) {

@@ -53,6 +53,8 @@ TEST(PointTable, WhatDoesNotParseIsNamedWithItsLine) {
   EXPECT_NE(fault(header + "1,2,3\n1,2\n").find("t.csv:4: 3 columns"), std::string::npos);
   EXPECT_NE(fault(header + "1,5,2,3\n").find("t.csv:3: 3 columns"), std::string::npos) << "a decimal comma";
   EXPECT_NE(fault(header + "1,2,3\n# a comment\n\n1,x,3\n").find("t.csv:6: a finite number"), std::string::npos);
+  EXPECT_NE(fault("# frame: LPS\nx,y,z,x\n1,2,3,4\n").find("t.csv:2: the column x stands here twice"),
+            std::string::npos);
   EXPECT_NE(fault(header).find("holds no point"), std::string::npos);
 }
 

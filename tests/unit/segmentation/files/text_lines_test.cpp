@@ -15,6 +15,7 @@ TEST(TextLines, AreTheSameWithEitherLineEndAndWithAByteOrderMark) {
   const Texts lines = {"a, b", "", " c"};
   EXPECT_EQ(read_lines(folder.write("lf", "a, b\n\n c\n")), lines);
   EXPECT_EQ(read_lines(folder.write("crlf", "a, b\r\n\r\n c\r\n")), lines);
+  EXPECT_EQ(read_lines(folder.write("cr", "a, b\r\r c\r")), lines) << "as old Macs write them";
   EXPECT_EQ(read_lines(folder.write("mark",
                                     "\xEF\xBB\xBF"
                                     "a, b\n\n c")),

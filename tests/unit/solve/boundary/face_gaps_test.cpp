@@ -127,7 +127,7 @@ TEST(FaceGaps, LinkAFaceNodeToThoseOppositeByShares) {
       place += link.share * (faces.nodes(link.opposite, 0) + (face % 2 == 0 ? 0 : 0.3));
     }
     EXPECT_NEAR(shares, 1, 1e-12);
-    EXPECT_NEAR(place, 5 + (face % 2 == 0 ? 0.3 : 0), 0.3) << "about where the node is now";
+    EXPECT_NEAR(place, 5 + (face % 2 == 0 ? 0.3 : 0), 0.05) << "about where the node is now";
   }
 }
 

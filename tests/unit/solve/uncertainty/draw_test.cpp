@@ -34,7 +34,7 @@ TEST(DrawnConstants, HaveTheSpreadThatIsAskedFor) {
   const Model model = two_tissues();
   const UncertaintyOptions options;
   constexpr int draws = 2000;
-  double sum = 0, squares = 0, together = 0;
+  double sum = 0, squares = 0, together = 0, ratios = 0, ratios_squared = 0, least = 1, most = 0;
   for (int sample = 1; sample <= draws; ++sample) {
     const Constants drawn = drawn_constants(model, options, sample);
     const double one = std::log(drawn.materials.at(1).youngs_modulus / 3000);
@@ -44,8 +44,15 @@ TEST(DrawnConstants, HaveTheSpreadThatIsAskedFor) {
     together += one * two / draws;
     EXPECT_GE(drawn.materials.at(1).poisson_ratio, 0.45);
     EXPECT_LE(drawn.materials.at(1).poisson_ratio, most_poisson);
-    EXPECT_NEAR(drawn.materials.at(2).poisson_ratio, 0.1, 0.04);
+    const double ratio = drawn.materials.at(2).poisson_ratio;
+    ratios += ratio / draws;
+    ratios_squared += (ratio - 0.1) * (ratio - 0.1) / draws;
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
   }
+  EXPECT_NEAR(ratios, 0.1, 0.002);
+  EXPECT_NEAR(std::sqrt(ratios_squared), 0.04 / std::sqrt(3.0), 0.002) << "uniform";
+  EXPECT_TRUE(least >= 0.06 && least < 0.065 && most > 0.135 && most <= 0.14) << least << " to " << most;
   EXPECT_NEAR(sum, 0, 0.02);
   EXPECT_NEAR(std::sqrt(squares), 0.25, 0.01);
   EXPECT_NEAR(together, 0, 0.005) << "tissues are drawn each for itself";

@@ -228,6 +228,13 @@ TEST(KeptRun, RefusesNoiseWhereItsOwnLoadHadNoneAndAnUnknownRegistration) {
   EXPECT_LE(distance(back.solution.displacement, run.origin.displacement), quick().tolerance);
 }
 
+TEST(KeptRun, RefusesASolutionOfAnotherCloud) {
+  Model model = measured_box(0.5);
+  model.conditions.measured.reset();
+  const Points fewer = Points::Zero(model.cloud.positions.rows() - 3, 3);
+  EXPECT_NE(test::refusal([&] { keep(model, quick(), fewer); }).find("its cloud"), std::string::npos);
+}
+
 TEST(KeptRun, AnswersFromItsFileAsFromMemory) {
   const test::ScratchFolder scratch;
   const Model model = measured_box(0.5);
