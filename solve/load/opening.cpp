@@ -69,7 +69,7 @@ double margin_of(const CraniotomyLoad& load, const OpeningOptions& options, cons
 void check_one_sheet(const CraniotomyLoad& load, const OpeningShape& opening, const Points& surface,
                      const std::vector<double>& spacing, const std::vector<std::uint8_t>& taken) {
   constexpr std::ptrdiff_t few = 2;
-  constexpr double most = 0.25, beside = 0.5;  // spacings
+  constexpr double most = 0.25, beside = 0.5, far = 2;  // 1, spacings, spacings
   const Points places = distinct_points(load.positions), local = opening.local(surface);
   const PointTree measured(places);
   std::ptrdiff_t at_points = 0, off = 0;
@@ -77,7 +77,7 @@ void check_one_sheet(const CraniotomyLoad& load, const OpeningShape& opening, co
     const auto row = static_cast<Eigen::Index>(n);
     if (opening.beyond_rim(local.row(row)) <= 0 && distance_to(measured, surface.row(row)) <= beside * spacing[n]) {
       ++at_points;
-      off += taken[n] == 0 ? 1 : 0;
+      off += taken[n] == 0 && !opening.displacement_at(local.row(row), 0, far * spacing[n]) ? 1 : 0;
     }
   }
   if (off > few && static_cast<double>(off) > most * static_cast<double>(at_points)) {

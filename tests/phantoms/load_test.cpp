@@ -271,7 +271,7 @@ solve::RigidMotion read_rigid(const fs::path& file) {
   return motion;
 }
 
-TEST_F(Load, ThatATrackerSeesTurnedTellsItsTurnAndTheShift) {
+TEST_F(Load, OfAnUnknownRegistrationIsMetTogetherWithIt) {
   constexpr double angle = 0.05;
   const solve::CraniotomyLoad cortex = twenty(measured, 1);
   std::vector<Eigen::Index> inside;
@@ -291,12 +291,17 @@ TEST_F(Load, ThatATrackerSeesTurnedTellsItsTurnAndTheShift) {
   solve::CraniotomyLoad seen{places, tracker(places + shift) - places, {}};
   solve::write_craniotomy_csv(at("head/seen.csv"), seen);
   const Solution found = solved_with("<load noise=\"0.5\" registration=\"unknown\"><craniotomy file=\"seen.csv\"/>");
-  EXPECT_LT(off_95(found, truth), 0.5);
   const auto measures = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"]["measures"];
-  EXPECT_NEAR(measures["registration_angle_deg"].get<double>(), angle * 180 / 3.14159265, 0.15);
-  EXPECT_NEAR(measures["registration_shift_mm"].get<double>(), Eigen::Vector3d(3, -2, 2).norm(), 0.2);
   const solve::RigidMotion written = read_rigid(at("other/solve/registration_error.tfm"));
-  EXPECT_LT((written(places) - tracker(places)).rowwise().norm().maxCoeff(), 0.5);
+  EXPECT_NEAR(measures["registration_angle_deg"].get<double>(), written.angle(), 1e-3);
+  EXPECT_NEAR(measures["registration_shift_mm"].get<double>(), (written(places) - places).colwise().mean().norm(),
+              1e-3);
+  // The brain turns in the phantom's smooth skull as easily as the tracker: both together are where points were seen.
+  const Points deep = truth.positions(inside, Eigen::all);
+  const Points said = written(deep + found.displacement(inside, Eigen::all));
+  const Points was = tracker(deep + truth.displacement(inside, Eigen::all));
+  EXPECT_LT((said - was).rowwise().norm().maxCoeff(), 0.5);
+  EXPECT_GT((was - deep).rowwise().norm().mean(), 2) << "else this says nothing";
 }
 
 TEST_F(Load, ThatIsRobustSaysWhichPointsCountForLess) {
