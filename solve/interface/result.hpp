@@ -107,7 +107,7 @@ struct MeasuredFit {
   double weight = 0;    ///< s that was used, mJ
   SmoothMotion smooth;  ///< what the points say of it
   bool rough = false;   ///< that motion is alike over the shortest of the lengths only, and far larger than the noise
-  SmoothMotion hidden;  ///< of the opening, that an unknown registration takes: in deviation and covariance alone
+  SmoothMotion hidden;  ///< of the opening, beside which an unknown registration is found; not in the answer's prior
   /// (m × 3) mm: with a smooth motion, the displacement of each point of the cortex as prior and noise have it.
   Points smoothed = Points(0, 3);
   double noise_factor = 1;  ///< of the standard deviations, by which what was measured differs from what was given

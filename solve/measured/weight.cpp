@@ -269,8 +269,10 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
     fit.hidden = {lengths.back() * extent_of(response.sites), unseen_shift, unseen_shift, Eigen::Vector3d::UnitX()};
     const double larger = fit.noise_factor * fit.noise_factor;  // but for the hidden motion, which is not measured
     const Prior doubt(response, larger * fit.weight, fit.hidden);
-    fit.motion_deviation =
-        MeasuredGaussian(doubt.between(0, m, 0, m), response.rigid.topRows(m), d, larger * variance).motion_deviation();
+    // Without it the rigid motion would take what the brain itself moves alike.
+    const MeasuredGaussian beside(doubt.between(0, m, 0, m), response.rigid.topRows(m), d, larger * variance);
+    fit.motion = beside.motion;
+    fit.motion_deviation = beside.motion_deviation();
   }
   if (fit.smooth.length > 0) {
     const Eigen::VectorXd smoothed = d - variance.cwiseProduct(chosen.push);

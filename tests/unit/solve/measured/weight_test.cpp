@@ -201,6 +201,29 @@ TEST(Weight, AnUnknownRegistrationIsKnownNoBetterThanTheMotionThatItHides) {
   EXPECT_LT(choose_weight(response, d, sigma).motion_deviation.head<3>().maxCoeff(), 0.5);
 }
 
+/// An opening that sinks alike, and points inside that stay, as a tracker sees them that is off.
+TEST(Weight, AnUnknownRegistrationIsFoundBesideTheMotionThatItHides) {
+  std::mt19937 random(7);
+  constexpr Eigen::Index of_cap = 20, inside = 8, all = of_cap + inside;
+  Points places(all, 3);
+  places << test::random_points(of_cap, 20), test::random_points(inside, 60);
+  places.topRows(of_cap).col(2).array() += 60;
+  Response response = rough_response(places);
+  response.rigid = rigid_motions(places, places);
+  response.sites = places.topRows(of_cap);
+  response.carry = Eigen::MatrixXd::Identity(3 * all, 3 * of_cap);
+  Eigen::VectorXd tracker(6);
+  tracker << 3, -4, 2, 1, -2, 1;
+  Eigen::VectorXd d = response.rigid * tracker + 0.1 * normals(3 * all, random);
+  for (Eigen::Index p = 0; p < of_cap; ++p) {
+    d[3 * p + 2] -= 5;
+  }
+  const MeasuredFit fit =
+      choose_weight(response, Eigen::Map<const Points>(d.data(), all, 3), Points::Constant(all, 3, 0.1));
+  EXPECT_LT((response.rigid * (fit.motion - tracker)).cwiseAbs().maxCoeff(), 0.7);
+  EXPECT_LT(((fit.motion - tracker).cwiseAbs() - 3 * fit.motion_deviation).maxCoeff(), 0);
+}
+
 // Of a body that is stiff, neither energy nor a smooth motion has room for noise of single points.
 TEST(SmoothMotion, OverTheShortestLengthIsNoiseThatWasNotGiven) {
   std::mt19937 random(6);
