@@ -316,7 +316,7 @@ Warnings warnings_of_levels(const solve::Model& model) {
   }
   const Eigen::Vector3d down = model.fluid->gravity.normalized();
   const double top = (model.cloud.positions * down).minCoeff();
-  if (const double above = top - model.fluid->level; above > 0) {
+  if (const double above = top - model.fluid->level; above > 1) {
     warnings.push_back(
         "the fluid's surface lies " + with_digits(above) +
         " mm above the whole brain, so that none has drained; is the level of this frame (LPS), and does "
