@@ -6,7 +6,7 @@
 
 #include "pipelines/after/cheaper_models.hpp"
 #include "pipelines/runner/plan.hpp"
-#include "pipelines/runner/run_record.hpp"
+#include "pipelines/runner/stage_record.hpp"
 #include "segmentation/options/values.hpp"
 #include "solve/output/field_difference.hpp"
 

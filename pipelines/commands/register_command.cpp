@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "pipelines/commands/commands.hpp"
-#include "pipelines/runner/run_record.hpp"
+#include "pipelines/runner/stage_record.hpp"
 #include "register/files/register_fields.hpp"
 
 namespace brainshift::pipelines {

@@ -4,8 +4,8 @@
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/console.hpp"
 #include "pipelines/runner/peak_memory.hpp"
-#include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
+#include "pipelines/runner/stage_record.hpp"
 
 namespace brainshift::pipelines {
 

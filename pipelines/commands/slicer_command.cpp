@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -26,6 +25,7 @@
 #include "pipelines/scene/presets.hpp"
 #include "pipelines/slicer/description.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/text_lines.hpp"
 #include "segmentation/image/image.hpp"
 
 namespace brainshift::pipelines {
@@ -147,8 +147,7 @@ void refuse_edited(const fs::path& file) {
   if (!fs::exists(file)) {
     return;
   }
-  std::ifstream stream(file, std::ios::binary);
-  const std::string all{std::istreambuf_iterator<char>(stream), {}}, text = all.substr(0, all.rfind(mark));
+  const std::string all = read_text(file), text = all.substr(0, all.rfind(mark));
   if (all != text + mark_of(text)) {
     refuse(file,
            "it was edited, or an earlier version wrote it, and the module would write over it; run it with 'brainshift "

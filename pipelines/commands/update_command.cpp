@@ -7,8 +7,8 @@
 #include "pipelines/commands/console.hpp"
 #include "pipelines/runner/own_folder.hpp"
 #include "pipelines/runner/peak_memory.hpp"
-#include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
+#include "pipelines/runner/stage_record.hpp"
 #include "pipelines/runner/update_run.hpp"
 #include "segmentation/files/refuse.hpp"
 

@@ -6,7 +6,6 @@
 #include "pipelines/commands/printable.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/runner/warp_files.hpp"
-#include "segmentation/files/refuse.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -30,9 +29,6 @@ void warp(const WarpArguments& arguments, const Settings& settings) {
   WarpJob job = arguments.job;
   job.towards = arguments.inverse ? registration::Towards::preop : registration::Towards::intraop;
   set_interpolation(arguments.interpolation, job.options);
-  if (std::filesystem::exists(arguments.out) && !std::filesystem::is_directory(arguments.out)) {
-    refuse(arguments.out, "this is a file; give --out a folder");
-  }
   StageFolder folder(arguments.out, *settings.interruption);
   const std::vector<std::string> notes = warp_files(job, folder.path());
   remove_values_of_earlier(job.files, folder.path(), arguments.out);

@@ -12,6 +12,7 @@
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
+#include "pipelines/runner/stage_record.hpp"
 #include "pipelines/show/show_scripts.hpp"
 
 namespace brainshift::pipelines {

@@ -53,8 +53,13 @@ fs::path place_of(const fs::path& named) {
   if (named.empty()) {
     throw std::invalid_argument("the folder to write to has no name; give one with --out");
   }
-  const fs::path place = fs::absolute(named).lexically_normal();
-  return place.has_filename() ? place : place.parent_path();  // a trailing slash
+  fs::path place = fs::absolute(named).lexically_normal();
+  place = place.has_filename() ? place : place.parent_path();  // a trailing slash
+  std::error_code unknown;
+  if (fs::exists(place, unknown) && !fs::is_directory(place, unknown)) {
+    refuse(place, "this is a file; give --out a folder");
+  }
+  return place;
 }
 
 fs::path old_of(const fs::path& place) {

@@ -12,7 +12,8 @@ namespace brainshift::pipelines {
 
 /// A folder that is written beside its place, under the name FOLDER.partial, and appears there when it is whole. One
 /// that is not committed is removed. Throws std::runtime_error, naming the folder, when it cannot be made or moved or
-/// another process is writing it, and std::invalid_argument when a FOLDER.partial is there that is not ours.
+/// another process is writing it, and std::invalid_argument when a FOLDER.partial is there that is not ours, and as
+/// place_of().
 class StageFolder {
  public:
   StageFolder(const std::filesystem::path& place, Interruption& interruption);
@@ -37,7 +38,7 @@ class StageFolder {
 };
 
 /// The whole path of the folder that a user names, without a slash at its end. Throws std::invalid_argument when it is
-/// empty.
+/// empty, or a file.
 std::filesystem::path place_of(const std::filesystem::path& named);
 
 /// Where the folder that is replaced waits until the new one stands in its place: FOLDER.old.

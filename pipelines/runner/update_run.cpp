@@ -8,7 +8,7 @@
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/read_run_record.hpp"
-#include "pipelines/runner/run_record.hpp"
+#include "pipelines/runner/stage_record.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
 #include "segmentation/files/make_folder.hpp"

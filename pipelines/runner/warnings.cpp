@@ -66,11 +66,11 @@ std::vector<Eigen::Index> row_of_each_place(const Points& positions) {
   return rows;
 }
 
-/// Of a load without noise: two displacements in one place, of which the mean counts.
+/// Two displacements in one place, of which the mean counts.
 Warnings warnings_of_repeated(const solve::CraniotomyLoad& load) {
   constexpr double alike = 1;  // mm
   std::map<std::array<double, 3>, Eigen::Index> first;
-  for (Eigen::Index p = 0; load.sigma.rows() == 0 && p < load.positions.rows(); ++p) {
+  for (Eigen::Index p = 0; p < load.positions.rows(); ++p) {
     const Eigen::RowVector3d x = load.positions.row(p), u = load.displacement.row(p);
     const Eigen::RowVector3d before = load.displacement.row(first.try_emplace({x[0], x[1], x[2]}, p).first->second);
     const double apart = (u - before).norm();
@@ -113,12 +113,12 @@ std::string listed(const Points& places) {
   return text;
 }
 
-/// Of a load without noise: neighbours that would tear the brain between them, as where two points were taken for each
-/// other. Noise does not part them so far: what parts them is much more than what parts most.
+/// Neighbours that would tear the brain between them, as where two points were taken for each other. Noise does not
+/// part them so far: what parts them is much more than what parts most.
 Warnings warnings_of_neighbours(const solve::CraniotomyLoad& load) {
   constexpr double much = 3, most_strain = 1, of_most = 4;  // mm; 1; 1
   const std::vector<Eigen::Index> rows = row_of_each_place(load.positions);
-  if (load.sigma.rows() > 0 || rows.size() < 3) {
+  if (rows.size() < 3) {
     return {};
   }
   const Points places = load.positions(rows, Eigen::all), moved = load.displacement(rows, Eigen::all);
@@ -157,8 +157,10 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
                        " mm off the brain's surface (median); are load and image in the same frame, and were the "
                        "points taken on the cortex?");
   }
-  const Warnings repeated = warnings_of_repeated(load);
-  append(repeated.empty() ? warnings_of_neighbours(load) : repeated, warnings);
+  if (load.sigma.rows() == 0) {  // else the noise says who is wrong: outliers()
+    const Warnings repeated = warnings_of_repeated(load);
+    append(repeated.empty() ? warnings_of_neighbours(load) : repeated, warnings);
+  }
   constexpr double hardly = 0.05;  // mm
   if (load.displacement.isZero(0)) {
     warnings.emplace_back("all measured displacements are 0");

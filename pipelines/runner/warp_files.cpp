@@ -2,12 +2,12 @@
 #include "pipelines/runner/warp_files.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "pipelines/runner/artefacts.hpp"
 #include "pipelines/runner/read_run_record.hpp"
+#include "pipelines/runner/stage_record.hpp"
 #include "register/files/warped_name.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/image/frame_note.hpp"
@@ -101,15 +101,14 @@ void check_up_to_date(const fs::path& fields) {
 
 /// Points move by one field, images by the other: a field that was replaced alone would part them.
 void check_both_or_neither_replaced(const fs::path& folder) {
-  std::ifstream stream(folder / "stage.json");
-  const auto record = nlohmann::ordered_json::parse(stream, nullptr, false);
-  if (!record.is_object() || !record.contains("artefacts")) {
+  const std::optional<StageRecord> record = read_stage_record(folder);
+  if (!record) {
     return;  // fields alone
   }
   nlohmann::ordered_json fields = nlohmann::ordered_json::object();
   for (const char* name : {registration::forward_name, registration::resampling_name}) {
-    if (record["artefacts"].contains(name)) {
-      fields[name] = record["artefacts"][name];
+    if (record->artefacts.contains(name)) {
+      fields[name] = record->artefacts[name];
     }
   }
   const std::vector<std::string> replaced = changes_of(fields, folder).edited;

@@ -14,6 +14,7 @@
 #include "pipelines/runner/peak_memory.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
+#include "pipelines/runner/stage_record.hpp"
 #include "segmentation/files/make_folder.hpp"
 #include "solve/output/field_difference.hpp"
 #include "solve/output/solution_file.hpp"

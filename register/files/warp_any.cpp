@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "register/files/warp_gii.hpp"
 #include "register/files/warp_mesh.hpp"
@@ -13,6 +14,7 @@
 #include "register/files/warp_tracts.hpp"
 #include "register/files/warped_name.hpp"
 #include "register/files/warped_series.hpp"
+#include "register/warp/cavity_voxels.hpp"
 #include "register/warp/recognise_labels.hpp"
 #include "register/warp/warp.hpp"
 #include "segmentation/files/lower_case.hpp"
@@ -68,14 +70,14 @@ std::size_t take_out(RegisterFields& fields, Image<T>& image) {
     return 0;
   }
   const LabelMap there = on_grid(*fields.removed(), image.geometry);
-  std::size_t voxels = 0;
+  std::vector<std::size_t> voxels;
   for (std::size_t v = 0; v < image.voxels.size(); ++v) {
     if (there.voxels[v] != 0) {
-      image.voxels[v] = T{};
-      ++voxels;
+      voxels.push_back(v);
     }
   }
-  return voxels;
+  image = emptied(std::move(image), voxels, T{});
+  return voxels.size();
 }
 
 WarpedFile warp_labels(LabelMap labels, RegisterFields& fields, const fs::path& out, const WarpAnyOptions& options) {

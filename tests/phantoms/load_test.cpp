@@ -10,7 +10,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <sstream>
 
 #include "discretise/interface/node_cloud.hpp"
 #include "segmentation/geometry/point_tree.hpp"
@@ -19,6 +18,7 @@
 #include "solve/load/rigid_fit.hpp"
 #include "solve/output/solution_file.hpp"
 #include "tests/phantoms/program.hpp"
+#include "tests/unit/solve/read_rigid.hpp"
 
 namespace brainshift::load_test {
 
@@ -257,20 +257,6 @@ TEST_F(Load, ThatIsRobustHoldsAgainstTwoWrongPointsOfTwentyAndCostsLittleWhereNo
   EXPECT_GT(plain_with_two, 1.2 * without);
 }
 
-/// The twelve numbers of an ITK text transform.
-solve::RigidMotion read_rigid(const fs::path& file) {
-  const std::string text = contents_of(file), before_numbers = "Parameters: ";
-  std::istringstream numbers(text.substr(text.find(before_numbers) + before_numbers.size()));
-  solve::RigidMotion motion;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      numbers >> motion.rotation(row, column);
-    }
-  }
-  numbers >> motion.translation[0] >> motion.translation[1] >> motion.translation[2];
-  return motion;
-}
-
 TEST_F(Load, OfAnUnknownRegistrationIsMetTogetherWithIt) {
   constexpr double angle = 0.05;
   const solve::CraniotomyLoad cortex = twenty(measured, 1);
@@ -292,7 +278,7 @@ TEST_F(Load, OfAnUnknownRegistrationIsMetTogetherWithIt) {
   solve::write_craniotomy_csv(at("head/seen.csv"), seen);
   const Solution found = solved_with("<load noise=\"0.5\" registration=\"unknown\"><craniotomy file=\"seen.csv\"/>");
   const auto measures = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"]["measures"];
-  const solve::RigidMotion written = read_rigid(at("other/solve/registration_error.tfm"));
+  const solve::RigidMotion written = test::read_rigid(at("other/solve/registration_error.tfm"));
   EXPECT_NEAR(measures["registration_angle_deg"].get<double>(), written.angle(), 1e-3);
   EXPECT_NEAR(measures["registration_shift_mm"].get<double>(), (written(places) - places).colwise().mean().norm(),
               1e-3);

@@ -53,6 +53,18 @@ class JobsTest : public BallFolder {
     }
     return t1;
   }
+  /// Labels on that image: a block so many voxels within its border, and what is about it.
+  LabelMap block(int border, std::uint16_t inside, std::uint16_t outside) const {
+    LabelMap labels{image().geometry, std::vector<std::uint16_t>(image().voxels.size(), outside)};
+    for (int k = border; k < 20 - border; ++k) {
+      for (int j = border; j < 20 - border; ++j) {
+        for (int i = border; i < 20 - border; ++i) {
+          labels.at(i, j, k) = inside;
+        }
+      }
+    }
+    return labels;
+  }
   /// A field on that image that moves all alike, as a load without an opening.
   Load field(double shift) const {
     VectorImage alike{image(shift).geometry, {}};
@@ -85,14 +97,7 @@ TEST_F(JobsTest, ALoadIsReadFromWhereItIsMeasured) {
 }
 
 TEST_F(JobsTest, ASegmentationTakesLabelsOfAnyGridToTheImages) {
-  LabelMap labels{image().geometry, std::vector<std::uint16_t>(image().voxels.size(), 0)};
-  for (int k = 4; k < 16; ++k) {
-    for (int j = 4; j < 16; ++j) {
-      for (int i = 4; i < 16; ++i) {
-        labels.at(i, j, k) = 1;
-      }
-    }
-  }
+  LabelMap labels = block(4, 1, 0);
   ScalarImage t1 = image();
   std::fill(t1.voxels.begin(), t1.voxels.end(), 1.0F);
   write_image(folder_ / "t1.nii.gz", t1);
@@ -223,15 +228,7 @@ TEST_F(JobsTest, WhatASolveJobNamesIsInItsModel) {
 }
 
 TEST_F(JobsTest, ANumberOfTheMapThatHasNoMaterialIsRefusedWhereTheOthersAreKnown) {
-  LabelMap labels{image().geometry, std::vector<std::uint16_t>(image().voxels.size(), 1)};
-  for (int k = 6; k < 14; ++k) {
-    for (int j = 6; j < 14; ++j) {
-      for (int i = 6; i < 14; ++i) {
-        labels.at(i, j, k) = 17;
-      }
-    }
-  }
-  write_image(folder_ / "labels.nii.gz", labels);
+  write_image(folder_ / "labels.nii.gz", block(6, 17, 1));
   SolveJob job = solve_job();
   job.labels = folder_ / "labels.nii.gz";
   EXPECT_NO_THROW(read_input(job)) << "of a stage alone nobody knows the others";

@@ -7,6 +7,7 @@
 
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/stage_folder.hpp"
+#include "pipelines/runner/stage_record.hpp"
 #include "tests/unit/pipelines/run_folder.hpp"
 
 namespace brainshift::pipelines::run_record_test {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "pipelines/runner/stage_report.hpp"
+
+namespace brainshift::pipelines {
+
+/// stage.json, in each stage's folder: what it was made from and what the stage said of itself. It travels with the
+/// folder, so that folder and stamp cannot disagree.
+struct StageRecord {
+  std::string stamp;
+  std::string failure;
+  nlohmann::ordered_json entry;                                         ///< the stage's entry in run.json
+  nlohmann::ordered_json artefacts = nlohmann::ordered_json::object();  ///< when it was read: artefacts_in the folder
+};
+
+/// What the stage did, as run.json's entry.
+nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, double peak_memory_mb);
+
+/// With the artefacts that lie in the folder then.
+void write_stage_record(const std::filesystem::path& folder, const StageRecord& record);
+
+/// Empty when there is none that can be read.
+std::optional<StageRecord> read_stage_record(const std::filesystem::path& folder);
+
+}  // namespace brainshift::pipelines
