@@ -29,6 +29,7 @@ void warp(const WarpArguments& arguments, const Settings& settings) {
   WarpJob job = arguments.job;
   job.towards = arguments.inverse ? registration::Towards::preop : registration::Towards::intraop;
   set_interpolation(arguments.interpolation, job.options);
+  refuse_stage_folder(arguments.out);
   StageFolder folder(arguments.out, *settings.interruption);
   const std::vector<std::string> notes = warp_files(job, folder.path());
   remove_values_of_earlier(job.files, folder.path(), arguments.out);

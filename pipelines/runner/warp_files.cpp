@@ -8,6 +8,7 @@
 #include "pipelines/runner/artefacts.hpp"
 #include "pipelines/runner/read_run_record.hpp"
 #include "pipelines/runner/stage_record.hpp"
+#include "pipelines/runner/warnings.hpp"
 #include "register/files/warped_name.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/image/frame_note.hpp"
@@ -18,10 +19,22 @@ namespace brainshift::pipelines {
 namespace fs = std::filesystem;
 namespace {
 
+/// Of an image that shows little or nothing of what moves; empty of others.
+std::string outside_of(const registration::WarpedFile& warped) {
+  constexpr double much = 0.5;
+  if (std::isnan(warped.from_outside)) {
+    return "; warning: nothing in it moves; does it lie where the run's image does?";
+  }
+  return !warped.is_label_map && warped.from_outside > much
+             ? "; warning: " + with_digits(100 * warped.from_outside) +
+                   " % of what moves comes from outside the image, as it is cut off or thin, and is 0"
+             : "";
+}
+
 /// What became of a file, as a sentence.
 std::string told(const fs::path& file, const registration::WarpedFile& warped) {
   const std::string name = file.filename().string() + ": ", frame = frame_note(file);
-  const std::string noted = frame.empty() ? "" : "; warning: " + frame;
+  const std::string noted = outside_of(warped) + (frame.empty() ? "" : "; warning: " + frame);
   const std::string emptied = warped.removed == 0 ? "" : ", 0 where tissue was taken out";
   if (warped.is_label_map) {
     return name + "a label map, each voxel took the nearest label" + emptied + noted;
@@ -120,6 +133,12 @@ void check_both_or_neither_replaced(const fs::path& folder) {
 }
 
 }  // namespace
+
+void refuse_stage_folder(const fs::path& out) {
+  if (fs::exists(out / "stage.json")) {
+    refuse(out, "is a stage's folder, whose own files warped ones could take the place of; give another --out");
+  }
+}
 
 std::vector<std::string> warp_files(const std::vector<fs::path>& files, registration::RegisterFields& fields,
                                     const fs::path& out, const registration::WarpAnyOptions& options) {

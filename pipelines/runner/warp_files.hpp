@@ -18,6 +18,9 @@ struct WarpJob {
   registration::WarpAnyOptions options;
 };
 
+/// Throws std::invalid_argument where what is warped would lie among the files of a run's stage.
+void refuse_stage_folder(const std::filesystem::path& out);
+
 /// Writes each to a folder as warped_NAME. Returns a sentence on each. Throws std::invalid_argument, before anything is
 /// written, where a file is missing, two would get one name or one would be written over, and as warp_any().
 std::vector<std::string> warp_files(const std::vector<std::filesystem::path>& files,

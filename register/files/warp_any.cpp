@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "register/files/warped_name.hpp"
 #include "register/files/warped_series.hpp"
 #include "register/warp/cavity_voxels.hpp"
+#include "register/warp/from_outside.hpp"
 #include "register/warp/recognise_labels.hpp"
 #include "register/warp/warp.hpp"
 #include "segmentation/files/lower_case.hpp"
@@ -80,11 +82,23 @@ std::size_t take_out(RegisterFields& fields, Image<T>& image) {
   return voxels.size();
 }
 
+/// share_from_outside() of an image on its own grid; NaN, too, where nothing moves on the grid that it is drawn on.
+double from_outside(const ImageGeometry& image, RegisterFields& fields, const ImageGeometry& grid) {
+  const VectorImage& back = fields.of_images();
+  const double drawn = share_from_outside(image, back, grid);
+  return same_geometry(image, grid) || std::isnan(drawn) ? drawn : share_from_outside(image, back, image);
+}
+
 WarpedFile warp_labels(LabelMap labels, RegisterFields& fields, const fs::path& out, const WarpAnyOptions& options) {
   const ImageGeometry grid = options.grid.value_or(labels.geometry);
   const std::size_t removed = take_out(fields, labels);
   write_image(out, warp(labels, fields.of_images(), grid));
-  return {.is_image = true, .is_label_map = true, .grid = grid, .moved = {}, .removed = removed};
+  return {.is_image = true,
+          .is_label_map = true,
+          .grid = grid,
+          .moved = {},
+          .from_outside = from_outside(labels.geometry, fields, grid),
+          .removed = removed};
 }
 
 /// Volume by volume, interpolated: labels in time are rare.
@@ -93,16 +107,18 @@ WarpedFile warp_series(const fs::path& in, RegisterFields& fields, const fs::pat
     refuse(in, "label maps of four dimensions are not warped; extract the volumes");
   }
   ImageSeries series = read_image_series(in);
+  const ImageGeometry own = series.volumes.front().geometry, grid = options.grid.value_or(own);
   std::size_t removed = 0;
   for (ScalarImage& volume : series.volumes) {
     removed = take_out(fields, volume);
-    volume = warp(volume, fields.of_images(), options.interpolation, options.grid.value_or(volume.geometry));
+    volume = warp(volume, fields.of_images(), options.interpolation, grid);
   }
   write_image_series(out, series);
   return {.is_image = true,
           .is_label_map = false,
-          .grid = series.volumes.front().geometry,
+          .grid = grid,
           .moved = {},
+          .from_outside = from_outside(own, fields, grid),
           .removed = removed};
 }
 
@@ -129,7 +145,12 @@ WarpedFile warp_image(const fs::path& in, RegisterFields& fields, const fs::path
   const std::size_t removed = take_out(fields, image);
   const ScalarImage warped = warp(image, fields.of_images(), options.interpolation, grid);
   write_image(out, warped);
-  WarpedFile result{.is_image = true, .is_label_map = false, .grid = grid, .moved = {}, .removed = removed};
+  WarpedFile result{.is_image = true,
+                    .is_label_map = false,
+                    .grid = grid,
+                    .moved = {},
+                    .from_outside = from_outside(image.geometry, fields, grid),
+                    .removed = removed};
   if (fs::is_directory(in)) {
     result.no_series = write_warped_series(series_name(out), warped, in, fields.towards());
   }

@@ -25,6 +25,7 @@ struct WarpedFile {
   bool is_image = false, is_label_map = false;
   ImageGeometry grid;       ///< of a warped image
   MovedPoints moved;        ///< of what is no image
+  double from_outside = 0;  ///< share_from_outside() of an image on its own grid; NaN: nothing moves in what is drawn
   std::size_t removed = 0;  ///< voxels of an image that a resection has taken out: they are drawn as 0
   /// Why an image that was a DICOM series has not become one again.
   std::string no_series = {};

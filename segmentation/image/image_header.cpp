@@ -26,7 +26,8 @@ void check_shape(const fs::path& file, const ImageHeader& header, std::uint64_t 
     values *= static_cast<double>(header.size[axis]);
   }
   if (!one_volume) {
-    refuse(file, "one 3-D volume is needed, the file holds " + size + " voxels; extract one volume");
+    refuse(file, "one 3-D volume is needed, the file holds " + size + " voxels; " +
+                     (header.size.size() < 3 ? "give it a third axis" : "extract one volume"));
   }
   if (header.components != components) {
     refuse(file, std::to_string(components) + " value(s) a voxel are needed, the file holds " +

@@ -318,6 +318,10 @@ TEST_F(Run, WarpedFilesGoIntoAFolder) {
                                          "/landmarks.mrk.json --out " + (*scratch / "afile").string());
   EXPECT_EQ(result.code, 2);
   EXPECT_NE(result.err.find("afile: this is a file"), std::string::npos) << result.err;
+  const ProgramResult into_stage = run_shell("brainshift warp " + finished().string() + " " + head_folder() +
+                                             "/labels.nii.gz --out " + (finished() / "register").string());
+  EXPECT_EQ(into_stage.code, 2);
+  EXPECT_NE(into_stage.err.find("is a stage's folder"), std::string::npos) << into_stage.err;
 }
 
 TEST_F(Run, OneOfTheTwoFieldsIsNotReplacedAlone) {

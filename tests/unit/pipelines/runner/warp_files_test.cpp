@@ -84,6 +84,19 @@ TEST_F(WarpFiles, WhatLiesOutsideTheImageIsTold) {
   expect_parts(warp({file}, Towards::intraop, "out").front(), {"2 points", "1 lie outside the run's image"});
 }
 
+TEST_F(WarpFiles, OfAnImageThatShowsLittleOfWhatMovesItIsTold) {
+  const auto head = builders::head(builders::sinking);
+  write_image(folder_ / "t1.nii.gz", head.t1);
+  EXPECT_EQ(warp({folder_ / "t1.nii.gz"}, Towards::intraop, "out").front().find("warning"), std::string::npos);
+  ScalarImage slice = builders::image(builders::grid({30, 30, 1}, {3, 3, 1}), builders::texture);
+  write_image(folder_ / "slice.nii.gz", slice);
+  expect_parts(warp({folder_ / "slice.nii.gz"}, Towards::intraop, "out").front(),
+               {"slice.nii.gz: an image", "% of what moves comes from outside"});
+  slice.geometry.origin.x() += 500;
+  write_image(folder_ / "far.nii.gz", slice);
+  expect_parts(warp({folder_ / "far.nii.gz"}, Towards::intraop, "out").front(), {"nothing in it moves"});
+}
+
 TEST_F(WarpFiles, FieldsOfAnEarlierRunAreRefused) {
   const fs::path file = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n"), later = folder_ / "later";
   fs::copy(run_->path(), later, fs::copy_options::recursive);
