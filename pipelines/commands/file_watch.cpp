@@ -9,6 +9,7 @@
 #include <fstream>
 #include <utility>
 
+#include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift::pipelines {
@@ -26,7 +27,7 @@ FileState state_of(const fs::path& file) {
   if (stat(file.c_str(), &status) != 0) {
     return {};
   }
-  return {true, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+  return {true, S_ISREG(status.st_mode), status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
 /// Again and again: the folder may come later, or another in its place.
@@ -66,6 +67,10 @@ FileState FileWatch::next() {
     }
     if (!now.there || now == returned_) {
       told_ = Told::nothing;  // nothing new
+    } else if (!now.regular) {
+      if (std::exchange(refused_, now) != now) {
+        check_readable(file_);
+      }
     } else if (is_whole()) {
       told_ = Told::nothing;
       returned_ = now;

@@ -12,6 +12,7 @@ namespace brainshift::pipelines {
 /// What changes when a file is written.
 struct FileState {
   bool there = false;
+  bool regular = false;  ///< no folder, pipe or device
   ino_t file = 0;
   off_t size = 0;
   time_t second = 0;
@@ -32,7 +33,8 @@ class FileWatch {
   /// Blocks until the file is there, is not as it was when this last returned, and is whole: its writer has closed it
   /// or moved it into place, or it ends with a newline and has not changed for 2 s; for 20 ms where the system tells of
   /// no writer, as in a folder that another machine writes to. Returns its state. Throws std::invalid_argument, naming
-  /// the file, where it has rested for 2 s without a newline at its end, and waits again when called again.
+  /// the file, where it has rested for 2 s without a newline at its end or is no regular file, and waits again when
+  /// called again.
   FileState next();
 
  private:

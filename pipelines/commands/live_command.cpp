@@ -33,12 +33,17 @@ double now() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// When a file was last written, renamed or moved to its place, s; now where it is gone.
+/// When a file, or a link to it, was last written, renamed or moved to its place, s; now where it is gone.
 double changed_at(const std::filesystem::path& file) {
-  struct stat state {};
-  return ::stat(file.c_str(), &state) == 0
-             ? static_cast<double>(state.st_ctim.tv_sec) + 1e-9 * static_cast<double>(state.st_ctim.tv_nsec)
-             : now();
+  struct stat state {
+  }, link{};
+  if (::stat(file.c_str(), &state) != 0 || ::lstat(file.c_str(), &link) != 0) {
+    return now();
+  }
+  const auto seconds = [](const timespec& time) {
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  return std::max(seconds(state.st_ctim), seconds(link.st_ctim));
 }
 
 /// A load that cannot be answered is told and passed over: the next one may be right.
@@ -91,6 +96,10 @@ LiveRun prepared(const LiveArguments& arguments, const Settings& settings) {
     std::fprintf(stderr, "brainshift: the next start prepares the run again: %s\n", printable(run.not_kept()).c_str());
   }
   FileWatch watch(arguments.load);
+  if (const fs::path folder = fs::absolute(arguments.load).parent_path(); !fs::is_directory(folder, unknown)) {
+    std::fprintf(stderr, "brainshift: warning: %s is not there yet; is the path right?\n",
+                 printable(folder.string()).c_str());
+  }
   if (!settings.quiet) {
     std::printf("watching %s; Ctrl-C ends it\n", printable(arguments.load.string()).c_str());
     std::fflush(stdout);

@@ -6,6 +6,7 @@
 #include <future>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "pipelines/runner/input_states.hpp"
 #include "pipelines/runner/own_folder.hpp"
@@ -125,11 +126,11 @@ LiveRun::Answer LiveRun::answer(const fs::path& file) {
     result = solve(load, file);
   }
   if (!result.failure.empty()) {
+    const std::optional<UpdatedRun> failed = std::exchange(updated_, std::nullopt);
     std::string fault = file.string() + ": " + result.failure;
-    for (const std::string& warning : updated().warnings()) {
+    for (const std::string& warning : failed->warnings()) {
       fault += "; " + warning;
     }
-    updated_.reset();
     throw std::runtime_error(fault);
   }
   const VectorImage forward = field_->forward(updated().parameters());

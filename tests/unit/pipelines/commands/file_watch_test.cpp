@@ -2,6 +2,7 @@
 #include "pipelines/commands/file_watch.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <fstream>
@@ -52,6 +53,21 @@ TEST(FileWatch, WaitsForAFileAndAFolderThatComeLater) {
   fs::create_directory(file.parent_path());
   move_into_place(folder, "1\n", file);
   EXPECT_EQ(later.get().size, 2);
+}
+
+TEST(FileWatch, RefusesWhatIsNoFileOnceAndTakesTheFileThatComesInItsPlace) {
+  const ScratchFolder folder;
+  const fs::path file = folder.path() / "load.csv";
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  FileWatch watch(file);
+  EXPECT_NE(refusal([&] { watch.next(); }).find("a pipe or a device"), std::string::npos);
+  auto later = std::async(std::launch::async, [&] { return watch.next(); });
+  EXPECT_EQ(later.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+  move_into_place(folder, "1\n", file);
+  EXPECT_EQ(later.get().size, 2);
+  fs::remove(file);
+  fs::create_directory(file);
+  EXPECT_NE(refusal([&] { watch.next(); }).find("is a folder"), std::string::npos);
 }
 
 /// With pauses at a line's end and within the last number; also one that began while the file before was answered.
