@@ -27,6 +27,7 @@
 #include "solve/interface/option_table.hpp"
 #include "solve/load/contradictions.hpp"
 #include "solve/load/craniotomy_load.hpp"
+#include "solve/load/noisy_load.hpp"
 #include "solve/material/material_options.hpp"
 #include "solve/material/named_materials.hpp"
 #include "solve/run/outliers.hpp"
@@ -136,8 +137,9 @@ pipelines::Warnings warnings_on(const solve::CraniotomyLoad& load, const solve::
   pipelines::Warnings all = warnings_of(result.measures);
   pipelines::append(warnings_of(load, model, result.solution.displacement), all);
   if (result.measures.measured) {
-    pipelines::append(warnings_of(solve::worst_of_joined(load)), all);
-    pipelines::append(warnings_of(solve::outliers(solve::thinned_body(model, options.shape), model.conditions)), all);
+    pipelines::append(warnings_of(solve::worst_of_joined(load, solve::inner_points(model.cloud, load)), false), all);
+    pipelines::append(warnings_of(solve::outliers(solve::thinned_body(model, options.shape), model.conditions), false),
+                      all);
   }
   return all;
 }
@@ -269,6 +271,7 @@ std::vector<std::string> warp_files(const std::filesystem::path& run, const std:
   }
   const Free free;
   pipelines::Interruption interruption;
+  pipelines::refuse_stage_folder(out);
   pipelines::StageFolder folder(out, interruption);
   const std::vector<std::string> notes = pipelines::warp_files(job, folder.path());
   folder.merge();

@@ -207,7 +207,8 @@ json smooth_motion_of(const json& measures) {
   const json& smooth = measures["smooth_motion"];
   return {{"length", readable(smooth.value("length_mm", 0.0))},
           {"along", readable(smooth.value("along_mm", 0.0))},
-          {"across", readable(smooth.value("across_mm", 0.0))}};
+          {"across", readable(smooth.value("across_mm", 0.0))},
+          {"fades", smooth.value("fades", false) ? json::object() : json(false)}};
 }
 
 // How far the tracker's registration was off, where it was estimated.

@@ -84,8 +84,10 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
     report.measures["weight_mJ"] = m.measured->weight;
     report.measures["noise_factor"] = m.measured->noise_factor;
     if (const solve::SmoothMotion& smooth = m.measured->smooth; smooth.length > 0) {
-      report.measures["smooth_motion"] = {
-          {"length_mm", smooth.length}, {"along_mm", smooth.along}, {"across_mm", smooth.across}};
+      report.measures["smooth_motion"] = {{"length_mm", smooth.length},
+                                          {"along_mm", smooth.along},
+                                          {"across_mm", smooth.across},
+                                          {"fades", smooth.fades}};
     }
     for (const solve::WeightRow& row : m.measured->weights) {
       report.measures["weights"].push_back({{"weight_mJ", row.weight},

@@ -22,6 +22,7 @@ nlohmann::ordered_json begin_run_record(const Scene& scene, InputStates& states)
   }
   nlohmann::ordered_json record = {{"version", BRAINSHIFT_VERSION},
                                    {"scene", std::filesystem::absolute(scene.source.file).lexically_normal().string()},
+                                   {"scene_sha256", states.sha256(scene.source.file)},
                                    {"inputs", std::move(inputs)},
                                    {"options", effective_options(scene)},
                                    {"label_names", std::move(names)},

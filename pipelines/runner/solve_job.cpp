@@ -76,10 +76,15 @@ void impose_field(const Load& how, SolveInput& input) {
 
 /// What is taken of the load. Where that is asked for, points that contradict those with which the solve joins them
 /// hardly count; else a note names the worst, which the mean would hide.
-solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, bool robust, std::vector<std::string>& notes) {
+solve::CraniotomyLoad looked_through(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const Load& how,
+                                     std::vector<std::string>& notes) {
   solve::CraniotomyLoad taken = load;
   if (load.sigma.rows() > 0) {
-    warn(robust ? warnings_of(solve::lessen_joined(taken)) : warnings_of(solve::worst_of_joined(taken)), notes);
+    const std::vector<Eigen::Index> inner = solve::inner_points(cloud, load);
+    warn(how.robust ? warnings_of(solve::lessen_joined(taken, inner))
+                    : warnings_of(solve::worst_of_joined(taken, inner),
+                                  !how.registration_unknown && std::ssize(inner) < load.positions.rows()),
+         notes);
   }
   return taken;
 }
@@ -98,16 +103,23 @@ void need_noise(const solve::CraniotomyLoad& load) {
 }
 
 /// What a load with noise leaves beside the solution.
-void write_measured(const SolveInput& input, const solve::SolveResult& result, const fs::path& out, StageReport& said) {
+void write_measured(const SolveInput& input, const Load& how, const solve::SolveResult& result, const fs::path& out,
+                    StageReport& said) {
   if (!result.measures.measured) {
     return;
   }
   const solve::MeasuredFit& fit = *result.measures.measured;
-  warn(warnings_of(solve::outliers(solve::thinned_body(input.model, input.options.shape), input.model.conditions)),
+  warn(warnings_of(solve::outliers(solve::thinned_body(input.model, input.options.shape), input.model.conditions),
+                   !how.robust && !how.registration_unknown && !how.field),
        said);
   if (input.registration) {
     solve::write_rigid(out / "registration_error.tfm", *input.registration);
     said.measures["registration_angle_deg"] = input.registration->angle();
+    constexpr double most = 30;  // degrees
+    if (const double angle = input.registration->angle(); angle > most) {
+      said.notes.push_back("warning: the registration turns by " + with_digits(angle) +
+                           " degrees; are load and image in the same frame (LPS or RAS)?");
+    }
     const Points& x = input.load->positions;
     said.measures["registration_shift_mm"] = ((*input.registration)(x)-x).colwise().mean().norm();
     const double doubt = fit.motion_deviation.maxCoeff();
@@ -117,8 +129,8 @@ void write_measured(const SolveInput& input, const solve::SolveResult& result, c
           "no skull holds the brain: all rigid motion that was measured counts as the patient's registration");
     } else if (doubt > 1) {
       said.notes.push_back("warning: the error of the registration is known to " + solve::rounded(doubt) +
-                           " mm only; the points do not tell it from the brain's own motion: measure some inside the "
-                           "brain, or away from the opening");
+                           " mm only; the points do not tell it from the brain's own motion: measure more, some of "
+                           "them inside the brain and some away from the opening");
     }
   }
 }
@@ -269,9 +281,12 @@ SolveInput read_input(const SolveJob& job) {
     input.load = read_load(*job.load, job.surface);
     note_far_centre(*job.load, input.load->positions, input.notes);
     solve::CraniotomyLoad& load = *input.load;
+    if (load.paired_by_order) {
+      input.notes.push_back(load_files(*job.load) + " share no label: their points were paired by their order");
+    }
     add_noise(*job.load, load);
     naming(load_files(*job.load), [&] {
-      const solve::CraniotomyLoad taken = looked_through(load, job.load->robust, input.notes);
+      const solve::CraniotomyLoad taken = looked_through(load, model.cloud, *job.load, input.notes);
       if (!job.load->registration_unknown) {
         impose(taken, *job.load, model);
         return;
@@ -318,7 +333,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
   for (const std::vector<std::string>& notes : {input.notes, notes_of(result.measures)}) {
     said.notes.insert(said.notes.end(), notes.begin(), notes.end());
   }
-  write_measured(input, result, out, said);
+  write_measured(input, job.load.value_or(Load{}), result, out, said);
   add_uncertainty(job, input, result, out, said, part_of(given, solving_share, 1));
   warn(warnings_of(result.measures), said);
   warn(warnings_of_weight(input.model), said);
@@ -329,7 +344,9 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
     said.failure = turn_fault(input.model, result.solution);
   }
   if (input.load) {
-    warn(warnings_of(*input.load, input.model, result.solution.displacement), said);
+    const solve::CraniotomyLoad load =
+        input.registration ? solve::registered(*input.load, *input.registration) : *input.load;
+    warn(warnings_of(load, input.model, result.solution.displacement), said);
   }
   return said;
 }

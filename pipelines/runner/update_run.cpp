@@ -16,6 +16,7 @@
 #include "segmentation/files/refuse.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/device/kept_on_device.hpp"
+#include "solve/load/noisy_load.hpp"
 #include "solve/output/solution_file.hpp"
 #include "solve/run/outliers.hpp"
 
@@ -59,6 +60,12 @@ void add_changes(const std::string& path, const nlohmann::ordered_json& now, con
 /// The scene as it was run: its file, and what the command line put on top.
 Scene scene_of(const nlohmann::ordered_json& record) {
   const fs::path file = record["scene"].get<std::string>();
+  if (!record.contains("scene_sha256")) {
+    refuse(file, "the run was made by an earlier build of this version, which did not note its scene; run it again");
+  }
+  if (record["scene_sha256"] != sha256_of_file(file)) {
+    refuse(file, "the scene has changed since the run was made; run it again");
+  }
   std::vector<std::string> overrides;
   for (const auto& input : record["inputs"]) {
     const std::string role = input.value("role", "");
@@ -68,6 +75,19 @@ Scene scene_of(const nlohmann::ordered_json& record) {
   }
   add_changes("", effective_options(parse_scene(file, overrides)), record["options"], overrides);
   return parse_scene(file, overrides);
+}
+
+/// All that the solution depends on: labels that the T1 is not classified into do without it, and no load is weighed by
+/// landmarks (where their deviations are asked for, the stamp of the solve has them).
+void check_inputs(const nlohmann::ordered_json& record, const Scene& scene) {
+  for (const auto& input : record["inputs"]) {
+    const fs::path file = input.value("path", "");
+    const std::string role = input.value("role", "");
+    const bool counts = role != "landmarks.file" && (role != "image.t1" || !scene.image.brain_mask.empty());
+    if (counts && input.value("sha256", "") != sha256_of_file(file)) {
+      refuse(file, "it has changed since the run was made; run the scene again");
+    }
+  }
 }
 
 StageRecord finished_solve(const fs::path& run) {
@@ -118,6 +138,7 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
   const StageRecord solved = finished_solve(run_);
   scene_ = scene_of(record);
   refuse_what_cannot(run_, scene_, solved);
+  check_inputs(record, scene_);
   InputStates states;
   if (stamp(plan_stage(StageId::solve, scene_, run_, interruption), states) != solved.stamp) {
     refuse(run_, "the scene or a file of the run has changed since it was solved; run the scene again");
@@ -220,9 +241,10 @@ Warnings UpdatedRun::warnings() const {
   const auto& [load, conditions] = answered_;
   Warnings all;
   if (conditions.measured) {
-    append(warnings_of(solve::worst_of_joined(load)), all);
-    append(warnings_of(solve::outliers(*kept_.thinned, conditions)), all);
+    append(warnings_of(solve::worst_of_joined(load, solve::inner_points(cloud(), load)), false), all);
+    append(warnings_of(solve::outliers(*kept_.thinned, conditions), false), all);
   }
+  append(warnings_of_sigma(load.sigma), all);
   append(warnings_of(load, cloud(), conditions), all);
   return all;
 }

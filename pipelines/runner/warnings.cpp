@@ -30,6 +30,8 @@ std::string with_digits(double number) {
 
 namespace {
 
+constexpr Eigen::Index few_places = 3;  // that a load is measured at
+
 Points surface_of(const NodeCloud& cloud) {
   return cloud.positions(surface_nodes(cloud), Eigen::all);
 }
@@ -180,7 +182,7 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
                        " % of the measured points lie over no node that is loaded, and are lost; do they lie about one "
                        "opening, and is it flat enough?");
   }
-  const bool few = places.rows() <= 3;
+  const bool few = places.rows() <= few_places;
   if (few || are_in_line(places)) {
     const auto loaded = std::ranges::count_if(prescribed.col(0), [](double u) { return std::isfinite(u); });
     warnings.push_back("the load is measured at " + std::to_string(places.rows()) + " places" +
@@ -226,6 +228,16 @@ Warnings warnings_of(const solve::Model& model, const Points& displacement) {
           " mm); in a patient the skull holds it: add <contact/> (of a stage alone --skull), unless that is meant"};
 }
 
+Warnings warnings_of_sigma(const Points& sigma) {
+  constexpr double nobody = 0.01;  // mm: measures as well as that
+  const auto small = (sigma.array() < nobody).rowwise().any().count();
+  if (small == 0) {
+    return {};
+  }
+  return {"of " + std::to_string(sigma.rows()) + " measured points " + std::to_string(small) +
+          " have a standard deviation below 0.01 mm, which nobody measures to; standard deviations in mm are expected"};
+}
+
 void append(const Warnings& more, Warnings& warnings) {
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
@@ -237,6 +249,11 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
   const solve::Measurement& measured = *conditions.measured;
   const Eigen::Index inner = measured.inner.rows(), all = inner + measured.cortex.rows();
   Warnings warnings;
+  if (const Eigen::Index places = distinct_points(load.positions).rows(); places <= few_places) {
+    warnings.push_back("the load is measured at " + std::to_string(places) +
+                       " places; how the brain moves elsewhere, and how far off the answer is there, so few cannot "
+                       "tell; measure more of them");
+  }
   if (2 * inner > all) {
     warnings.push_back(std::to_string(inner) + " of " + std::to_string(all) +
                        " measured places lie more than 5 mm below the brain's surface and count as places inside it; "
@@ -249,7 +266,8 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
 }
 
 Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& model, const Points& displacement) {
-  Warnings warnings = warnings_of(load, model.cloud, model.conditions);
+  Warnings warnings = warnings_of_sigma(load.sigma);
+  append(warnings_of(load, model.cloud, model.conditions), warnings);
   append(warnings_of(model, displacement), warnings);
   return warnings;
 }
@@ -342,7 +360,7 @@ Warnings warnings_of_weight(const solve::Model& model) {
       "from the truth than no gravity; for a head take <gravity> with a level of the fluid"};
 }
 
-Warnings warnings_of(std::span<const solve::Outlier> outliers) {
+Warnings warnings_of(std::span<const solve::Outlier> outliers, bool may_be_robust) {
   if (outliers.empty()) {
     return {};
   }
@@ -353,11 +371,12 @@ Warnings warnings_of(std::span<const solve::Outlier> outliers) {
   return {"what was measured near " + listed(places) + " mm is " + (outliers.size() > 1 ? "up to " : "") +
           with_digits(outliers.front().deviations) +
           " standard deviations from what the other points say; look at the points there, and give a wrong one a "
-          "larger sigma or take it out, or let such points count for less with robust=\"yes\""};
+          "larger sigma or take it out" +
+          (may_be_robust ? ", or let such points count for less with robust=\"yes\"" : "")};
 }
 
-Warnings warnings_of(const std::optional<solve::Outlier>& outlier) {
-  return outlier ? warnings_of(std::span(&*outlier, 1)) : Warnings();
+Warnings warnings_of(const std::optional<solve::Outlier>& outlier, bool may_be_robust) {
+  return outlier ? warnings_of(std::span(&*outlier, 1), may_be_robust) : Warnings();
 }
 
 Warnings warnings_of(const solve::LessenedPoints& lessened) {

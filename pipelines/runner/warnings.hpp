@@ -38,7 +38,10 @@ void append(const Warnings& more, Warnings& warnings);
 /// Two digits, of large numbers all before the point.
 std::string with_digits(double number);
 
-/// Both.
+/// Of points that nobody can have measured so well, as where σ is in metres.
+Warnings warnings_of_sigma(const Points& sigma);
+
+/// Of a measured load all of them.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const solve::Model& model, const Points& displacement);
 
 /// Of a head that is weighed as if it did not float.
@@ -58,9 +61,10 @@ Warnings warnings_of_levels(const solve::Model& model);
 /// Of soft tissue, as fluid is modelled, that a drained level leaves with its whole weight.
 Warnings warnings_of_rooms(const solve::Model& model);
 
-/// Of what was measured where it contradicts itself; the farthest off first.
-Warnings warnings_of(std::span<const solve::Outlier> outliers);
-Warnings warnings_of(const std::optional<solve::Outlier>& outlier);
+/// Of what was measured where it contradicts itself; the farthest off first. may_be_robust: robust weights, which the
+/// load has not, go with it.
+Warnings warnings_of(std::span<const solve::Outlier> outliers, bool may_be_robust);
+Warnings warnings_of(const std::optional<solve::Outlier>& outlier, bool may_be_robust);
 
 /// Of measured points that count for less than half.
 Warnings warnings_of(const solve::LessenedPoints& lessened);

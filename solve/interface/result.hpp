@@ -100,13 +100,14 @@ struct SmoothMotion {
   double length = 0;             ///< mm; 0: there is none
   double along = 0, across = 0;  ///< standard deviations, mm
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  bool fades = false;  ///< towards the rim of the opening
 };
 
 /// How the noise of a load was weighed.
 struct MeasuredFit {
   double weight = 0;    ///< s that was used, mJ
   SmoothMotion smooth;  ///< what the points say of it
-  bool rough = false;   ///< that motion is alike over the shortest of the lengths only, and far larger than the noise
+  bool rough = false;   ///< alike over the shortest length that was tried, and no likelier than noise so far larger
   SmoothMotion hidden;  ///< of the opening, beside which an unknown registration is found; not in the answer's prior
   /// (m × 3) mm: with a smooth motion, the displacement of each point of the cortex as prior and noise have it.
   Points smoothed = Points(0, 3);

@@ -15,10 +15,17 @@ constexpr double raised = 30;  // factor of a standard deviation, after which a 
 
 using Groups = std::vector<std::vector<Eigen::Index>>;
 
-/// The groups of more than one point.
-Groups groups_of(const CraniotomyLoad& load) {
-  Groups groups = joined_rows(load.positions, most_measured_points);
-  std::erase_if(groups, [](const std::vector<Eigen::Index>& group) { return group.size() < 2; });
+/// The groups of more than one point, those of the cortex and those of points inside.
+Groups groups_of(const CraniotomyLoad& load, const std::vector<Eigen::Index>& inner) {
+  Groups groups;
+  for (const std::vector<Eigen::Index>& kind : {rows_but(inner, load.positions.rows()), inner}) {
+    for (std::vector<Eigen::Index>& group : joined_rows(load.positions(kind, Eigen::all), most_measured_points)) {
+      if (group.size() > 1) {
+        std::ranges::transform(group, group.begin(), [&](Eigen::Index i) { return kind[static_cast<std::size_t>(i)]; });
+        groups.push_back(std::move(group));
+      }
+    }
+  }
   return groups;
 }
 
@@ -61,8 +68,8 @@ double usual_of(const CraniotomyLoad& load, const Groups& groups) {
 
 }  // namespace
 
-std::optional<Outlier> worst_of_joined(const CraniotomyLoad& load) {
-  const Groups groups = groups_of(load);
+std::optional<Outlier> worst_of_joined(const CraniotomyLoad& load, const std::vector<Eigen::Index>& inner) {
+  const Groups groups = groups_of(load, inner);
   const double usual = usual_of(load, groups);
   std::optional<Outlier> worst;
   for (const std::vector<Eigen::Index>& group : groups) {
@@ -75,8 +82,8 @@ std::optional<Outlier> worst_of_joined(const CraniotomyLoad& load) {
   return worst;
 }
 
-LessenedPoints lessen_joined(CraniotomyLoad& load) {
-  const Groups groups = groups_of(load);
+LessenedPoints lessen_joined(CraniotomyLoad& load, const std::vector<Eigen::Index>& inner) {
+  const Groups groups = groups_of(load, inner);
   const double usual = usual_of(load, groups);
   std::vector<Eigen::Index> lessened;
   for (const std::vector<Eigen::Index>& group : groups) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "solve/load/craniotomy_load.hpp"
 
@@ -29,11 +30,12 @@ struct LessenedPoints {
 
 /// Of the measured points that joined() would join, the one that is farthest from the mean of the others with which it
 /// is joined, where that is more than five standard deviations of their distance, and five times farther than is usual
-/// of this load. Their mean would hide it from outliers(). load: with standard deviations.
-std::optional<Outlier> worst_of_joined(const CraniotomyLoad& load);
+/// of this load. Their mean would hide it from outliers(). load: with standard deviations; inner: the rows of points
+/// inside the brain, ascending, which are joined by themselves.
+std::optional<Outlier> worst_of_joined(const CraniotomyLoad& load, const std::vector<Eigen::Index>& inner = {});
 
 /// Raises the standard deviations of such points until none is left, so that they hardly count in the mean; of two in
 /// one place that contradict each other those of both, as nothing says which is wrong.
-LessenedPoints lessen_joined(CraniotomyLoad& load);
+LessenedPoints lessen_joined(CraniotomyLoad& load, const std::vector<Eigen::Index>& inner = {});
 
 }  // namespace brainshift::solve

@@ -16,6 +16,7 @@ struct CraniotomyLoad {
   /// Standard deviation of the displacement along each axis, mm, from smallest_noise on. No rows: not known, the load
   /// is imposed exactly.
   Points sigma = Points(0, 3);
+  bool paired_by_order = false;  ///< of two markups that share no label
 };
 
 /// mm: below it a standard deviation is no noise but a slip.
@@ -32,8 +33,8 @@ CraniotomyLoad read_craniotomy_csv(const std::filesystem::path& file);
 void write_craniotomy_csv(const std::filesystem::path& file, const CraniotomyLoad& load);
 
 /// Two 3D Slicer markups of the same points, before and after (.mrk.json or .fcsv, RAS or LPS as the file says, an
-/// error if it does not). Matched by label where the two name the same points; by order where they share no label and
-/// are equally many. Throws std::invalid_argument, naming file and point, otherwise.
+/// error if it does not). Matched by label, whatever its case, where the two name the same points; by order where they
+/// share no label and are equally many. Throws std::invalid_argument, naming file and point, otherwise.
 CraniotomyLoad read_markups(const std::filesystem::path& before, const std::filesystem::path& after);
 
 /// Markup positions alone (landmarks), (n × 3) mm LPS, in the file's order.

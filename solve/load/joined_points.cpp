@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/load/joined_points.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -23,6 +24,16 @@ Cells cells_of(const Points& positions, double edge) {
 }
 
 }  // namespace
+
+std::vector<Eigen::Index> rows_but(const std::vector<Eigen::Index>& these, Eigen::Index all) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index row = 0; row < all; ++row) {
+    if (!std::ranges::binary_search(these, row)) {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
 
 std::vector<std::vector<Eigen::Index>> joined_rows(const Points& positions, int most) {
   constexpr double finest = 1;  // mm

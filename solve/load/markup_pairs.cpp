@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/points_file.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/text_lines.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::solve {
@@ -32,7 +34,7 @@ Labels places_of(const std::vector<std::string>& names) {
 struct NamedPoints {
   std::filesystem::path path;
   Points positions;
-  std::vector<std::string> labels;
+  std::vector<std::string> labels, keys;  ///< as the file has them; as they are compared
 };
 
 /// One list of points, all of them placed.
@@ -44,16 +46,32 @@ NamedPoints read_list(const std::filesystem::path& path) {
   if (!points.not_placed().empty()) {
     refuse(path, points.not_placed().front() + " has not been placed; place or delete it");
   }
-  return {path, points.positions(), points.labels()};
+  return {path, points.positions(), points.labels(), points.labels()};
+}
+
+/// Where the two do not name the same points letter for letter, "Vein " names what "vein" does.
+void compare_by_letters_alone(NamedPoints& before, NamedPoints& after) {
+  const auto sorted = [](std::vector<std::string> names) {
+    std::ranges::sort(names);
+    return names;
+  };
+  if (sorted(before.keys) != sorted(after.keys)) {
+    for (NamedPoints* points : {&before, &after}) {
+      for (std::string& key : points->keys) {
+        key = in_lower_case(std::string(trimmed(key)));
+      }
+    }
+  }
 }
 
 /// The row of `after` of the same label, for each row of `before`.
 std::vector<Eigen::Index> partners_by_label(const NamedPoints& before, const NamedPoints& after, const Labels& there) {
   std::vector<Eigen::Index> partner;
-  for (const std::string& label : before.labels) {
-    const auto found = there.place.find(label);
+  for (std::size_t n = 0; n < before.keys.size(); ++n) {
+    const auto found = there.place.find(before.keys[n]);
     if (found == there.place.end()) {
-      throw std::invalid_argument(after.path.string() + ": point \"" + label + "\" of " + before.path.string() +
+      throw std::invalid_argument(after.path.string() + ": point \"" + before.labels[n] + "\" of " +
+                                  before.path.string() +
                                   " has no partner of that label here; name the same points in both");
     }
     partner.push_back(found->second);
@@ -61,17 +79,23 @@ std::vector<Eigen::Index> partners_by_label(const NamedPoints& before, const Nam
   return partner;
 }
 
-std::vector<Eigen::Index> partners(const NamedPoints& before, const NamedPoints& after) {
-  const Labels here = places_of(before.labels), there = places_of(after.labels);
+/// The row of `after` for each row of `before`, and whether their order alone tells it.
+struct Partners {
+  std::vector<Eigen::Index> rows;
+  bool by_order;
+};
+
+Partners partners(const NamedPoints& before, const NamedPoints& after) {
+  const Labels here = places_of(before.keys), there = places_of(after.keys);
   const bool shared = std::any_of(here.place.begin(), here.place.end(),
                                   [&](const auto& label) { return there.place.contains(label.first); });
-  if (shared && before.labels != after.labels) {
+  if (shared && before.keys != after.keys) {
     if (here.repeated || there.repeated) {
       throw std::invalid_argument((here.repeated ? before : after).path.string() +
                                   ": two points have the same label, so that the points cannot be matched");
     }
     partners_by_label(after, before, here);
-    return partners_by_label(before, after, there);
+    return {partners_by_label(before, after, there), false};
   }
   if (before.labels.size() != after.labels.size()) {
     throw std::invalid_argument(after.path.string() + ": holds " + std::to_string(after.labels.size()) +
@@ -81,16 +105,19 @@ std::vector<Eigen::Index> partners(const NamedPoints& before, const NamedPoints&
   }
   std::vector<Eigen::Index> in_order(before.labels.size());
   std::iota(in_order.begin(), in_order.end(), 0);
-  return in_order;
+  return {std::move(in_order), !shared};
 }
 
 }  // namespace
 
 CraniotomyLoad read_markups(const std::filesystem::path& before, const std::filesystem::path& after) {
-  const NamedPoints first = read_list(before), second = read_list(after);
+  NamedPoints first = read_list(before), second = read_list(after);
+  compare_by_letters_alone(first, second);
+  const Partners paired = partners(first, second);
   CraniotomyLoad load;
   load.positions = first.positions;
-  load.displacement = second.positions(partners(first, second), Eigen::all) - load.positions;
+  load.displacement = second.positions(paired.rows, Eigen::all) - load.positions;
+  load.paired_by_order = paired.by_order;
   return load;
 }
 

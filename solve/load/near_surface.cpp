@@ -58,6 +58,17 @@ std::string rounded(double number, int decimals) {
   return text.str();
 }
 
+void check_load(const CraniotomyLoad& load) {
+  if (load.positions.rows() == 0 || load.positions.rows() != load.displacement.rows()) {
+    throw std::invalid_argument("load: no displacement is measured, or not one at each position");
+  }
+  for (Eigen::Index p = 0; p < load.positions.rows(); ++p) {
+    if (!load.positions.row(p).allFinite() || !load.displacement.row(p).allFinite()) {
+      throw std::invalid_argument("load: measured point " + std::to_string(p + 1) + " is not finite");
+    }
+  }
+}
+
 void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed) {
   const PointTree tree(surface);
   const Distances as_given = distances_to(tree, measured);

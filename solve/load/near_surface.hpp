@@ -5,8 +5,13 @@
 
 #include "discretise/interface/node_cloud.hpp"
 #include "segmentation/geometry/points.hpp"
+#include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::solve {
+
+/// Throws std::invalid_argument where nothing is measured, or not one displacement at each position; with the point
+/// where a number is not finite.
+void check_load(const CraniotomyLoad& load);
 
 /// Throws std::invalid_argument, with the distance and the point, when a measured point lies farther from every node of
 /// the surface than is allowed (mm); and when the points lie off the surface as they are and on it with x and y turned:

@@ -36,31 +36,6 @@ double depth_below(const Points& rim, const PointTree& tree, const Eigen::RowVec
   return (centre - x).dot(outward);
 }
 
-/// Which points lie inside the brain.
-std::vector<Eigen::Index> inner_points(const NodeCloud& cloud, const CraniotomyLoad& load) {
-  const std::vector<std::int32_t> surface = surface_nodes(cloud);
-  const Points rim = cloud.positions(surface, Eigen::all);
-  const PointTree nodes(cloud.positions), outer(rim);
-  const Eigen::RowVector3d middle = cloud.positions.colwise().mean();
-  std::vector<Eigen::Index> inner;
-  for (Eigen::Index p = 0; p < load.positions.rows() && !surface.empty(); ++p) {
-    const Eigen::RowVector3d x = load.positions.row(p);
-    if (!x.allFinite()) {
-      continue;  // prescribed_on_surface_nodes() refuses it
-    }
-    const auto [near, squared] = nodes.nearest(x.data());
-    const bool in_cloud = std::sqrt(squared) <= 1.5 * cloud.spacing[near];
-    const auto [nearest, of_surface] = outer.nearest(x.data());
-    // So far from all nodes of the surface the nearest of these may lie all around, and tell no plane.
-    const double farthest = std::hypot(cortex_depth, cloud.spacing[static_cast<std::size_t>(surface[nearest])]);
-    const bool deep = cloud.on_surface[near] == 0 && std::sqrt(of_surface) > farthest;
-    if (in_cloud && (deep || depth_below(rim, outer, middle, x) > cortex_depth)) {
-      inner.push_back(p);
-    }
-  }
-  return inner;
-}
-
 /// The share of each point of the cortex in what is prescribed at each node: what becomes of a displacement of 1 mm of
 /// this point alone, three points at once. The limits of the extension would let shares near the rim sum to less or
 /// more than one; then not even what moves alike would.
@@ -117,24 +92,42 @@ Eigen::SparseMatrix<double> shares_of_nearest(const Points& positions, const std
 
 }  // namespace
 
+std::vector<Eigen::Index> inner_points(const NodeCloud& cloud, const CraniotomyLoad& load) {
+  const std::vector<std::int32_t> surface = surface_nodes(cloud);
+  const Points rim = cloud.positions(surface, Eigen::all);
+  const PointTree nodes(cloud.positions), outer(rim);
+  const Eigen::RowVector3d middle = cloud.positions.colwise().mean();
+  std::vector<Eigen::Index> inner;
+  for (Eigen::Index p = 0; p < load.positions.rows() && !surface.empty(); ++p) {
+    const Eigen::RowVector3d x = load.positions.row(p);
+    if (!x.allFinite()) {
+      continue;  // check_load() refuses it
+    }
+    const auto [near, squared] = nodes.nearest(x.data());
+    const bool in_cloud = std::sqrt(squared) <= 1.5 * cloud.spacing[near];
+    const auto [nearest, of_surface] = outer.nearest(x.data());
+    // So far from all nodes of the surface the nearest of these may lie all around, and tell no plane.
+    const double farthest = std::hypot(cortex_depth, cloud.spacing[static_cast<std::size_t>(surface[nearest])]);
+    const bool deep = cloud.on_surface[near] == 0 && std::sqrt(of_surface) > farthest;
+    if (in_cloud && (deep || depth_below(rim, outer, middle, x) > cortex_depth)) {
+      inner.push_back(p);
+    }
+  }
+  return inner;
+}
+
 Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, const OpeningOptions& options) {
+  check_load(load);
   if (load.sigma.rows() != load.positions.rows() || !(load.sigma.array() >= smallest_noise).all()) {
     throw std::invalid_argument("load: each measured point needs a standard deviation of 0.000001 mm or more");
   }
-  if (const std::vector<std::int32_t> nodes = surface_nodes(cloud); !nodes.empty() && load.positions.allFinite()) {
+  if (const std::vector<std::int32_t> nodes = surface_nodes(cloud); !nodes.empty()) {
     const Points surface = cloud.positions(nodes, Eigen::all);
     check_frame(load.positions, surface, options.farthest);
     check_moved(load.displacement, surface);
   }
   const std::vector<Eigen::Index> inside = inner_points(cloud, load);
-  std::vector<Eigen::Index> outside;
-  for (Eigen::Index p = 0, next = 0; p < load.positions.rows(); ++p) {
-    if (next < static_cast<Eigen::Index>(inside.size()) && inside[static_cast<std::size_t>(next)] == p) {
-      ++next;
-    } else {
-      outside.push_back(p);
-    }
-  }
+  const std::vector<Eigen::Index> outside = rows_but(inside, load.positions.rows());
   Conditions conditions;
   conditions.displacement = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
   Measurement& measured = conditions.measured.emplace();

@@ -11,6 +11,9 @@ namespace brainshift::solve {
 /// is one of the cortex.
 inline constexpr double cortex_depth = 5.0;
 
+/// Rows of the measured points that lie inside the brain, ascending.
+std::vector<Eigen::Index> inner_points(const NodeCloud& cloud, const CraniotomyLoad& load);
+
 /// The conditions of a load with standard deviations. Points of the cortex are extended to the surface nodes under the
 /// opening, prescribed_on_surface_nodes(), with the share of each in each node; points inside are kept apart. Throws as
 /// that does; std::invalid_argument on a point without a standard deviation.

@@ -26,17 +26,6 @@ constexpr double on_rim = 0.25;
 /// Places that are looked at in one go. Most are not under the opening; those that are take a spline each.
 constexpr std::int64_t splines_a_part = 4;
 
-void check_load(const CraniotomyLoad& load) {
-  if (load.positions.rows() == 0 || load.positions.rows() != load.displacement.rows()) {
-    throw std::invalid_argument("load: no displacement is measured, or not one at each position");
-  }
-  for (Eigen::Index p = 0; p < load.positions.rows(); ++p) {
-    if (!load.positions.row(p).allFinite() || !load.displacement.row(p).allFinite()) {
-      throw std::invalid_argument("load: measured point " + std::to_string(p + 1) + " is not finite");
-    }
-  }
-}
-
 std::vector<std::int32_t> nodes_to_load(const NodeCloud& cloud) {
   std::vector<std::int32_t> nodes = surface_nodes(cloud);
   if (nodes.empty()) {

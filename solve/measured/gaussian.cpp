@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/measured/gaussian.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
@@ -28,21 +30,39 @@ double how_alike(double squared, Alike alike) {
 
 }  // namespace
 
-Eigen::MatrixXd smooth_covariance(const Points& sites, double length, const Eigen::Matrix3d& sizes, Alike alike) {
+Eigen::MatrixXd smooth_covariance(const Response& response, const SmoothMotion& smooth, const Eigen::Matrix3d& sizes,
+                                  Alike alike) {
+  const Points& sites = response.sites;
+  const Eigen::VectorXd left = smooth.fades ? response.fading : Eigen::VectorXd::Ones(sites.rows());
   Eigen::MatrixXd covariance(3 * sites.rows(), 3 * sites.rows());
   for (Eigen::Index i = 0; i < sites.rows(); ++i) {
     for (Eigen::Index j = 0; j < sites.rows(); ++j) {
-      const double squared = (sites.row(i) - sites.row(j)).squaredNorm() / (length * length);
-      covariance.block<3, 3>(3 * i, 3 * j) = how_alike(squared, alike) * sizes;
+      const double squared = (sites.row(i) - sites.row(j)).squaredNorm() / (smooth.length * smooth.length);
+      covariance.block<3, 3>(3 * i, 3 * j) = left[i] * left[j] * how_alike(squared, alike) * sizes;
     }
   }
   return covariance;
 }
 
+Eigen::VectorXd fading_to_rim(const Points& sites) {
+  constexpr double at_rim = 0.1;
+  const Points away = sites.rowwise() - sites.colwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(away.transpose() * away /
+                                                            static_cast<double>(sites.rows()));
+  Eigen::VectorXd squared = Eigen::VectorXd::Zero(sites.rows());  // of the distance, over the extent there
+  for (const int axis : {1, 2}) {                                 // in the plane of the opening
+    if (const double extent = axes.eigenvalues()[axis]; extent > 0) {
+      squared += (away * axes.eigenvectors().col(axis)).cwiseAbs2() / extent;
+    }
+  }
+  const double rim = squared.maxCoeff();
+  return rim > 0 ? Eigen::VectorXd(1 - (1 - at_rim) * (squared / rim).array()) : Eigen::VectorXd::Ones(sites.rows());
+}
+
 Prior::Prior(const Response& response, double weight, const SmoothMotion& smooth, Alike alike)
     : response_(response), weight_(millijoule * weight) {
   if (smooth.length > 0) {
-    smooth_ = smooth_covariance(response.sites, smooth.length, sizes_of(smooth), alike);
+    smooth_ = smooth_covariance(response, smooth, sizes_of(smooth), alike);
   }
 }
 
@@ -53,6 +73,16 @@ Eigen::MatrixXd Prior::between(Eigen::Index first, Eigen::Index rows, Eigen::Ind
     covariance += carried * response_.carry.middleRows(other, columns).transpose();
   }
   return covariance;
+}
+
+Eigen::MatrixXd independent(const Eigen::MatrixXd& columns) {
+  constexpr double none = 0.02;
+  if (columns.cols() == 0) {
+    return columns;
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> parts(columns);
+  parts.setThreshold(none);
+  return parts.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), parts.rank());
 }
 
 MeasuredGaussian::MeasuredGaussian(Eigen::MatrixXd prior, Eigen::MatrixXd rigid, const Eigen::VectorXd& d,

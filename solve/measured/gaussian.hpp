@@ -21,9 +21,14 @@ inline Eigen::VectorXd stacked_rows(const Points& values) {
 /// 1999, Interpolation of Spatial Data).
 enum class Alike { squared_exponential, matern };
 
-/// K ⊗ sizes, (3k × 3k) mm²: the covariance of a smooth motion with these (3 × 3) variances at the sites (k × 3), mm.
-Eigen::MatrixXd smooth_covariance(const Points& sites, double length, const Eigen::Matrix3d& sizes,
+/// K ⊗ sizes, (3k × 3k) mm²: the covariance of a smooth motion at the k sites of a response, with these (3 × 3)
+/// variances in place of its own; where it fades, multiplied by the shares that are left at the two sites.
+Eigen::MatrixXd smooth_covariance(const Response& response, const SmoothMotion& smooth, const Eigen::Matrix3d& sizes,
                                   Alike alike = Alike::squared_exponential);
+
+/// (k) at the sites (k × 3) of an opening: 1 in its middle, a tenth at its rim, by a parabola. The cortex under an
+/// opening sinks most in its middle, where the skull beside it supports it least.
+Eigen::VectorXd fading_to_rim(const Points& sites);
 
 /// What is believed of displacements before they are measured, at the points of a response: s G of the deformation's
 /// energy, weight in mJ, and the smooth motion of the opening, as the body carries it.
@@ -40,11 +45,15 @@ class Prior {
   Eigen::MatrixXd smooth_;  // at the sites; empty: none
 };
 
+/// Orthonormal columns that span what these do, but for parts that are a fiftieth of the largest: of points that lie
+/// so nearly on a line nobody tells how they turn about it.
+Eigen::MatrixXd independent(const Eigen::MatrixXd& columns);
+
 /// What was measured, d, as a Gaussian with the covariance V = prior + diag(variance) about a rigid motion that is not
 /// known: P = V⁻¹ − V⁻¹ X (Xᵀ V⁻¹ X)⁻¹ Xᵀ V⁻¹.
 class MeasuredGaussian {
  public:
-  /// prior: (m × m) mm²; rigid: X, (m × 6) or without columns; d: (m) mm; variance: (m) mm².
+  /// prior: (m × m) mm²; rigid: X, (m × 6), independent() or without columns; d: (m) mm; variance: (m) mm².
   MeasuredGaussian(Eigen::MatrixXd prior, Eigen::MatrixXd rigid, const Eigen::VectorXd& d,
                    const Eigen::VectorXd& variance);
 

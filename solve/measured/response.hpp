@@ -18,6 +18,8 @@ struct Response {
   bool free = false;  ///< nothing holds the body
   /// (k × 3) places that a smooth motion of the opening is told at, mm; none: there is no such motion.
   Points sites = Points(0, 3);
+  /// (k) what is left there of a motion that fades towards the rim of the opening; none: no motion fades.
+  Eigen::VectorXd fading = {};
   /// (3m × 3k) what becomes of it at the points.
   Eigen::MatrixXd carry = {};
   double shortest = 0;  ///< mm over which that motion is alike at least; over less it would be each point's own
@@ -34,8 +36,7 @@ bool is_measured(const Conditions& conditions, Eigen::Index node);
 struct StiffBody {
   NodeCloud cloud;
   Eigen::MatrixXd stiffness;  ///< K of the undeformed body, its patches' pressures constant, nothing held, (3n × 3n)
-  /// The surface is held along its normal where nothing is prescribed, as a skull around it would; not where more of it
-  /// is prescribed than free, as the rest would hardly resist a rigid motion.
+  /// The surface is held along its normal where nothing is prescribed, as a skull around it would.
   bool touches = false;
 };
 
@@ -43,7 +44,8 @@ struct StiffBody {
 StiffBody stiff_body(const BodyParts& parts, bool touches);
 
 /// G = Φ K⁻¹ Φᵀ. at_points: shape functions at the points. Prescribed nodes that no measured point has a share in are
-/// held. conditions: at the body's nodes.
+/// held. Where more of the surface is prescribed than free, it is not held along its normals: the rest would hardly
+/// resist a rigid motion. conditions: at the body's nodes.
 Response linear_response(const StiffBody& body, const Conditions& conditions, const ShapeRows& at_points);
 
 /// How the motion of the opening is carried into the same body.

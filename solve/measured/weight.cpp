@@ -22,7 +22,7 @@ constexpr int candidates = 41;                             // of the weight
 constexpr int amplitudes = 16;                             // of a smooth motion
 constexpr std::array lengths = {0.3, 0.45, 0.7, 1., 1.5};  // of it, over the points' distance from their middle
 constexpr double least_gain = 3;                           // in the likelihood, of its three numbers
-constexpr double far_larger = 5;    // than the noise: a motion over so short a length that it may be noise itself
+constexpr double far_larger = 5;    // than what was given: noise that looks like motion over a short length
 constexpr double unseen_shift = 5;  // mm, an axis: of an opened cortex, before anything is measured
 
 /// low … high, geometric.
@@ -72,7 +72,8 @@ class Likelihood {
     amplitudes_.insert(amplitudes_.begin(), 0);
   }
 
-  /// The likeliest prior of a weight and, where there are sites, a smooth motion.
+  /// The likeliest prior of a weight and, where there are sites, a smooth motion. `rough`: over so short a length, and
+  /// so large, that it may be noise.
   MeasuredFit best() const {
     MeasuredFit plain;
     double likeliest = -std::numeric_limits<double>::infinity();
@@ -86,6 +87,11 @@ class Likelihood {
     return response_.sites.rows() > 0 && !hides_motion(response_) ? with_motion(plain, likeliest, chosen) : plain;
   }
 
+  /// log likelihood of a fit's prior.
+  double of(const MeasuredFit& fit) const {
+    return gaussian({fit.weight, fit.smooth.along, fit.smooth.across}, shapes_of(fit.smooth)).log_likelihood;
+  }
+
   /// Each weight, that of the fit among them, beside its smooth motion.
   std::vector<WeightRow> rows(const MeasuredFit& fit) const {
     const SmoothMotion& smooth = fit.smooth;
@@ -94,7 +100,7 @@ class Likelihood {
     std::sort(weights.begin(), weights.end());
     weights.erase(std::unique(weights.begin(), weights.end()), weights.end());
     std::vector<WeightRow> rows;
-    const Shapes shapes = smooth.length > 0 ? shapes_of(smooth.length, smooth.direction) : Shapes{};
+    const Shapes shapes = shapes_of(smooth);
     for (const double weight : weights) {
       const MeasuredGaussian g = gaussian({weight, smooth.along, smooth.across}, shapes);
       const double s = millijoule * weight;
@@ -118,11 +124,14 @@ class Likelihood {
 
   Eigen::Block<const Eigen::MatrixXd> answers() const { return response_.compliance.topLeftCorner(size_, size_); }
 
-  Shapes shapes_of(double length, const Eigen::Vector3d& direction) const {
-    const Eigen::Matrix3d along = direction * direction.transpose();
+  Shapes shapes_of(const SmoothMotion& smooth) const {
+    if (smooth.length == 0) {
+      return {};
+    }
+    const Eigen::Matrix3d along = smooth.direction * smooth.direction.transpose();
     const auto carry = response_.carry.topRows(size_);
     const auto carried = [&](const Eigen::Matrix3d& sizes) -> Eigen::MatrixXd {
-      return carry * smooth_covariance(response_.sites, length, sizes) * carry.transpose();
+      return carry * smooth_covariance(response_, smooth, sizes) * carry.transpose();
     };
     return {carried(along), carried(Eigen::Matrix3d::Identity() - along)};
   }
@@ -140,28 +149,43 @@ class Likelihood {
             amplitudes_[static_cast<std::size_t>(place[2])]};
   }
 
-  MeasuredFit with_motion(MeasuredFit fit, double plain, int chosen) const {
-    double likeliest = plain + least_gain;
-    const double extent = extent_of(response_.sites);
+  MeasuredFit with_motion(MeasuredFit fit, double likeliest, int chosen) const {
     const Eigen::JacobiSVD<Eigen::MatrixXd> main(displacement_, Eigen::ComputeFullV);
-    const Eigen::Vector3d direction = main.matrixV().col(0);
+    SmoothMotion smooth{.direction = main.matrixV().col(0)};
+    const double extent = extent_of(response_.sites), shortest = std::max(response_.shortest, lengths.front() * extent);
+    double first = 0;  // length that is tried
+    likeliest += least_gain;
     for (const double share : lengths) {
-      if (!(extent > 0) || share * extent < response_.shortest) {
-        continue;
-      }
-      const Shapes shapes = shapes_of(share * extent, direction);
-      for (Place place : {Place{chosen, 1, 0}, Place{0, 2 * amplitudes / 3, 0}}) {
-        const double likely = climb(shapes, place);
-        if (likely > likeliest) {
-          likeliest = likely;
-          const Sizes sizes = mean_sizes(shapes, place);
-          fit.weight = sizes.weight;
-          fit.smooth = {share * extent, sizes.along, sizes.across, direction};
-          fit.rough = share == lengths.front() && sizes.along > far_larger * noise_;
-        }
+      smooth.length = share * extent;
+      if (smooth.length > 0 && smooth.length >= shortest) {
+        first = first > 0 ? first : smooth.length;
+        smooth.fades = false;
+        take_if_likelier(smooth, chosen, likeliest, fit);
+        smooth.fades = true;
+        take_if_likelier(smooth, chosen, likeliest, fit);
       }
     }
+    fit.rough = fit.smooth.length > 0 && fit.smooth.length == first &&
+                std::max(fit.smooth.along, fit.smooth.across) > far_larger * noise_;
     return fit;
+  }
+
+  /// Of its sizes, and of the weight, whatever is likeliest. chosen: the weight without it.
+  void take_if_likelier(SmoothMotion smooth, int chosen, double& likeliest, MeasuredFit& fit) const {
+    if (smooth.fades && response_.fading.size() == 0) {
+      return;
+    }
+    const Shapes shapes = shapes_of(smooth);
+    for (Place place : {Place{chosen, 1, 0}, Place{0, 2 * amplitudes / 3, 0}}) {
+      if (const double likely = climb(shapes, place); likely > likeliest) {
+        likeliest = likely;
+        const Sizes sizes = mean_sizes(shapes, place);
+        fit.weight = sizes.weight;
+        smooth.along = sizes.along;
+        smooth.across = sizes.across;
+        fit.smooth = smooth;
+      }
+    }
   }
 
   /// The means of the variances, each over its values beside the likeliest of the others: the likeliest of a small one
@@ -237,8 +261,9 @@ double noise_factor(const Eigen::MatrixXd& prior, const Eigen::MatrixXd& rigid, 
       telling.push_back(i);
     }
   }
-  const MeasuredGaussian of_these(prior(telling, telling), rigid(telling, Eigen::all), d(telling), variance(telling));
-  const double freedom = static_cast<double>(telling.size()) - static_cast<double>(rigid.cols());
+  const Eigen::MatrixXd told = independent(rigid(telling, Eigen::all));  // heights alone tell no motion sideways
+  const MeasuredGaussian of_these(prior(telling, telling), told, d(telling), variance(telling));
+  const double freedom = static_cast<double>(telling.size()) - static_cast<double>(told.cols());
   constexpr double given = 3;  // what was given of the noise counts as much as one measured point
   return freedom > 0 ? std::sqrt((given + of_these.squares) / (given + freedom)) : 1;
 }
@@ -253,11 +278,20 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
     throw std::invalid_argument("load: " + std::to_string(displacement.rows()) +
                                 " measured points do not tell a motion of the whole from noise; measure three or more");
   }
+  if (independent(response.rigid.topRows(m)).cols() < response.rigid.cols()) {
+    throw std::invalid_argument(
+        "load: the measured points lie on one line, about which they do not tell how all turns; measure points beside "
+        "it");
+  }
   MeasuredFit fit;
   fit.weight = weight;
   if (weight == 0) {
     const Likelihood likelihood(response, displacement, sigma);
     fit = likelihood.best();
+    if (fit.rough) {
+      const Likelihood larger(response, displacement, far_larger * sigma);
+      fit.rough = larger.of(larger.best()) > likelihood.of(fit);
+    }
     fit.weights = likelihood.rows(fit);
   }
   const Eigen::MatrixXd prior = Prior(response, fit.weight, fit.smooth).between(0, m, 0, m);
@@ -294,7 +328,9 @@ Posterior::Posterior(const Response& response, const Eigen::VectorXd& d, const E
       likely_(response, fit.weight, fit.smooth),
       careful_(response, larger / factor_ * fit.weight, hides_motion(response) ? fit.hidden : fit.smooth,
                Alike::matern),
-      answer_(likely_.between(0, measured_, 0, measured_), response.rigid.topRows(measured_), d, variance),
+      answer_(likely_.between(0, measured_, 0, measured_),
+              response.rigid.topRows(measured_).leftCols(hides_motion(response) ? 0 : response.rigid.cols()), d,
+              variance),
       doubt_(careful_.between(0, measured_, 0, measured_), response.rigid.topRows(measured_), d,
              larger / factor_ * variance) {}
 
@@ -309,7 +345,7 @@ Eigen::MatrixXd Posterior::rigid_of(Eigen::Index first, Eigen::Index places) con
 Points Posterior::mean() const {
   const Eigen::Index rest = response_.compliance.rows() - measured_;
   Eigen::VectorXd mean = likely_.between(measured_, rest, 0, measured_) * answer_.push;
-  if (response_.rigid.cols() > 0) {
+  if (answer_.motion.size() > 0) {
     mean += rigid_of(0, rest / 3) * answer_.motion;
   }
   return Eigen::Map<const Points>(mean.data(), rest / 3, 3);

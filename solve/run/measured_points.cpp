@@ -3,6 +3,7 @@
 
 #include "solve/load/openings.hpp"
 #include "solve/load/spread_out.hpp"
+#include "solve/measured/gaussian.hpp"
 
 namespace brainshift::solve {
 
@@ -53,12 +54,18 @@ Response MeasuredPoints::response_and_motion(const ShapeRows& rows, const Points
       on_cortex.push_back(static_cast<Eigen::Index>(i));
     }
   }
+  response.shortest = usual_distance(positions(on_cortex, Eigen::all));
+  if (response.shortest == 0 && !m.registration_unknown) {
+    return response;
+  }
   const StiffBody& body = thinned.stiff;
   const ShapeRows at_nodes = shape.evaluate(body.cloud.positions, false);
   const Carried carried = carried_motion(body, conditions, at_nodes, rows);
   const auto own = static_cast<Eigen::Index>(on_cortex.size());
-  response.shortest = usual_distance(positions(on_cortex, Eigen::all));
   response.sites = stacked(positions(on_cortex, Eigen::all), body.cloud.positions(carried.nodes, Eigen::all));
+  if (openings({positions(on_cortex, Eigen::all), displacement(on_cortex, Eigen::all)}).size() == 1) {
+    response.fading = fading_to_rim(response.sites);  // one ellipse is no shape of two
+  }
   response.carry = Eigen::MatrixXd::Zero(response.compliance.rows(), 3 * response.sites.rows());
   response.carry.rightCols(carried.motion.cols()) = carried.motion;
   for (Eigen::Index i = 0; i < own; ++i) {

@@ -38,7 +38,9 @@ struct MeasuredPoints {
   Response response(const ShapeRows& rows, const Points& places) const;
 
   /// The same with a smooth motion of the opening, which moves its points as they were measured, and all else as the
-  /// body carries it; without one where the registration, which would share it, is unknown, or the weight is given.
+  /// body carries it. None where the body is free and the registration is unknown, which would share it, where the
+  /// weight of a known one is given, or all points of the cortex lie in one place. One fades where there is one
+  /// opening.
   Response response_and_motion(const ShapeRows& rows, const Points& places) const;
 };
 

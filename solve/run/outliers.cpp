@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <stdexcept>
 #include <utility>
 
 #include "solve/load/noisy_load.hpp"
@@ -14,6 +15,9 @@
 namespace brainshift::solve {
 
 std::vector<Outlier> outliers(const ThinnedBody& thinned, const Conditions& conditions) {
+  if (conditions.measured->cortex.rows() == 0) {
+    return {};
+  }
   const MeasuredPoints measured(thinned, conditions);
   // Without a smooth motion: one alike over short lengths takes a wrong point for one of its own.
   const Response response = measured.response(inner_rows(measured.shape, measured.positions), measured.positions);
@@ -30,6 +34,11 @@ std::vector<Outlier> outliers(const ThinnedBody& thinned, const Conditions& cond
 
 LessenedPoints lessen_outliers(Model& model, const SolveOptions& options, const OpeningOptions& opening) {
   check_measured(model, options);
+  if (model.conditions.measured->cortex.rows() == 0) {
+    throw std::invalid_argument(
+        "robust weights need points on the cortex: of points inside alone, a wrong one cannot be told from one that is "
+        "nearer than the others to what moves; leave robust out");
+  }
   const ThinnedBody thinned = thinned_body(model, options.shape);
   const Seen seen(*model.conditions.measured);
   const double weight = model.conditions.measured->weight;

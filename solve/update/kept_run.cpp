@@ -116,9 +116,11 @@ Points change_of(const Points& prescribed, const Points& before, const Points& d
   return change;
 }
 
-/// Whether responses tell all of a load's change to first order: they are known, and the load is at their nodes, exact.
+/// Whether responses tell all of a load's change to first order: they are known, and it is exact and prescribes what
+/// the run's own load did.
 bool responses_tell(const KeptRun& run, const Conditions& load) {
-  return run.responses.count() > 0 && !load.measured && loaded_nodes(load.displacement) == run.responses.nodes;
+  return run.responses.count() > 0 && !load.measured &&
+         (load.displacement.array().isNaN() == run.origin.prescribed.array().isNaN()).all();
 }
 
 /// û by the first order from the run's own load; where the responses do not tell all, from the last load where that is

@@ -271,13 +271,17 @@ TEST_F(Load, OfAnUnknownRegistrationIsMetTogetherWithIt) {
   places << cortex.positions, truth.positions(inside, Eigen::all);
   shift << cortex.displacement, truth.displacement(inside, Eigen::all);
   const Eigen::Vector3d middle = places.colwise().mean();
+  const Eigen::Vector3d outward = (cortex.positions.colwise().mean() - centre).normalized();
   solve::RigidMotion tracker;
   tracker.rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-  tracker.translation = middle + Eigen::Vector3d(3, -2, 2) - tracker.rotation * middle;
+  tracker.translation = middle + Eigen::Vector3d(3, -2, 2) + 14 * outward - tracker.rotation * middle;
   solve::CraniotomyLoad seen{places, tracker(places + shift) - places, {}};
   solve::write_craniotomy_csv(at("head/seen.csv"), seen);
   const Solution found = solved_with("<load noise=\"0.5\" registration=\"unknown\"><craniotomy file=\"seen.csv\"/>");
-  const auto measures = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"]["measures"];
+  const auto entry = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"];
+  EXPECT_EQ(entry.value("notes", nlohmann::json::array()).dump().find("out of the head"), std::string::npos)
+      << "the patient moved, not the brain";
+  const auto& measures = entry["measures"];
   const solve::RigidMotion written = test::read_rigid(at("other/solve/registration_error.tfm"));
   EXPECT_NEAR(measures["registration_angle_deg"].get<double>(), written.angle(), 1e-3);
   EXPECT_NEAR(measures["registration_shift_mm"].get<double>(), (written(places) - places).colwise().mean().norm(),
@@ -288,6 +292,17 @@ TEST_F(Load, OfAnUnknownRegistrationIsMetTogetherWithIt) {
   const Points was = tracker(deep + truth.displacement(inside, Eigen::all));
   EXPECT_LT((said - was).rowwise().norm().maxCoeff(), 0.5);
   EXPECT_GT((was - deep).rowwise().norm().mean(), 2) << "else this says nothing";
+}
+
+TEST_F(Load, OfAnotherFrameIsToldByTheTurnOfItsRegistration) {
+  const solve::CraniotomyLoad cortex = twenty(measured, 1);
+  Points turned = cortex.positions + cortex.displacement;
+  turned.leftCols(2) *= -1;
+  solve::write_craniotomy_csv(at("head/turned.csv"), {cortex.positions, turned - cortex.positions, {}});
+  solved_with("<load noise=\"0.5\" registration=\"unknown\"><craniotomy file=\"turned.csv\"/>");
+  const auto entry = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"];
+  EXPECT_NE(entry["notes"].dump().find("degrees; are load and image in the same frame"), std::string::npos)
+      << entry["notes"];
 }
 
 TEST_F(Load, ThatIsRobustSaysWhichPointsCountForLess) {

@@ -177,6 +177,23 @@ TEST_F(Update, RefusesRunsThatAreNone) {
   expect_refused(update(run(), with_load + " --out " + quoted(run())), "this is a run");
 }
 
+/// What the run has of it would be answered, and look right.
+TEST_F(Update, RefusesARunWhoseSceneOrFilesHaveChanged) {
+  const std::string with_load = "--load " + quoted(new_load());
+  for (const char* name : {"scene.xml", "labels.nii.gz"}) {
+    const fs::path file = *scratch / "head" / name, away = *scratch / "away";
+    fs::rename(file, away);
+    std::string text = contents_of(away);
+    const std::size_t young = text.find("youngs_modulus=\"3000\"");
+    text = young == std::string::npos ? "other" : text.replace(young, 21, "youngs_modulus=\"60000\"");
+    write_text(file, text);
+    const ProgramResult updated = update(run(), with_load);
+    fs::rename(away, file);
+    expect_refused(updated, name + std::string(": "));
+    expect_refused(updated, "has changed since the run was made");
+  }
+}
+
 TEST_F(Update, TakesARunWhoseSceneWasNamedFromItsOwnPlace) {
   const std::string there = "cd " + quoted(scratch->path()) + " && ";
   const ProgramResult ran =

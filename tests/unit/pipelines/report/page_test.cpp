@@ -216,6 +216,9 @@ TEST(Page, ExplainsTheWeightOfALoadWithNoiseAndHintsWhereThereIsNone) {
   EXPECT_FALSE(has(page, "taken for motion"));
   measures["smooth_motion"] = {{"length_mm", 20}, {"along_mm", 4}, {"across_mm", 0.1}};
   EXPECT_TRUE(has(make_page(content), "alike over 20 mm"));
+  EXPECT_FALSE(has(make_page(content), "a tenth of that at"));
+  measures["smooth_motion"]["fades"] = true;
+  EXPECT_TRUE(has(make_page(content), "a tenth of that at"));
 }
 
 TEST(Page, HintsAtTheNoiseOfEveryKindOfMeasuredLoad) {

@@ -238,6 +238,19 @@ TEST_F(JobsTest, ANumberOfTheMapThatHasNoMaterialIsRefusedWhereTheOthersAreKnown
   EXPECT_NO_THROW(read_input(job));
 }
 
+TEST_F(JobsTest, MarkupsThatWerePairedByTheirOrderSaySo) {
+  const auto list = [](const std::string& label, const std::string& z) {
+    return mrk_json("\"LPS\"", {{label + "1", "0, 0, " + z}, {label + "2", "5, 0, " + z}, {label + "3", "0, 5, " + z}});
+  };
+  SolveJob job = solve_job();
+  job.load.emplace().markups = {write("before.mrk.json", list("a", "20")), write("after.mrk.json", list("A", "19"))};
+  EXPECT_EQ(read_input(job).notes, std::vector<std::string>());
+  write("after.mrk.json", list("b", "19"));
+  const std::vector<std::string> notes = read_input(job).notes;
+  ASSERT_EQ(notes.size(), 1U);
+  expect_parts(notes.front(), {"before.mrk.json and ", "share no label", "by their order"});
+}
+
 TEST_F(JobsTest, WithoutALoadTheNodesPrescribeTheirOwn) {
   SolveJob job = solve_job();
   NodeCloud cloud = read_node_cloud(job.nodes);

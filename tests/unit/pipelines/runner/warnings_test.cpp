@@ -144,6 +144,34 @@ TEST(Warnings, OfPointsInsideTheBrainTellHowManyCountAsSuch) {
   expect_parts(warnings_of({cortex, none}, ball(), conditions).front(), {"count as places inside", "same frame"});
 }
 
+TEST(Warnings, OfPointsInsideTheBrainTellThatTheyAreFew) {
+  solve::Conditions conditions{.displacement = prescribed_on_top()};
+  solve::Measurement& measured = conditions.measured.emplace();
+  const Points places = opening(40).topRows(3);
+  measured.inner = places.replicate(6, 1);
+  const Warnings said = warnings_of({measured.inner, measured.inner}, ball(), conditions);
+  EXPECT_TRUE(std::ranges::any_of(said, [](const std::string& text) { return text.find("at 3 places; how") == 21; }))
+      << said.front();
+  measured.inner = opening(40);
+  for (const std::string& text : warnings_of({measured.inner, measured.inner}, ball(), conditions)) {
+    EXPECT_EQ(text.find("places; how"), std::string::npos) << text;
+  }
+}
+
+TEST(Warnings, TellOfStandardDeviationsInMetres) {
+  Points sigma = Points::Constant(10, 3, 0.3);
+  EXPECT_TRUE(warnings_of_sigma(sigma).empty());
+  EXPECT_TRUE(warnings_of_sigma(Points(0, 3)).empty());
+  sigma.row(4) /= 1000;
+  expect_parts(warnings_of_sigma(sigma).front(), {"of 10 measured points 1 ", "in mm are expected"});
+}
+
+TEST(Warnings, AdviseRobustWeightsWhereTheyGoWithTheLoad) {
+  const std::optional<solve::Outlier> wrong = solve::Outlier{{1, 2, 3}, 7};
+  expect_parts(warnings_of(wrong, true).front(), {"near (1 2 3)", "take it out", "robust=\"yes\""});
+  EXPECT_EQ(warnings_of(wrong, false).front().find("robust"), std::string::npos);
+}
+
 TEST(Warnings, TellOfPointsThatAreFewOrOnALine) {
   const Points few = opening(60).topRows(3);
   ASSERT_EQ(of_points(few).size(), 1U);

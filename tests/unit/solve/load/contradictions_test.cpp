@@ -74,4 +74,23 @@ TEST(Contradictions, AreSeenAmongThousandsOfPoints) {
   EXPECT_EQ(lessen_joined(load).positions, load.positions.row(1234));
 }
 
+/// Of neither kind there are too many, so that none are joined: those of a cell need not agree.
+TEST(Contradictions, AreLookedForAmongPointsThatAreJoinedAlone) {
+  CraniotomyLoad load = measured_at(test::random_points(200, 100));
+  load.displacement.col(0) += 5 * load.positions.col(1);
+  std::vector<Eigen::Index> inner;
+  for (Eigen::Index p = 1; p < 200; p += 2) {
+    inner.push_back(p);
+  }
+  EXPECT_TRUE(worst_of_joined(load)) << "all of the cortex";
+  EXPECT_FALSE(worst_of_joined(load, inner));
+  EXPECT_EQ(lessen_joined(load, inner).positions.rows(), 0);
+  load.positions.row(7) = load.positions.row(3);
+  load.displacement.row(7) = load.displacement.row(3).array() + 30;
+  const std::optional<Outlier> worst = worst_of_joined(load, inner);
+  ASSERT_TRUE(worst);
+  EXPECT_EQ(worst->position, load.positions.row(7).transpose());
+  EXPECT_EQ(lessen_joined(load, inner).positions.rows(), 2);
+}
+
 }  // namespace brainshift::solve::contradictions_test

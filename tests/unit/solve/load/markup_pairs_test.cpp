@@ -46,6 +46,22 @@ TEST(Markups, OfOneLabelArePairedWhateverTheirOrderAndFormat) {
   EXPECT_EQ(load.positions.row(0), Eigen::RowVector3d(1, 1, 1));
   EXPECT_EQ(load.displacement.row(0), Eigen::RowVector3d(0, 0, 3));
   EXPECT_EQ(load.displacement.row(1), Eigen::RowVector3d(0, 0, 5));
+  EXPECT_FALSE(load.paired_by_order);
+}
+
+TEST(Markups, ArePairedByLabelWhateverItsCaseAndTheBlanksAboutIt) {
+  const ScratchFolder folder;
+  const auto before = folder.write("b.mrk.json", mrk_json("\"LPS\"", {{"Vein ", "0, 0, 0"}, {"sulcus", "5, 0, 0"}}));
+  const auto after = folder.write("a.mrk.json", mrk_json("\"LPS\"", {{"Sulcus", "5, 2, 0"}, {"vein", "1, 0, 0"}}));
+  const CraniotomyLoad load = read_markups(before, after);
+  EXPECT_EQ(load.displacement.row(0), Eigen::RowVector3d(1, 0, 0));
+  EXPECT_EQ(load.displacement.row(1), Eigen::RowVector3d(0, 2, 0));
+  EXPECT_FALSE(load.paired_by_order);
+  const auto first = folder.write("1.mrk.json", mrk_json("\"LPS\"", {{"a", "0, 0, 0"}, {"A", "5, 0, 0"}}));
+  const auto second = folder.write("2.mrk.json", mrk_json("\"LPS\"", {{"A", "5, 2, 0"}, {"a", "1, 0, 0"}}));
+  EXPECT_EQ(read_markups(first, second).displacement.row(0), Eigen::RowVector3d(1, 0, 0)) << "two points, told apart";
+  const auto other = folder.write("3.mrk.json", mrk_json("\"LPS\"", {{"VEIN", "5, 2, 0"}, {"gyrus", "1, 0, 0"}}));
+  EXPECT_NE(refusal([&] { read_markups(before, other); }).find("\"gyrus\" of"), std::string::npos);
 }
 
 TEST(Markups, WithoutACommonLabelArePairedByOrder) {
@@ -55,6 +71,7 @@ TEST(Markups, WithoutACommonLabelArePairedByOrder) {
   const CraniotomyLoad load = read_markups(before, after);
   EXPECT_EQ(load.displacement.row(0), Eigen::RowVector3d(1, 0, 0));
   EXPECT_EQ(load.displacement.row(1), Eigen::RowVector3d(0, 2, 0));
+  EXPECT_TRUE(load.paired_by_order);
 }
 
 TEST(Markups, ThatCannotBePairedAreRefused) {

@@ -99,6 +99,10 @@ TEST(NoisyLoad, RefusesAPointOutsideTheHeadAndOneWithoutStandardDeviation) {
   load = face_and_middle();
   load.sigma(3, 1) = 0;
   EXPECT_NE(refusal([&] { noisy_conditions(cloud, load); }).find("standard deviation"), std::string::npos);
+  load = face_and_middle();
+  load.displacement(9, 1) = std::nan("");  // of the point inside
+  EXPECT_NE(refusal([&] { noisy_conditions(cloud, load); }).find("measured point 10 is not finite"), std::string::npos);
+  EXPECT_NE(refusal([&] { noisy_conditions(cloud, {}); }).find("no displacement is measured"), std::string::npos);
 }
 
 TEST(NoisyField, SharesTheFaultsOfAtMostSoManyNodesAmongAllWithADisplacement) {

@@ -115,8 +115,10 @@ TEST(Weight, EllipsoidsHoldTheTruthAsOftenAsTheySay) {
 /// Places that answer forces by themselves alone, and that a smooth motion moves as it is.
 Response rough_response(const Points& places) {
   const Eigen::Index size = places.size();
-  return {1e-3 * Eigen::MatrixXd::Identity(size, size), Eigen::MatrixXd(size, 0), false, places,
-          Eigen::MatrixXd::Identity(size, size)};
+  return {.compliance = 1e-3 * Eigen::MatrixXd::Identity(size, size),
+          .rigid = Eigen::MatrixXd(size, 0),
+          .sites = places,
+          .carry = Eigen::MatrixXd::Identity(size, size)};
 }
 
 /// Drawn from a smooth motion, and a little of the rough one.
@@ -154,6 +156,60 @@ TEST(SmoothMotion, OfTheOpeningIsFoundWhereThereIsOneAndOnlyThere) {
   EXPECT_LE(found, 1) << "of ten that are rough alone";
 }
 
+/// Places of an opening of 40 by 20 mm, which a smooth motion may leave as they are at the rim.
+Response opening_response(int count) {
+  Points places = test::random_points(count, 2);
+  places = (places.rowwise() - places.colwise().mean()).eval();
+  places.col(0) *= 20;
+  places.col(1) *= 10;
+  places.col(2).setZero();
+  Response response = rough_response(places);
+  response.fading = fading_to_rim(places);
+  return response;
+}
+
+TEST(SmoothMotion, FadesToATenthAtTheRimOfAnOpening) {
+  const Response response = opening_response(400);
+  const Points& x = response.sites;
+  Eigen::Index middle = 0, rim = 0;
+  x.rowwise().norm().minCoeff(&middle);
+  EXPECT_DOUBLE_EQ(response.fading.minCoeff(&rim), 0.1);
+  EXPECT_GT(response.fading[middle], 0.98);
+  EXPECT_GT(std::hypot(x(rim, 0) / 20, x(rim, 1) / 10), 1) << "as elongated as the opening";
+  EXPECT_EQ(fading_to_rim(Points::Constant(3, 3, 7.0)), Eigen::VectorXd::Ones(3));
+  SmoothMotion smooth{.length = 10};
+  const Eigen::MatrixXd whole = smooth_covariance(response, smooth, Eigen::Matrix3d::Identity());
+  smooth.fades = true;
+  const Eigen::MatrixXd left = smooth_covariance(response, smooth, Eigen::Matrix3d::Identity());
+  EXPECT_DOUBLE_EQ(left(3, 6), response.fading[1] * response.fading[2] * whole(3, 6));
+  EXPECT_DOUBLE_EQ(left(5, 5), response.fading[1] * response.fading[1]);
+}
+
+// What fades is nearer to the truth then, and the other is, where the whole opening moves.
+TEST(SmoothMotion, IsTakenToFadeWhereItDoesAndOnlyThere) {
+  std::mt19937 random(11);
+  constexpr int count = 20;
+  const Response response = opening_response(count);
+  Response never = response;
+  never.fading.resize(0);
+  const Points sigma = Points::Constant(count, 3, 0.5);
+  int right = 0;
+  double of_fading = 0, of_other = 0;
+  constexpr int draws = 20;
+  for (int draw = 0; draw < draws; ++draw) {
+    const Points noise = 0.5 * Eigen::Map<const Points>(normals(3 * count, random).data(), count, 3);
+    Points dip = Points::Zero(count, 3), whole = dip;
+    dip.col(2) = -8 * response.fading;
+    whole.col(2).setConstant(-8);
+    const MeasuredFit fading = choose_weight(response, dip + noise, sigma);
+    right += (fading.smooth.fades ? 1 : 0) + (choose_weight(response, whole + noise, sigma).smooth.fades ? 0 : 1);
+    of_fading += (fading.smoothed - dip).squaredNorm();
+    of_other += (choose_weight(never, dip + noise, sigma).smoothed - dip).squaredNorm();
+  }
+  EXPECT_GE(right, 9 * draws / 5);
+  EXPECT_LT(of_fading, 0.9 * of_other);
+}
+
 // What is said not to be known must say nothing, of the weight or of the noise.
 TEST(Weight, DoesNotDependOnHowLittleAFewPointsTell) {
   std::mt19937 random(4);
@@ -180,6 +236,42 @@ TEST(Weight, DoesNotDependOnHowLittleAFewPointsTell) {
   sigma.setConstant(0.3);
   sigma.rightCols<2>().setConstant(30);
   EXPECT_NEAR(choose_weight(response, d, sigma).noise_factor, 1, 0.4) << "one component alone is measured";
+}
+
+// Heights alone tell three of the six rigid motions: without the others in the count nothing is left of this one.
+TEST(Weight, CountsTheRigidMotionsThatTheUsualComponentsTell) {
+  std::mt19937 random(10);
+  Points places = test::random_points(20, 60);
+  places.col(2) *= 0.1;
+  Response response = rough_response(places);
+  response.rigid = rigid_motions(places, places);
+  response.free = true;
+  response.sites = Points(0, 3);
+  Eigen::VectorXd turned(6);
+  turned << 3, -4, 2, 1, -2, 1;
+  Points sigma = Points::Constant(20, 3, 0.4);
+  for (const double sideways : {1.15, 1.25}) {  // three times 0.4 counts as unusual
+    sigma.leftCols<2>().setConstant(sideways);
+    double mean = 0;
+    for (int draw = 0; draw < 10; ++draw) {
+      const Eigen::VectorXd noise = stacked_rows(sigma).cwiseProduct(normals(60, random));
+      const Eigen::VectorXd d = response.rigid * turned + noise;
+      mean += choose_weight(response, Eigen::Map<const Points>(d.data(), 20, 3), sigma).noise_factor / 10;
+    }
+    EXPECT_NEAR(mean, 1, 0.2) << sideways;
+  }
+}
+
+TEST(Weight, IsRefusedWherePointsOnALineAreAllThatHoldsABody) {
+  Points line = Eigen::VectorXd::LinSpaced(8, 0, 50) * Eigen::RowVector3d(0.6, -0.48, 0.64);
+  line = ((1000 * line).array().round() / 1000).eval();  // as a file has it
+  Response response = rough_response(line);
+  response.rigid = rigid_motions(line, line);
+  response.free = true;
+  const Points d = Points::Ones(8, 3), sigma = Points::Constant(8, 3, 0.5);
+  EXPECT_NE(test::refusal([&] { choose_weight(response, d, sigma); }).find("one line"), std::string::npos);
+  response.rigid.resize(24, 0);  // a skull
+  EXPECT_NO_THROW(choose_weight(response, d, sigma));
 }
 
 // Where the registration is found beside it, what the brain moves alike under the opening looks the same.
@@ -239,6 +331,31 @@ TEST(SmoothMotion, OverTheShortestLengthIsNoiseThatWasNotGiven) {
   EXPECT_FALSE(choose_weight(response, smooth, Points::Constant(30, 3, 0.1)).rough);
 }
 
+// Of few points the shortest lengths are no lengths of a motion.
+TEST(SmoothMotion, OfFewPointsIsNoiseThatWasNotGivenToo) {
+  std::mt19937 random(12);
+  int told = 0, wrongly = 0;
+  for (int draw = 0; draw < 10; ++draw) {
+    const Response all = opening_response(60);
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index p = 0; rows.size() < 14; p += 4) {
+      rows.push_back((p + draw) % 60);
+    }
+    Response response = smooth_response(all.sites(rows, Eigen::all));  // without room for noise of single points
+    response.sites = all.sites(rows, Eigen::all);
+    response.carry = Eigen::MatrixXd::Identity(42, 42);
+    response.shortest = 8;
+    response.fading = all.fading(rows);
+    Points dip = Points::Zero(14, 3);
+    dip.col(2) = -8 * response.fading;
+    const Points noise = Eigen::Map<const Points>(normals(42, random).data(), 14, 3);
+    told += choose_weight(response, dip + 2 * noise, Points::Constant(14, 3, 0.2)).rough ? 1 : 0;
+    wrongly += choose_weight(response, dip + 0.2 * noise, Points::Constant(14, 3, 0.2)).rough ? 1 : 0;
+  }
+  EXPECT_GE(told, 8);
+  EXPECT_LE(wrongly, 1);
+}
+
 TEST(SmoothMotion, TakesNoiseOutOfThePointsAndItsEllipsoidsHoldTheTruth) {
   std::mt19937 random(9);
   constexpr int known = 30, asked = 10, draws = 40;
@@ -269,6 +386,30 @@ TEST(SmoothMotion, TakesNoiseOutOfThePointsAndItsEllipsoidsHoldTheTruth) {
   EXPECT_LT(smoothed, 0.4 * noisy);
   EXPECT_GE(inside, 0.90 * draws * asked);
   EXPECT_LE(inside, 0.99 * draws * asked);
+}
+
+// What fades is known to be small at the rim, where no point may be.
+TEST(SmoothMotion, ThatFadesHasEllipsoidsThatHoldTheTruth) {
+  std::mt19937 random(13);
+  constexpr int known = 10, asked = 20, draws = 60;
+  const Response response = opening_response(known + asked);
+  const Points sigma = Points::Constant(known, 3, 0.5);
+  int inside = 0, fading = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    const SmoothMotion how{.length = 12, .along = 5, .across = 0.3, .direction = {0, 0, 1}, .fades = draw % 2 == 0};
+    const Points truth = smoothly_drawn(response, how, random);
+    const Points d = truth.topRows(known) + 0.5 * Eigen::Map<const Points>(normals(3 * known, random).data(), known, 3);
+    const MeasuredFit fit = choose_weight(response, d, sigma);
+    const Posterior said(response, d, sigma, fit);
+    const Points mean = said.mean();
+    fading += fit.smooth.fades ? 1 : 0;
+    for (int a = 0; a < asked; ++a) {
+      const Eigen::Vector3d error = (truth.row(known + a) - mean.row(a)).transpose();
+      inside += error.dot(said.covariance(a, 1).llt().solve(error)) <= 7.815 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(fading, draws / 5);
+  EXPECT_GE(inside, 0.90 * draws * asked) << fading;
 }
 
 TEST(Posterior, MeasuresTheRigidMotionOfAFreeBodyAndLeavesThatOfAHeldOneOut) {

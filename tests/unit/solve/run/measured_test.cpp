@@ -2,9 +2,11 @@
 #include "solve/run/measured.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "solve/load/noisy_load.hpp"
 #include "solve/measured/inner_rows.hpp"
@@ -41,6 +43,24 @@ TEST(SolveMeasured, RestsWhereVarianceTimesForceIsWhatIsLeftOfTheMisfit) {
   }
   EXPECT_GT(largest, 0.5);
   EXPECT_EQ(result.measures.measured->weight, 0.05);
+}
+
+TEST(FitMeasured, IsTheSameToTheLastBitForAnyNumberOfThreads) {
+  Model model = measured_box(0.5);
+  model.conditions.measured->asked = Points::Constant(3, 3, model_side / 3);
+  const int threads = omp_get_max_threads();
+  std::vector<MeasuredFit> fits;
+  for (const int count : {1, 2, 4}) {
+    omp_set_num_threads(count);
+    fits.push_back(fit_measured(thinned_body(model, {}), model.conditions));
+  }
+  omp_set_num_threads(threads);
+  for (const MeasuredFit& fit : fits) {
+    EXPECT_EQ(fit.noise_factor, fits[0].noise_factor);
+    EXPECT_EQ(fit.smoothed, fits[0].smoothed);
+    EXPECT_EQ(fit.covariance, fits[0].covariance);
+    EXPECT_EQ(fit.weights.back().log_likelihood, fits[0].weights.back().log_likelihood);
+  }
 }
 
 TEST(SolveMeasured, IsDrawnByAPointInside) {
