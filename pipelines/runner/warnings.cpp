@@ -261,6 +261,8 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
   }
   if (measured.cortex.rows() > 0) {
     append(warnings_of({measured.cortex, measured.cortex_displacement}, cloud, conditions.displacement), warnings);
+  } else {
+    append(warnings_of_neighbours(load), warnings);  // of these alone outliers() names none
   }
   return warnings;
 }

@@ -158,6 +158,20 @@ TEST(Warnings, OfPointsInsideTheBrainTellThatTheyAreFew) {
   }
 }
 
+TEST(Warnings, OfPointsInsideTheBrainAloneTellOfNeighboursThatContradictEachOther) {
+  solve::Conditions conditions{.displacement = prescribed_on_top()};
+  solve::Measurement& measured = conditions.measured.emplace();
+  measured.inner = opening(40);
+  Points moved = Points::Constant(measured.inner.rows(), 3, 0.3);
+  const auto told = [&] {
+    const Warnings said = warnings_of({measured.inner, moved}, ball(), conditions);
+    return std::ranges::any_of(said, [](const std::string& text) { return text.find("paired as they belong") < 500; });
+  };
+  EXPECT_FALSE(told());
+  moved.row(5) = Eigen::RowVector3d(20, -20, 10);
+  EXPECT_TRUE(told());
+}
+
 TEST(Warnings, TellOfStandardDeviationsInMetres) {
   Points sigma = Points::Constant(10, 3, 0.3);
   EXPECT_TRUE(warnings_of_sigma(sigma).empty());
