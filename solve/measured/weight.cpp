@@ -315,15 +315,6 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
   return fit;
 }
 
-namespace {
-
-SmoothMotion without_fading(SmoothMotion smooth) {
-  smooth.fades = false;
-  return smooth;
-}
-
-}  // namespace
-
 Posterior::Posterior(const Response& response, const Points& displacement, const Points& sigma, const MeasuredFit& fit)
     : Posterior(response, stacked_rows(displacement), stacked_rows(sigma).cwiseAbs2(), fit,
                 fit.noise_factor * fit.noise_factor) {}
@@ -335,8 +326,8 @@ Posterior::Posterior(const Response& response, const Eigen::VectorXd& d, const E
       measured_(d.size()),
       factor_(hides_motion(response) ? 1 : larger),
       likely_(response, fit.weight, fit.smooth),
-      careful_(response, larger / factor_ * fit.weight,
-               hides_motion(response) ? fit.hidden : without_fading(fit.smooth), Alike::matern),
+      careful_(response, larger / factor_ * fit.weight, hides_motion(response) ? fit.hidden : fit.smooth,
+               Alike::matern),
       answer_(likely_.between(0, measured_, 0, measured_),
               response.rigid.topRows(measured_).leftCols(hides_motion(response) ? 0 : response.rigid.cols()), d,
               variance),

@@ -31,7 +31,7 @@ class Posterior {
   Points mean() const;
 
   /// Joint, (3 places × 3 places) mm², of those from `first` on. It is to hold the truth, so it believes that the
-  /// smooth motion is rougher, Alike::matern, and does not fade.
+  /// smooth motion is rougher, Alike::matern.
   Eigen::MatrixXd covariance(Eigen::Index first, Eigen::Index places) const;
 
  private:
