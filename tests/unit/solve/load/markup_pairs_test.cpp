@@ -49,37 +49,37 @@ TEST(Markups, OfOneLabelArePairedWhateverTheirOrderAndFormat) {
   EXPECT_FALSE(load.paired_by_order);
 }
 
-TEST(Markups, ArePairedByLabelWhateverItsCaseAndTheBlanksAboutIt) {
+/// Two lists in LPS.
+CraniotomyLoad paired(const std::vector<MarkupPoint>& before, const std::vector<MarkupPoint>& after) {
   const ScratchFolder folder;
-  const auto before = folder.write("b.mrk.json", mrk_json("\"LPS\"", {{"Vein ", "0, 0, 0"}, {"sulcus", "5, 0, 0"}}));
-  const auto after = folder.write("a.mrk.json", mrk_json("\"LPS\"", {{"Sulcus", "5, 2, 0"}, {"vein", "1, 0, 0"}}));
-  const CraniotomyLoad load = read_markups(before, after);
+  return read_markups(folder.write("b.mrk.json", mrk_json("\"LPS\"", before)),
+                      folder.write("a.mrk.json", mrk_json("\"LPS\"", after)));
+}
+
+/// The first point moves along x, the second along y.
+void expect_moved_apart(const CraniotomyLoad& load, bool by_order) {
   EXPECT_EQ(load.displacement.row(0), Eigen::RowVector3d(1, 0, 0));
   EXPECT_EQ(load.displacement.row(1), Eigen::RowVector3d(0, 2, 0));
-  EXPECT_FALSE(load.paired_by_order);
-  const auto first = folder.write("1.mrk.json", mrk_json("\"LPS\"", {{"a", "0, 0, 0"}, {"A", "5, 0, 0"}}));
-  const auto second = folder.write("2.mrk.json", mrk_json("\"LPS\"", {{"A", "5, 2, 0"}, {"a", "1, 0, 0"}}));
-  EXPECT_EQ(read_markups(first, second).displacement.row(0), Eigen::RowVector3d(1, 0, 0)) << "two points, told apart";
-  const auto other = folder.write("3.mrk.json", mrk_json("\"LPS\"", {{"VEIN", "5, 2, 0"}, {"gyrus", "1, 0, 0"}}));
-  EXPECT_NE(refusal([&] { read_markups(before, other); }).find("\"gyrus\" of"), std::string::npos);
+  EXPECT_EQ(load.paired_by_order, by_order);
+}
+
+TEST(Markups, ArePairedByLabelWhateverItsCaseAndTheBlanksAboutIt) {
+  const std::vector<MarkupPoint> before = {{"Vein ", "0, 0, 0"}, {"sulcus", "5, 0, 0"}};
+  expect_moved_apart(paired(before, {{"Sulcus", "5, 2, 0"}, {"vein", "1, 0, 0"}}), false);
+  expect_moved_apart(paired({{"a", "0, 0, 0"}, {"A", "5, 0, 0"}}, {{"A", "5, 2, 0"}, {"a", "1, 0, 0"}}), false);
+  EXPECT_NE(refusal([&] {
+              paired(before, {{"VEIN", "5, 2, 0"}, {"gyrus", "1, 0, 0"}});
+            }).find("\"gyrus\" of"),
+            std::string::npos);
 }
 
 TEST(Markups, WithoutACommonLabelArePairedByOrder) {
-  const ScratchFolder folder;
-  const auto before = folder.write("b.mrk.json", mrk_json("\"LPS\"", {{"b-1", "0, 0, 0"}, {"b-2", "5, 0, 0"}}));
-  const auto after = folder.write("a.mrk.json", mrk_json("\"LPS\"", {{"a-1", "1, 0, 0"}, {"a-2", "5, 2, 0"}}));
-  const CraniotomyLoad load = read_markups(before, after);
-  EXPECT_EQ(load.displacement.row(0), Eigen::RowVector3d(1, 0, 0));
-  EXPECT_EQ(load.displacement.row(1), Eigen::RowVector3d(0, 2, 0));
-  EXPECT_TRUE(load.paired_by_order);
+  expect_moved_apart(paired({{"b-1", "0, 0, 0"}, {"b-2", "5, 0, 0"}}, {{"a-1", "1, 0, 0"}, {"a-2", "5, 2, 0"}}), true);
 }
 
 TEST(Markups, ThatCannotBePairedAreRefused) {
-  const ScratchFolder folder;
   const auto pair = [&](const std::vector<MarkupPoint>& before, const std::vector<MarkupPoint>& after) {
-    const auto first = folder.write("b.mrk.json", mrk_json("\"LPS\"", before));
-    const auto second = folder.write("a.mrk.json", mrk_json("\"LPS\"", after));
-    return refusal([&] { read_markups(first, second); });
+    return refusal([&] { paired(before, after); });
   };
   const std::string p = "0, 0, 0";
   EXPECT_NE(pair({{"x", p}, {"y", p}}, {{"x", p}}).find("\"y\""), std::string::npos);
