@@ -35,8 +35,8 @@ double now() {
 
 /// When a file, or a link to it, was last written, renamed or moved to its place, s; now where it is gone.
 double changed_at(const std::filesystem::path& file) {
-  struct stat state {
-  }, link{};
+  struct stat state {};
+  struct stat link {};
   if (::stat(file.c_str(), &state) != 0 || ::lstat(file.c_str(), &link) != 0) {
     return now();
   }

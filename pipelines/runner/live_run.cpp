@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pipelines/runner/input_states.hpp"
 #include "pipelines/runner/own_folder.hpp"
 #include "pipelines/runner/read_run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
@@ -51,7 +50,7 @@ std::string name_of(int number) {
 void check_image(const fs::path& run, const fs::path& t1) {
   const auto record = read_run_record(run);
   for (const auto& input : record["inputs"]) {
-    if (input.value("role", "") == "image.t1" && input.value("sha256", "") != InputStates().sha256(t1)) {
+    if (input.value("role", "") == "image.t1" && !is_unchanged(input)) {
       refuse(t1, "the image has changed since the run was made; run the scene again");
     }
   }

@@ -103,11 +103,12 @@ void need_noise(const solve::CraniotomyLoad& load) {
 }
 
 /// What a load with noise leaves beside the solution.
-void write_measured(const SolveInput& input, const Load& how, const solve::SolveResult& result, const fs::path& out,
+void write_measured(const SolveJob& job, const SolveInput& input, const solve::SolveResult& result, const fs::path& out,
                     StageReport& said) {
   if (!result.measures.measured) {
     return;
   }
+  const Load& how = job.load.value();
   const solve::MeasuredFit& fit = *result.measures.measured;
   warn(warnings_of(solve::outliers(solve::thinned_body(input.model, input.options.shape), input.model.conditions),
                    !how.robust && !how.registration_unknown && !how.field),
@@ -333,7 +334,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
   for (const std::vector<std::string>& notes : {input.notes, notes_of(result.measures)}) {
     said.notes.insert(said.notes.end(), notes.begin(), notes.end());
   }
-  write_measured(input, job.load.value_or(Load{}), result, out, said);
+  write_measured(job, input, result, out, said);
   add_uncertainty(job, input, result, out, said, part_of(given, solving_share, 1));
   warn(warnings_of(result.measures), said);
   warn(warnings_of_weight(input.model), said);

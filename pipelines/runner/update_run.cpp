@@ -81,11 +81,10 @@ Scene scene_of(const nlohmann::ordered_json& record) {
 /// landmarks (where their deviations are asked for, the stamp of the solve has them).
 void check_inputs(const nlohmann::ordered_json& record, const Scene& scene) {
   for (const auto& input : record["inputs"]) {
-    const fs::path file = input.value("path", "");
     const std::string role = input.value("role", "");
     const bool counts = role != "landmarks.file" && (role != "image.t1" || !scene.image.brain_mask.empty());
-    if (counts && input.value("sha256", "") != sha256_of_file(file)) {
-      refuse(file, "it has changed since the run was made; run the scene again");
+    if (counts && !is_unchanged(input)) {
+      refuse(input.value("path", ""), "it has changed since the run was made; run the scene again");
     }
   }
 }

@@ -152,12 +152,12 @@ class Likelihood {
   MeasuredFit with_motion(MeasuredFit fit, double likeliest, int chosen) const {
     const Eigen::JacobiSVD<Eigen::MatrixXd> main(displacement_, Eigen::ComputeFullV);
     SmoothMotion smooth{.direction = main.matrixV().col(0)};
-    const double extent = extent_of(response_.sites), shortest = std::max(response_.shortest, lengths.front() * extent);
+    const double extent = extent_of(response_.sites);
     double first = 0;  // length that is tried
     likeliest += least_gain;
     for (const double share : lengths) {
       smooth.length = share * extent;
-      if (smooth.length > 0 && smooth.length >= shortest) {
+      if (smooth.length > 0 && smooth.length >= response_.shortest) {
         first = first > 0 ? first : smooth.length;
         smooth.fades = false;
         take_if_likelier(smooth, chosen, likeliest, fit);
@@ -165,8 +165,7 @@ class Likelihood {
         take_if_likelier(smooth, chosen, likeliest, fit);
       }
     }
-    fit.rough = fit.smooth.length > 0 && fit.smooth.length == first &&
-                std::max(fit.smooth.along, fit.smooth.across) > far_larger * noise_;
+    fit.rough = fit.smooth.length == first && std::max(fit.smooth.along, fit.smooth.across) > far_larger * noise_;
     return fit;
   }
 
