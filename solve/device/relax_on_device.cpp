@@ -10,6 +10,7 @@
 #include "solve/device/device_body.hpp"
 #include "solve/device/device_fault.hpp"
 #include "solve/dynamics/books.hpp"
+#include "solve/dynamics/damping_turns.hpp"
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
 #include "solve/dynamics/quickening.hpp"
@@ -75,7 +76,7 @@ class Relaxation {
       if (result_.failure.empty() && is_slow()) {
         return finish(true);
       }
-      if (time_ >= 1 && error_bound_ <= tolerance() && ends_soundly()) {
+      if (time_ >= 1 && error_bound_ <= tolerance() && turns_.may_end(result_.steps) && ends_soundly()) {
         return finish();
       }
       if (result_.failure.empty() && bound_.stands_still(rounding_of_step(farthest_, precision()))) {
@@ -174,7 +175,8 @@ class Relaxation {
   /// So many steps of a window, and the look at its end.
   void advance(int steps) {
     const double beta_before = order_.beta;
-    order_.beta = critical_beta(damped_eigenvalue(lowest_, result_.steps, course_.starts_roughly()));
+    const double eigenvalue = damped_eigenvalue(lowest_, result_.steps, course_.starts_roughly());
+    order_.beta = critical_beta(turns_.eigenvalue(eigenvalue, result_.steps));
     order_.glance = only_glances(result_.steps + steps);
     for (int done = 0; done < steps; done += record_.steps) {
       const LoadPace pace_before = pace_;
@@ -267,10 +269,11 @@ class Relaxation {
     }
     farthest_ = std::max(farthest_, of[LookSums::farthest]);
     estimate_lowest_eigenvalue(moved());
-    const double slowest = damped_rate(lowest_, result_.steps - window_, course_.starts_roughly());
-    bound_.add(moved(), std::sqrt(critical_beta(lowest_)), time_ >= 1, rounding_of_step(farthest_, precision()),
-               slowest);
+    add_to_bound();
     find_error_bound();
+    if (rigid_) {
+      turns_.begin_if_due(result_.steps, [&] { return left_by_spans() > far_from_rest * tolerance(); });
+    }
     if (order_.glance) {
       return;
     }
@@ -280,16 +283,31 @@ class Relaxation {
     }
   }
 
-  void find_error_bound() {
+  void add_to_bound() {
+    const int begin = result_.steps - window_;
+    const double slowest =
+        std::max(damped_rate(lowest_, begin, course_.starts_roughly()), turns_.slowest(lowest_, begin));
+    bound_.add(moved(), std::sqrt(critical_beta(turns_.eigenvalue(lowest_, begin))), time_ >= 1,
+               rounding_of_step(farthest_, precision()), slowest);
+  }
+
+  bool spans_are_known() const { return order_.states > 2 * order_.span; }
+
+  /// As SpanBound::value() has it, mm.
+  double left_by_spans() const {
     const auto& of = record_.look.of;
+    return spans_are_known() ? std::max(of[LookSums::span_of_nodes],
+                                        SpanBound::of_all(of[LookSums::span_longest], of[LookSums::span_product],
+                                                          of[LookSums::span_squares]))
+                             : 0;
+  }
+
+  void find_error_bound() {
     error_bound_ = bound_.value();
     if (error_bound_ <= tolerance()) {
-      const bool spans_are_known = order_.states > 2 * order_.span;
-      const double of_spans = std::max(
-          of[LookSums::span_of_nodes],
-          SpanBound::of_all(of[LookSums::span_longest], of[LookSums::span_product], of[LookSums::span_squares]));
-      error_bound_ = spans_are_known ? bound_.with_spans(of_spans, window_ == settled_window) + left_of_rigid_motion()
-                                     : std::numeric_limits<double>::infinity();
+      error_bound_ = spans_are_known()
+                         ? bound_.with_spans(left_by_spans(), window_ == settled_window) + left_of_rigid_motion()
+                         : std::numeric_limits<double>::infinity();
     }
   }
 
@@ -302,7 +320,9 @@ class Relaxation {
       const auto place = static_cast<std::size_t>((order_.states - 1 + looks_on) % (2 * order_.span + 1));
       return on_.read(on_.view().span_state + 4 * on_.nodes() * place);
     };
-    return left_of_rigid(rigid_->longest(state(0), state(1 + order_.span)), window_ * order_.span, lowest_,
+    const int span = window_ * order_.span;
+    return left_of_rigid(rigid_->longest(state(0), state(1 + order_.span)), span,
+                         turns_.largest_eigenvalue(lowest_, result_.steps - span, result_.steps),
                          course_.settled->of_rigid);
   }
 
@@ -368,7 +388,7 @@ class Relaxation {
 
   /// A_0 from the last increments, and where these feel rounding from those of the last window, too.
   void estimate_lowest_eigenvalue(double moved) {
-    if (course_.settled && result_.steps < settled_steps) {
+    if (course_.settled && (result_.steps < settled_steps || turns_.are_on(result_.steps))) {
       return;
     }
     const auto& of = record_.look.of;
@@ -425,6 +445,7 @@ class Relaxation {
   LoadPace pace_;
   ErrorBound bound_{window_};
   std::optional<RigidPart> rigid_;
+  DampingTurns turns_;
   Books books_;
   SteppingResult result_;
   bool cautious_;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "solve/dynamics/damping_turns.hpp"
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
 #include "solve/dynamics/motion.hpp"
@@ -91,7 +92,8 @@ class Relaxation {
         look();
         damp();
         report_window(progress, result.steps, motion_.time, error_bound_, tolerance(), done_);
-        if (motion_.time >= 1 && error_bound_ <= tolerance() && no_change_is_left() && ends_soundly()) {
+        if (motion_.time >= 1 && error_bound_ <= tolerance() && turns_.may_end(result.steps) && no_change_is_left() &&
+            ends_soundly()) {
           return finish();
         }
         if (bound_.stands_still(rounding())) {
@@ -138,7 +140,12 @@ class Relaxation {
   }
 
   /// For the steps up to the next look.
-  void damp() { beta_ = critical_beta(damped_eigenvalue(lowest_, motion_.result.steps, course_.starts_roughly())); }
+  void damp() { beta_ = critical_beta(damped_for(motion_.result.steps)); }
+
+  /// A_0 or what the step after so many is damped for in its place.
+  double damped_for(int steps) const {
+    return turns_.eigenvalue(damped_eigenvalue(lowest_, steps, course_.starts_roughly()), steps);
+  }
 
   bool no_change_is_left() const { return !course_.change || course_.change.is_done(); }
 
@@ -199,10 +206,12 @@ class Relaxation {
     look_at_stiff_parts();
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     estimate_lowest_eigenvalue(moved);
-    const double slowest = damped_rate(lowest_, motion_.result.steps - window_, course_.starts_roughly());
-    bound_.add(moved, std::sqrt(critical_beta(lowest_)), motion_.time >= 1, rounding(), slowest);
+    add_to_bound(moved);
     spans_.add(seen);
     find_error_bound();
+    if (rigid_) {
+      turns_.begin_if_due(motion_.result.steps, [&] { return spans_.value() > far_from_rest * tolerance(); });
+    }
     if (only_glances()) {
       return;
     }
@@ -214,6 +223,14 @@ class Relaxation {
     if (motion_.time >= 1 && !cautious_ && (motion_.rigid_modes || bound_.value() > far_from_rest * tolerance())) {
       quickening_.look(motion_, mass_, beta_, lowest_);
     }
+  }
+
+  void add_to_bound(double moved) {
+    const int begin = motion_.result.steps - window_;
+    const double slowest =
+        std::max(damped_rate(lowest_, begin, course_.starts_roughly()), turns_.slowest(lowest_, begin));
+    bound_.add(moved, std::sqrt(critical_beta(turns_.eigenvalue(lowest_, begin))), motion_.time >= 1, rounding(),
+               slowest);
   }
 
   NodalVectors seen_of(const NodalVectors& parameters) const {
@@ -243,7 +260,7 @@ class Relaxation {
   /// A_0 from the last increments, and where these feel rounding from those of the last window, too.
   void estimate_lowest_eigenvalue(double moved) {
     const Motion& m = motion_;
-    if (course_.settled && m.result.steps < settled_steps) {
+    if (course_.settled && (m.result.steps < settled_steps || turns_.are_on(m.result.steps))) {
       return;
     }
     double estimate = eigenvalue_since(m.next, force_before_);
@@ -291,9 +308,12 @@ class Relaxation {
   }
 
   double left_of_rigid_motion() const {
-    return rigid_ ? left_of_rigid(rigid_->longest(spans_.end_of_last(), spans_.begin_of_last()),
-                                  window_ * SpanBound::windows_of(window_), lowest_, course_.settled->of_rigid)
-                  : 0;
+    if (!rigid_) {
+      return 0;
+    }
+    const int span = window_ * SpanBound::windows_of(window_), now = motion_.result.steps;
+    return left_of_rigid(rigid_->longest(spans_.end_of_last(), spans_.begin_of_last()), span,
+                         turns_.largest_eigenvalue(lowest_, now - span, now), course_.settled->of_rigid);
   }
 
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
@@ -370,6 +390,7 @@ class Relaxation {
   double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow
   ErrorBound bound_{window_, margin_of(course_.bound)};
   std::optional<RigidPart> rigid_;
+  DampingTurns turns_;
   SpanBound spans_{window_, motion_.body.stiff_parts.empty() ? SpanBound::usual_rate : rate_of_stiff_parts};
   double error_bound_ = std::numeric_limits<double>::infinity();  // at the last look, mm
   LoadPace pace_;

@@ -26,7 +26,7 @@ struct Settled {
 };
 
 /// What of the nodes the bound of the error is read off. û of a node that hardly counts anywhere, as at a rim, may move
-/// forty times as far as u. û costs no sums: a GPU and a start near the end, where looks are many, go by it.
+/// forty times as far as u. û costs no sums: a GPU goes by it, and the state of rest that updates start from.
 enum class BoundOf : std::uint8_t { displacement, parameters };
 
 /// What a bound is multiplied by. û shows slow motions sooner than u: of 750 random problems three stopped farther off

@@ -34,6 +34,11 @@ KeptRun on_device(KeptRun run, const Backend* backend, Device device = Device::c
   return run;
 }
 
+/// The same run by the rules of a device, on the CPU.
+KeptRun on_host(KeptRun run) {
+  return on_device(std::move(run), nullptr, Device::automatic);
+}
+
 class UpdateOnDevice : public OnDevice {};
 INSTANTIATE_TEST_SUITE_P(Of, UpdateOnDevice, testing::Values(On::one_thread, On::gpu), name_of_device);
 
@@ -80,7 +85,7 @@ TEST_P(UpdateOnDevice, HasNoSpringsOfAnEarlierLoad) {
   const Model own = measured_box(0.5);
   SolveOptions options = with_tolerance(1e-3);
   options.shape.basis = Basis::linear;
-  KeptRun here = kept(own, options);
+  KeptRun here = on_host(kept(own, options));
   KeptRun there = on_device(here, &backend());
   for (const Model& model : {with_inner(own, 1), with_inner(own, 2), own, with_weight(own, 0.05), with_weight(own, 0.2),
                              without_noise(own), with_inner(own, 2)}) {
@@ -93,7 +98,7 @@ TEST_P(UpdateOnDevice, HasNoSpringsOfAnEarlierLoad) {
 
 TEST_P(UpdateOnDevice, IsThatOfTheHostLoadAfterLoad) {
   const Model own = uniaxial(0.9, 5);
-  KeptRun here = kept(own, with_tolerance(1e-5));
+  KeptRun here = on_host(kept(own, with_tolerance(1e-5)));
   KeptRun there = on_device(here, &backend());
   for (const double factor : {1.2, 0.7, 1.0, 1.21}) {
     expect_same_answer(here, there, factor * own.conditions.displacement, 1e-9);
@@ -103,7 +108,7 @@ TEST_P(UpdateOnDevice, IsThatOfTheHostLoadAfterLoad) {
 
 TEST_P(UpdateOnDevice, IsThatOfTheHostInContactAndWhereOtherNodesAreLoaded) {
   const Pressed pressed(1e-5);
-  KeptRun here = kept(pressed.model, pressed.options);
+  KeptRun here = on_host(kept(pressed.model, pressed.options));
   ASSERT_GT(here.fine.body.contact->measure(here.fine.parameters).touching, 10U);
   KeptRun there = on_device(here, &backend());
   const Points all = here.origin.prescribed, fewer = without_an_edge(all, pressed.model.cloud.positions);
@@ -112,9 +117,10 @@ TEST_P(UpdateOnDevice, IsThatOfTheHostInContactAndWhereOtherNodesAreLoaded) {
   }
 }
 
-/// So far from the run's own load that its masses are too small.
+/// So far from the run's own load that its masses are too small. Closer to the end the device would leave it to the
+/// processor, as slow.
 TEST_P(UpdateOnDevice, IsThatOfTheHostWhereTheBodyGetsStiffer) {
-  KeptRun here = kept(uniaxial(0.95, 5), with_tolerance(2e-5));
+  KeptRun here = on_host(kept(uniaxial(0.95, 5), with_tolerance(1e-4)));
   KeptRun there = on_device(here, &backend());
   const std::vector<double> mass = here.fine.settled.mass;
   for (const double stretch : {0.55, 0.6, 0.9}) {
@@ -124,7 +130,7 @@ TEST_P(UpdateOnDevice, IsThatOfTheHostWhereTheBodyGetsStiffer) {
 }
 
 TEST_P(UpdateOnDevice, IsTheSameBitsAgainAndKeepsTheDigitsOfSinglePrecision) {
-  KeptRun here = kept(uniaxial(0.9, 5), with_tolerance(0.005, Precision::single_precision));
+  KeptRun here = on_host(kept(uniaxial(0.9, 5), with_tolerance(0.005, Precision::single_precision)));
   ASSERT_EQ(here.options.precision, Precision::single_precision);
   KeptRun first = on_device(here, &backend()), second = on_device(here, &backend());
   for (const double stretch : {0.8, 0.85}) {
@@ -141,9 +147,9 @@ TEST_P(UpdateOnDevice, IsTheSameBitsAgainAndKeepsTheDigitsOfSinglePrecision) {
 TEST_P(UpdateOnDevice, MayServeTwoRunsInTurn) {
   const KeptRun own = kept(uniaxial(0.9, 5), with_tolerance(1e-5));
   KeptRun first = on_device(own, &backend());
-  KeptRun second = first, here = own;
+  KeptRun second = first, here = on_host(own);
   expect_same_answer(here, first, uniaxial(0.8, 5).conditions.displacement, 1e-9);
-  here = own;
+  here = on_host(own);
   expect_same_answer(here, second, uniaxial(0.95, 5).conditions.displacement, 1e-9);
 }
 
@@ -154,8 +160,8 @@ TEST(KeptOnDevice, LeavesToTheCpuWhatIsNotAskedForOrCannotBe) {
   update(here, prescribed);
   for (const Device device : {Device::cpu, Device::automatic}) {
     KeptRun there = on_device(own, nullptr, device);
-    update(there, prescribed);
-    EXPECT_EQ(there.fine.parameters, here.fine.parameters);
+    EXPECT_EQ(update(there, prescribed).failure, "");
+    EXPECT_LT(largest_difference(there.fine.parameters, here.fine.parameters), device == Device::cpu ? 1e-300 : 0.01);
   }
   KeptRun there = on_device(own, nullptr);
   const std::string refused = test::refusal([&] { update(there, prescribed); });
@@ -174,7 +180,7 @@ TEST(KeptOnDevice, LeavesAllToTheCpuOnceTheDeviceHasFailed) {
     one_thread().perform(task, view, order);
   };
   const KeptRun own = kept(uniaxial(0.9, 4), with_tolerance(1e-5));
-  KeptRun here = own, there = on_device(own, &failing, Device::automatic);
+  KeptRun here = on_host(own), there = on_device(own, &failing, Device::automatic);
   std::string said;
   for (const double stretch : {0.85, 0.8}) {
     const Points prescribed = uniaxial(stretch, 4).conditions.displacement;

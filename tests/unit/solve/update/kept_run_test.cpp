@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,12 +11,14 @@
 #include <string>
 #include <utility>
 
+#include "solve/dynamics/damping_turns.hpp"
 #include "solve/shape/too_few_nodes.hpp"
 #include "solve/solve.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/measured_box.hpp"
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/pressed_bar.hpp"
+#include "tests/unit/solve/turned_cube.hpp"
 
 namespace brainshift::solve::kept_run_test {
 
@@ -86,6 +89,26 @@ TEST(KeptRun, LearnsFromItsAnswers) {
   const SolveResult first = update(fresh, asked), later = update(taught, asked);
   EXPECT_LT(later.measures.steps, first.measures.steps);
   EXPECT_LE(distance(later.solution.displacement, first.solution.displacement), 2 * tolerance);
+}
+
+/// Every node moves by itself, so that no wave tells much of it.
+TEST(KeptRun, AnswersARoughChangeWithinItsBound) {
+  Model model = pressed_bar(8);
+  KeptRun run = kept(model, quick());
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> by(-0.5, 0.5);
+  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
+    if (model.conditions.displacement(a, 2) > 0) {
+      model.conditions.displacement.row(a) += Eigen::RowVector3d::NullaryExpr([&] { return by(random); });
+    }
+  }
+  KeptRun closely = run;
+  closely.options.tolerance *= 0.02;
+  const SolveResult answer = update(run, model.conditions.displacement);
+  const SolveResult right = update(closely, model.conditions.displacement);
+  ASSERT_TRUE(answer.measures.converged && right.measures.converged) << answer.failure << right.failure;
+  EXPECT_GT(answer.measures.steps, DampingTurns::if_far);
+  EXPECT_LE(distance(answer.solution.displacement, right.solution.displacement), answer.measures.error_bound);
 }
 
 /// Nodes of the last layer that a load no longer holds, or holds anew, are nothing that responses know.
@@ -226,6 +249,21 @@ TEST(KeptRun, RefusesNoiseWhereItsOwnLoadHadNoneAndAnUnknownRegistration) {
   EXPECT_NE(test::refusal([&] { update(run, noisy); }).find("standard deviations"), std::string::npos);
   const SolveResult back = update(run, model.conditions);
   EXPECT_LE(distance(back.solution.displacement, run.origin.displacement), quick().tolerance);
+}
+
+/// A cube that hangs from a patch and turns with it slowly.
+TEST(KeptRun, AnswersOfASlowBodyAsARunDoes) {
+  const auto turned = [](double angle) {
+    return turned_by_a_patch(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix());
+  };
+  KeptRun run = kept(turned(0.1), quick());
+  EXPECT_EQ(run.responses.count(), 0U);
+  const Model other = turned(0.15);
+  const SolveResult answer = update(run, other.conditions);
+  ASSERT_TRUE(answer.measures.converged) << answer.failure;
+  const Points right =
+      turn_of(other.cloud.positions, Eigen::AngleAxisd(0.15, Eigen::Vector3d::UnitX()).toRotationMatrix());
+  EXPECT_LE(distance(answer.solution.displacement, right), 2 * quick().tolerance);
 }
 
 TEST(KeptRun, RefusesASolutionOfAnotherCloud) {
