@@ -143,6 +143,16 @@ void check_taken(const Points& measured, const NodeCloud& cloud, const Points& p
   }
 }
 
+void check_no_places(const CraniotomyLoad& load) {
+  constexpr double short_way = 15, alike = 0.25;  // mm, of the places
+  const double places = load.positions.rowwise().norm().maxCoeff();
+  const double apart = (load.displacement - load.positions).rowwise().norm().maxCoeff();
+  if (apart < alike * places && load.displacement.rowwise().norm().minCoeff() > short_way) {
+    throw std::invalid_argument("load: its displacements are nearly its places, " + rounded(apart) +
+                                " mm apart at most: are they where the points went? Give by how much each moved");
+  }
+}
+
 void check_moved(const Points& displacement, const Points& surface) {
   const double across = (surface.colwise().maxCoeff() - surface.colwise().minCoeff()).maxCoeff();
   Eigen::Index farthest = 0;

@@ -34,6 +34,10 @@ void check_taken(const Points& measured, const NodeCloud& cloud, const Points& p
 /// by a part of itself; what moves farther is in another unit, or is a place and no movement.
 void check_moved(const Points& displacement, const Points& surface);
 
+/// Throws std::invalid_argument where each displacement is about the place that it is of: these are then where the
+/// points went.
+void check_no_places(const CraniotomyLoad& load);
+
 /// Of so many decimals, for sentences.
 std::string rounded(double number, int decimals = 1);
 

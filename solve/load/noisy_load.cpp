@@ -124,6 +124,7 @@ Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, 
   if (const std::vector<std::int32_t> nodes = surface_nodes(cloud); !nodes.empty()) {
     const Points surface = cloud.positions(nodes, Eigen::all);
     check_frame(load.positions, surface, options.farthest);
+    check_no_places(load);
     check_moved(load.displacement, surface);
   }
   const std::vector<Eigen::Index> inside = inner_points(cloud, load);

@@ -89,6 +89,7 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
     spacing.push_back(cloud.spacing[static_cast<std::size_t>(node)]);
   }
   check_near_surface(load.positions, surface, options.farthest);
+  check_no_places(load);
   check_moved(load.displacement, surface);
   Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
   for (const CraniotomyLoad& part : openings(load)) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/load/opening_shape.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "segmentation/geometry/distinct_points.hpp"
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/load/best_fit_plane.hpp"
 #include "solve/load/convex_hull.hpp"
 #include "solve/load/openings.hpp"
 
@@ -15,29 +15,18 @@ namespace {
 
 constexpr double widest_default_margin = 5.0;
 
-/// A plane with two axes in it and its normal.
-struct Plane {
-  Eigen::RowVector3d origin;
-  Eigen::Matrix3d axes;
-};
-
-Plane best_fit_plane(const Points& points) {
-  const Eigen::RowVector3d centre = points.colwise().mean();
-  const Points about = points.rowwise() - centre;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(about.transpose() * about);
-  return {centre, spread.eigenvectors().rowwise().reverse()};
+/// Whether points lie on a line, to a tenth of its length. plane: that fits them best.
+bool is_line(const Plane3& plane, const Points& points) {
+  const Eigen::RowVector3d width = plane.local(points).colwise().norm();
+  return width[1] <= 0.1 * width[0];
 }
 
-/// The plane of the measured points; with that of the surface about them where they lie on a line.
-Plane opening_plane(const Points& measured, const Points& surface) {
-  const Plane plane = best_fit_plane(measured);
-  const Eigen::RowVector3d width = ((measured.rowwise() - plane.origin) * plane.axes).colwise().norm();
-  if (width[1] > 0.1 * width[0]) {
-    return plane;
-  }
+/// Of the surface about measured points; absent where there is too little of it.
+std::optional<Plane3> plane_about(const Points& measured, const Points& surface) {
   const Points places = distinct_points(measured);
   const PointTree tree(places);
-  const double reach = (measured.rowwise() - plane.origin).rowwise().norm().maxCoeff() + 10.0;
+  const Eigen::RowVector3d middle = measured.colwise().mean();
+  const double reach = (measured.rowwise() - middle).rowwise().norm().maxCoeff() + 10.0;
   std::vector<Eigen::Index> around;
   for (Eigen::Index n = 0; n < surface.rows(); ++n) {
     const Eigen::RowVector3d place = surface.row(n);
@@ -45,7 +34,23 @@ Plane opening_plane(const Points& measured, const Points& surface) {
       around.push_back(n);
     }
   }
-  return around.size() < 3 ? plane : best_fit_plane(surface(around, Eigen::all));
+  constexpr std::size_t fewest = 6;
+  if (around.size() < fewest) {
+    return std::nullopt;
+  }
+  const Points places_around = surface(around, Eigen::all);
+  const Plane3 plane = best_fit_plane(places_around);
+  return is_line(plane, places_around) ? std::nullopt : std::optional(plane);
+}
+
+/// The plane of the measured points; that of the surface about them where they lie on a line, or along one that curves
+/// with the surface or scatters in depth, so that their own plane stands on end.
+Plane3 opening_plane(const Points& measured, const Points& surface) {
+  constexpr double on_end = 0.7;  // cosine of the angle to the surface
+  const Plane3 plane = best_fit_plane(measured);
+  const std::optional<Plane3> ground = plane_about(measured, surface);
+  const bool stands = ground && std::abs(plane.axes.col(2).dot(ground->axes.col(2))) < on_end;
+  return is_line(plane, measured) || stands ? ground.value_or(plane) : plane;
 }
 
 }  // namespace
@@ -56,10 +61,7 @@ std::optional<double> default_margin(const Points& measured) {
 }
 
 OpeningShape::OpeningShape(const CraniotomyLoad& load, const Points& surface, double margin)
-    : margin_(margin), known_(load.positions.rows(), 4) {
-  const Plane plane = opening_plane(load.positions, surface);
-  origin_ = plane.origin;
-  axes_ = plane.axes;
+    : plane_(opening_plane(load.positions, surface)), margin_(margin), known_(load.positions.rows(), 4) {
   const Points measured = local(load.positions);
   points_ = measured.leftCols<2>();
   known_ << measured.col(2), load.displacement;

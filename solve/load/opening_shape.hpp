@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "segmentation/geometry/points.hpp"
+#include "solve/load/best_fit_plane.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/load/extension.hpp"
 
@@ -17,11 +18,11 @@ std::optional<double> default_margin(const Points& measured);
 /// Where a load acts: in the best-fit plane of its points, their convex hull widened by a margin (mm).
 class OpeningShape {
  public:
-  /// surface: places on it, which tell the plane where the points lie on a line.
+  /// surface: places on it, which tell the plane where the points lie along a line.
   OpeningShape(const CraniotomyLoad& load, const Points& surface, double margin);
 
   /// Places in the axes of the plane: along it, along it, above it.
-  Points local(const Points& places) const { return (places.rowwise() - origin_) * axes_; }
+  Points local(const Points& places) const { return plane_.local(places); }
   /// How far a local place lies beyond the rim in the plane, mm; inside the hull minus the margin.
   double beyond_rim(const Eigen::RowVector3d& place) const;
   /// What is measured, extended to a local place, no farther than to the rim: the place nearest to it there then
@@ -29,8 +30,7 @@ class OpeningShape {
   std::optional<Eigen::RowVector3d> displacement_at(const Eigen::RowVector3d& place, double past, double depth) const;
 
  private:
-  Eigen::RowVector3d origin_;
-  Eigen::Matrix3d axes_;  // columns: wide, narrow, normal
+  Plane3 plane_;
   double margin_;
   PlanePoints points_;
   Values known_;  // height and displacement of each point

@@ -7,6 +7,8 @@
 #include "segmentation/geometry/distinct_points.hpp"
 #include "segmentation/geometry/neighbour_distance.hpp"
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/load/best_fit_plane.hpp"
+#include "solve/load/convex_hull.hpp"
 #include "solve/load/spread_out.hpp"
 
 namespace brainshift::solve {
@@ -43,6 +45,51 @@ std::vector<int> groups_of(const Points& places, double gap) {
   return group;
 }
 
+Points of_group(const Points& places, const std::vector<int>& group, int which) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t p = 0; p < group.size(); ++p) {
+    if (group[p] == which) {
+      rows.push_back(static_cast<Eigen::Index>(p));
+    }
+  }
+  return places(rows, Eigen::all);
+}
+
+/// Whether any of some places lies amid others: within their hull in the plane of all of these, and no farther above or
+/// below the others than a dome over them may rise.
+bool any_amid(const Points& some, const Points& others) {
+  Points all(some.rows() + others.rows(), 3);
+  all << some, others;
+  const Plane3 plane = best_fit_plane(all);
+  const Points ground = plane.local(others), asked = plane.local(some);
+  const std::vector<Eigen::Vector2d> hull = convex_hull(ground.leftCols<2>());
+  const Eigen::RowVector2d middle = ground.leftCols<2>().colwise().mean();
+  const double dome = (ground.leftCols<2>().rowwise() - middle).rowwise().norm().maxCoeff();
+  const double lowest = ground.col(2).minCoeff() - dome, highest = ground.col(2).maxCoeff() + dome;
+  return hull.size() > 2 && std::any_of(asked.rowwise().begin(), asked.rowwise().end(), [&](const auto& place) {
+           const Eigen::Vector2d in_plane = place.template head<2>();
+           return place[2] >= lowest && place[2] <= highest && nearest_of_hull(hull, in_plane) == in_plane;
+         });
+}
+
+/// Points all around others are of their opening, however wide the gap between them. Numbered from 0 on.
+void join_rings(const Points& places, std::vector<int>& group) {
+  int groups = *std::max_element(group.begin(), group.end()) + 1;
+  for (int i = 0; i < groups; ++i) {
+    for (int j = 0; j < groups; ++j) {
+      if (i != j && any_amid(of_group(places, group, j), of_group(places, group, i))) {
+        const int kept = std::min(i, j), joined = std::max(i, j);
+        for (int& of_place : group) {
+          of_place = of_place == joined ? kept : of_place - (of_place > joined ? 1 : 0);
+        }
+        --groups;
+        i = j = -1;  // from the beginning: the hull has grown
+        break;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 double usual_distance(const Points& points) {
@@ -66,7 +113,8 @@ CraniotomyLoad rows_of(const CraniotomyLoad& load, const std::vector<Eigen::Inde
 
 std::vector<CraniotomyLoad> openings(const CraniotomyLoad& load) {
   const Points places = load.positions(spread_out(load.positions, linked), Eigen::all);
-  const std::vector<int> group = groups_of(places, std::max(least_gap, usual_distances * usual_distance(places)));
+  std::vector<int> group = groups_of(places, std::max(least_gap, usual_distances * usual_distance(places)));
+  join_rings(places, group);
   const int groups = *std::max_element(group.begin(), group.end()) + 1;
   if (groups == 1) {
     return {load};

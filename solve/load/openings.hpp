@@ -15,8 +15,9 @@ double usual_distance(const Points& points);
 CraniotomyLoad rows_of(const CraniotomyLoad& load, const std::vector<Eigen::Index>& rows);
 
 /// The load by its openings, those of the first points first. Two points belong to one where steps of at most three
-/// times the usual distance between neighbours, or 30 mm where that is more, lead from one to the other. Between two
-/// openings nothing was measured: a spline across the cortex there would prescribe what nobody saw.
+/// times the usual distance between neighbours, or 30 mm where that is more, lead from one to the other, and points all
+/// around others are of their opening. Between two openings nothing was measured: a spline across the cortex there
+/// would prescribe what nobody saw.
 std::vector<CraniotomyLoad> openings(const CraniotomyLoad& load);
 
 }  // namespace brainshift::solve

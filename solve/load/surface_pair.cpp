@@ -155,12 +155,13 @@ CraniotomyLoad load_from_surfaces(const Surface& given_before, const Surface& af
   const Sparse smooth = roughness(before);
 
   CraniotomyLoad load{before.vertices, Points::Zero(before.vertices.rows(), 3)};
-  Eigen::SimplicialLDLT<Sparse> solver;
+  Eigen::SimplicialLDLT<Sparse> solver;  // of one pattern, whatever the places
+  solver.analyzePattern(pull_to(nearest_places(tree, load.positions), load.positions, areas).matrix + smooth);
   for (double length = widest; length >= narrowest; length /= 2) {
     for (int round = 0; round < rounds; ++round) {
       const auto places = nearest_places(tree, load.positions + load.displacement);
       const Pull pull = pull_to(places, load.positions, areas);
-      solver.compute(pull.matrix + length * length * smooth);
+      solver.factorize(pull.matrix + length * length * smooth);
       const Eigen::VectorXd moved = solver.solve(pull.right);
       load.displacement = Eigen::Map<const Points>(moved.data(), load.positions.rows(), 3);
     }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -123,6 +124,49 @@ TEST(Opening, PrescribesNothingBetweenTwoThatLieApart) {
   }
 }
 
+/// The gap to a point in the middle of a wide opening is no bone.
+TEST(Opening, IsOneWhereItsRimIsMeasuredAllAroundAPoint) {
+  const NodeCloud cloud = head();
+  constexpr int rim = 60;
+  CraniotomyLoad load{.positions = Points(rim + 1, 3), .displacement = Points(rim + 1, 3), .sigma = {}};
+  load.displacement.rowwise() = Eigen::RowVector3d(0, 0, -1);
+  load.displacement(rim, 2) = -8;
+  const auto place = [](double angle, double around) -> Eigen::RowVector3d {
+    return centre + radius * Eigen::RowVector3d(std::sin(angle) * std::cos(around), std::sin(angle) * std::sin(around),
+                                                std::cos(angle));
+  };
+  for (int p = 0; p < rim; ++p) {
+    load.positions.row(p) = place(0.45, 2 * std::numbers::pi * p / rim);
+  }
+  load.positions.row(rim) = place(0, 0);
+  const Points sunken = prescribed_on_surface_nodes(cloud, load);
+  int half_way = 0;
+  for (Eigen::Index n = 0; n < sunken.rows(); ++n) {
+    const double away = (cloud.positions.row(n) - place(0, 0)).norm();
+    if (away > 14 && away < 20) {  // of 35 mm
+      EXPECT_LT(sunken(n, 2), -3) << away;
+      EXPECT_GT(sunken(n, 2), -7) << away;
+      ++half_way;
+    }
+  }
+  EXPECT_GT(half_way, 3);
+}
+
+/// Lines of points that curve with the cortex, 97 mm long and 42 mm apart, are two.
+TEST(Opening, OfTwoLinesSideBySideAreTwo) {
+  const NodeCloud cloud = head();
+  CraniotomyLoad load{.positions = Points(42, 3), .displacement = Points::Constant(42, 3, -1.0), .sigma = {}};
+  for (int p = 0; p < 42; ++p) {
+    const double along = 0.06 * (p % 21 - 10), across = p < 21 ? 0.26 : -0.26;
+    load.positions.row(p) = centre + radius * Eigen::RowVector3d(std::sin(across), std::cos(across) * std::sin(along),
+                                                                 std::cos(across) * std::cos(along));
+  }
+  const Points prescribed = prescribed_on_surface_nodes(cloud, load);
+  for (Eigen::Index n = 0; n < prescribed.rows(); ++n) {
+    EXPECT_FALSE(is_loaded(prescribed, n) && std::abs(cloud.positions(n, 0) - centre[0]) < 10) << n;
+  }
+}
+
 TEST(Opening, RefusesPointsAllAroundButTakesAWideCap) {
   const NodeCloud cloud = head();
   EXPECT_NO_THROW(prescribed_on_surface_nodes(cloud, measured(1500, 1.0)));
@@ -205,21 +249,23 @@ TEST(Opening, OfOnePointOrOfPointsOnALineLoadsTheNodesBesideThem) {
 
   load.positions.resize(9, 3);
   load.displacement = Points::Constant(9, 3, 1.5);
-  for (int p = 0; p < 9; ++p) {
-    const double angle = 0.05 * (p - 4);
-    load.positions.row(p) = centre + radius * Eigen::RowVector3d(std::sin(angle), 0, std::cos(angle));
-  }
-  const Points line = prescribed_on_surface_nodes(cloud, load, {.margin = 5});
-  int loaded = 0;
-  for (Eigen::Index n = 0; n < line.rows(); ++n) {
-    if (is_loaded(line, n)) {
-      ++loaded;
-      EXPECT_NEAR(line(n, 2), 1.5, 1e-9);
-      EXPECT_LT(std::abs(cloud.positions(n, 1) - centre[1]), 5.1 + cloud.spacing.front() / 4) << "on the rim";
-      EXPECT_GT(cloud.positions(n, 2), centre[2]);
+  for (const double step : {0.05, 0.15}) {  // the second is a line that curves with the surface, by 14 mm
+    for (int p = 0; p < 9; ++p) {
+      const double angle = step * (p - 4);
+      load.positions.row(p) = centre + radius * Eigen::RowVector3d(std::sin(angle), 0, std::cos(angle));
     }
+    const Points line = prescribed_on_surface_nodes(cloud, load, {.margin = 5});
+    int loaded = 0;
+    for (Eigen::Index n = 0; n < line.rows(); ++n) {
+      if (is_loaded(line, n)) {
+        ++loaded;
+        EXPECT_NEAR(line(n, 2), 1.5, 1e-9);
+        EXPECT_LT(std::abs(cloud.positions(n, 1) - centre[1]), 5.1 + cloud.spacing.front() / 4) << "on the rim";
+        EXPECT_GT(cloud.positions(n, 2), centre[2]);
+      }
+    }
+    EXPECT_GT(loaded, 3) << step;
   }
-  EXPECT_GT(loaded, 3);
 }
 
 TEST(Opening, RefusesAPointFarFromTheSurfaceWithItsDistanceAndGuessesAFlippedFrame) {
@@ -235,6 +281,13 @@ TEST(Opening, RefusesAPointFarFromTheSurfaceWithItsDistanceAndGuessesAFlippedFra
   flipped.positions.leftCols(2) *= -1;
   const std::string hint = refusal([&] { prescribed_on_surface_nodes(cloud, flipped); });
   EXPECT_NE(hint.find("RAS"), std::string::npos) << hint;
+}
+
+TEST(Opening, RefusesPlacesForDisplacements) {
+  CraniotomyLoad load = measured(20, 0.3);
+  load.displacement += load.positions;
+  EXPECT_NE(refusal([&] { prescribed_on_surface_nodes(head(), load); }).find("where the points went"),
+            std::string::npos);
 }
 
 TEST(Opening, RefusesToLoadNoNode) {
