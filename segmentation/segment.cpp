@@ -18,18 +18,11 @@
 #include "segmentation/surface/checked_surface.hpp"
 #include "segmentation/surface/extract.hpp"
 #include "segmentation/tissue/classify.hpp"
+#include "segmentation/tissue/tumour.hpp"
 #include "segmentation/tissue/ventricles.hpp"
 
 namespace brainshift::segmentation {
 namespace {
-
-void add_tumour(LabelMap& labels, const LabelMap& tumour_mask) {
-  for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
-    if (tumour_mask.voxels[i] != 0) {
-      labels.voxels[i] = default_label::tumour;
-    }
-  }
-}
 
 std::vector<std::uint16_t> present_labels(const LabelMap& labels, const std::vector<std::uint16_t>& wanted) {
   std::vector<std::uint16_t> present;
@@ -203,6 +196,19 @@ LabelMap fit_labels(LabelMap& labels, const Mask& tissue, const Mask& brain, std
   return closed;
 }
 
+// Of so much, mm³.
+void note_dropped(Segmentation& result, double loose, std::size_t pieces, double all) {
+  constexpr double worth_saying = 1000;  // mm³
+  constexpr double much = 0.02;
+  if (loose > worth_saying) {
+    std::ostringstream text;
+    text << (loose > much * all ? "warning: " : "") << std::fixed << std::setprecision(1) << "dropped " << loose / 1000
+         << " ml of tissue (" << 100 * loose / all << " %) in " << pieces
+         << " piece(s) that hang together with no part of the brain; if they belong to it, join them to it";
+    result.notes.push_back(text.str());
+  }
+}
+
 // known: the labels are of a table, so that this is a human brain.
 void note_body(Segmentation& result, const BrainBody& body, const Mask& tissue, bool known) {
   result.body = BodyMeasures{.tissue_volume = volume(tissue),
@@ -224,15 +230,14 @@ void note_body(Segmentation& result, const BrainBody& body, const Mask& tissue, 
             "trusted";
     result.notes.push_back(text.str());
   }
-  constexpr double worth_saying = 1000;  // mm³
-  constexpr double much = 0.02;          // of the tissue
-  if (body.loose_volume > worth_saying) {
-    std::ostringstream text;
-    text << (body.loose_volume > much * result.body->tissue_volume ? "warning: " : "") << std::fixed
-         << std::setprecision(1) << "dropped " << body.loose_volume / 1000 << " ml of tissue ("
-         << 100 * body.loose_volume / result.body->tissue_volume << " %) in " << body.loose_pieces
-         << " piece(s) that hang together with no part of the brain; if they belong to it, join them in the image";
-    result.notes.push_back(text.str());
+  note_dropped(result, body.loose_volume, body.loose_pieces, result.body->tissue_volume);
+}
+
+void note_tumour(Segmentation& result, const SegmentInput& input, const Mask& body) {
+  if (input.tumour_mask) {
+    if (const std::string outside = outside_body(*input.tumour_mask, body); !outside.empty()) {
+      result.notes.push_back(outside);
+    }
   }
 }
 
@@ -249,6 +254,7 @@ Segmentation segment_labels(const SegmentInput& input, const SegmentOptions& opt
   report(progress, 0.1, "the brain as one body");
   const BrainBody body = brain_body(tissue, options.closing.value_or(0));
   note_body(result, body, tissue, options.fluid_label.has_value());
+  note_tumour(result, input, body.mask);
   if (options.closing.value_or(0) > 0) {
     result.closed = fit_labels(*result.labels, tissue, body.mask, options.brain_labels.front());
   }
@@ -285,15 +291,16 @@ Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options
   }
   const Mask tissue = mask_of(mask);
   const BrainBody body = brain_body(tissue, options.closing.value_or(0));
+  Segmentation result;
+  note_tumour(result, input, body.mask);
   report(progress, 0.1, "tissue classes");
   Classification classified = classify(*input.t1, body.mask, options);
-  Segmentation result;
   result.labels = std::move(classified.labels);
   result.memberships = std::move(classified.memberships);
   note_body(result, body, tissue, false);
   note_ventricles(result, result.body->volume);
   if (input.tumour_mask) {
-    add_tumour(*result.labels, *input.tumour_mask);
+    add_tumour(*result.labels, *input.tumour_mask, body.mask);
   }
   report(progress, 0.4, "surfaces");
   const std::vector<std::uint16_t> classes = {default_label::parenchyma, default_label::ventricles,
@@ -313,6 +320,7 @@ Segmentation segment_surface(const SegmentInput& input, const SegmentOptions& op
   result.skull = result.brain;
   result.measures["brain"] = checked.measures;
   result.measures["skull"] = checked.measures;
+  note_dropped(result, checked.loose_volume, checked.loose_pieces, checked.loose_volume + checked.measures.volume);
   return result;
 }
 

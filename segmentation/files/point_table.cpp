@@ -39,9 +39,19 @@ void read_columns(std::string_view names, std::size_t line, PointTable& table) {
       fail_at_line(table.file, line,
                    "a header with the columns x, y and z is expected, found \"" + std::string(names) + "\"");
     }
-    if (std::ranges::count(table.columns, wanted) > 1) {
-      fail_at_line(table.file, line, "the column " + std::string(wanted) + " stands here twice; take one of them out");
-    }
+  }
+}
+
+/// value: "mm", "[cm]", "Millimetres (LPS)". What is no unit of length says nothing.
+void check_unit(std::string_view value, std::size_t line, const PointTable& table) {
+  constexpr auto others = std::to_array<std::string_view>(
+      {"m", "metre", "metres", "meter", "meters", "cm", "centimetre", "centimetres", "centimeter", "centimeters", "um",
+       "micrometre", "micrometres", "micrometer", "micrometers", "micron", "microns", "inch", "inches"});
+  std::string unit = in_lower_case(std::string(value));
+  unit.erase(0, std::min(unit.size(), unit.find_first_of("abcdefghijklmnopqrstuvwxyz")));
+  unit.resize(std::min(unit.size(), unit.find_first_not_of("abcdefghijklmnopqrstuvwxyz")));
+  if (std::ranges::find(others, unit) != others.end()) {
+    fail_at_line(table.file, line, "the unit is " + unit + "; give millimetres");
   }
 }
 
@@ -56,12 +66,17 @@ void read_comment(std::string_view text, std::size_t line, PointTable& table) {
     read_columns(value, line, table);
   } else if (key == "frame" || key == "CoordinateSystem") {
     read_frame(value, line, table);
+  } else if (const std::string name = in_lower_case(std::string(key)); name == "unit" || name.starts_with("units")) {
+    check_unit(value, line, table);
   }
 }
 
 /// The column's number, and that each row has it.
 std::size_t column_in(const PointTable& table, const std::string& name) {
   const std::optional<std::size_t> column = table.find_column(name);
+  if (std::ranges::count(table.columns, name) > 1) {
+    fail_at_line(table.file, table.header + 1, "the column " + name + " stands here twice; take one of them out");
+  }
   if (!column) {
     refuse(table.file, "the column \"" + name + "\" is missing");
   }
@@ -194,7 +209,11 @@ void write_point_table(const std::filesystem::path& out, const PointTable& table
     line = std::move(joined);
   }
   for (const PointValues& each : is_csv ? values : std::vector<PointValues>{}) {
-    append_field(lines[table.header], (table.find_column(each.name) ? "warp_" : "") + each.name);
+    std::string name = each.name;
+    while (table.find_column(name)) {
+      name.insert(0, "warp_");
+    }
+    append_field(lines[table.header], name);
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
       append_field(lines[table.rows[row]], std::isnan(each.values[row]) ? "" : decimal(each.values[row]));
     }

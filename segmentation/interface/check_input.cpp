@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/interface/check_input.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "segmentation/interface/option_table.hpp"
@@ -22,6 +23,13 @@ void check_labels(const SegmentInput& input, const SegmentOptions& options) {
   check_same_geometry(*input.labels, "the labels", input.tumour_mask, "the tumour mask");
   if (options.brain_labels.empty()) {
     throw std::invalid_argument("no label is said to be brain; name at least one");
+  }
+  const auto& brain = options.brain_labels;
+  if (input.tumour_mask && std::find(brain.begin(), brain.end(), default_label::tumour) == brain.end()) {
+    const std::string number = std::to_string(default_label::tumour);
+    throw std::invalid_argument(
+        "the tumour mask's label, " + number +
+        ", is not among those that are brain, so that the tumour would be cut out of it; name " + number + ", too");
   }
 }
 

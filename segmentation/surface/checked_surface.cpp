@@ -3,6 +3,7 @@
 #include <string>
 
 #include "segmentation/surface/checked_surface.hpp"
+#include "segmentation/surface/one_body.hpp"
 #include "segmentation/surface/remesh.hpp"
 
 namespace brainshift::segmentation {
@@ -61,6 +62,13 @@ CheckedSurface checked_surface(const Surface& surface, double edge_length) {
   if (!result.measures.is_sound()) {
     throw std::invalid_argument(
         "the surface is open or cuts itself, and could not be wrapped into a closed one; close its holes first");
+  }
+  OneBody body = one_body(result.surface);
+  if (body.loose_pieces > 0) {
+    SurfaceMeasures measures = measure(body.surface);
+    measures.repaired = result.measures.repaired;
+    measures.edge_length_target = edge_length;
+    result = {std::move(body.surface), measures, body.loose_volume, body.loose_pieces};
   }
   return result;
 }

@@ -56,6 +56,19 @@ TEST(PointTable, WhatDoesNotParseIsNamedWithItsLine) {
   EXPECT_NE(fault("# frame: LPS\nx,y,z,x\n1,2,3,4\n").find("t.csv:2: the column x stands here twice"),
             std::string::npos);
   EXPECT_NE(fault(header).find("holds no point"), std::string::npos);
+  EXPECT_NE(fault("# frame: LPS\n# units of displacement: cm\nx,y,z\n1,2,3\n").find("t.csv:2: the unit is cm"),
+            std::string::npos);
+  for (const char* usual :
+       {"unit: mm", "Units: Millimeters", "units = [mm]", "unit: neurosurgery", "units of time: s"}) {
+    EXPECT_EQ(fault(std::string("# frame: LPS\n# ") + usual + "\nx,y,z\n1,2,3\n"), "") << usual;
+  }
+}
+
+TEST(PointTable, AColumnThatIsReadStandsThereOnce) {
+  const ScratchFolder folder;
+  const PointTable table = read_point_table(folder.write("t.csv", "# frame: LPS\nx,y,z,ux,ux\n1,2,3,4,5\n"));
+  EXPECT_NE(refusal([&] { vectors_in(table, "ux", "y", "z"); }).find("t.csv:2: the column ux stands here twice"),
+            std::string::npos);
 }
 
 TEST(PointTable, AColumnThatIsNotThereIsNamed) {

@@ -77,6 +77,7 @@ TEST_F(TableFile, WhatIsNoTableIsRefusedWithItsLine) {
 TEST(ClassOfName, FollowsItsWords) {
   EXPECT_EQ(class_of_name("Right-Inf-Lat-Vent"), default_label::ventricles);
   EXPECT_EQ(class_of_name("choroid plexus"), default_label::ventricles);
+  EXPECT_EQ(class_of_name("brain metastases"), default_label::tumour);
   EXPECT_EQ(class_of_name("CSF-ExtraCerebral"), default_label::csf);
   EXPECT_EQ(class_of_name("Left-Cerebral-Exterior"), 0);
   EXPECT_EQ(class_of_name("ctx-lh-precuneus"), default_label::parenchyma);

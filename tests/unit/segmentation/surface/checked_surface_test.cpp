@@ -75,6 +75,46 @@ TEST(CheckedSurface, TwoBallsThroughEachOtherBecomeOneBody) {
   EXPECT_NEAR(checked.measures.volume, expected, 0.06 * expected);
 }
 
+Surface both(const Surface& one, const Surface& other) {
+  Surface two{Points(one.vertices.rows() + other.vertices.rows(), 3),
+              Triangles(one.triangles.rows() + other.triangles.rows(), 3)};
+  two.vertices << one.vertices, other.vertices;
+  two.triangles << one.triangles, other.triangles.array() + static_cast<std::int32_t>(one.vertices.rows());
+  return two;
+}
+
+Surface moved(Surface surface, double by) {
+  surface.vertices.col(0).array() += by;
+  return surface;
+}
+
+TEST(CheckedSurface, KeepsTheLargestBodyWithItsCavitiesAndCountsTheRest) {
+  Surface cavity = sphere(12.0, 30);
+  cavity.triangles.col(0).swap(cavity.triangles.col(1));
+  const auto checked = checked_surface(both(both(moved(sphere(8.0, 20), 60), sphere(30.0, 40)), cavity), 4.0);
+  expect_sound(checked.measures);
+  EXPECT_FALSE(checked.measures.repaired);
+  const double expected = ball_volume(30.0) - ball_volume(12.0);
+  EXPECT_NEAR(checked.measures.volume, expected, 0.03 * expected);
+  EXPECT_LT(checked.surface.vertices.col(0).maxCoeff(), 31);
+  EXPECT_EQ(checked.loose_pieces, 1U);
+  EXPECT_NEAR(checked.loose_volume, ball_volume(8.0), 0.25 * ball_volume(8.0)) << "of coarse triangles";
+}
+
+TEST(CheckedSurface, ADroppedBodyTakesItsCavityAlong) {
+  Surface cavity = moved(sphere(5.0, 20), 60);
+  cavity.triangles.col(0).swap(cavity.triangles.col(1));
+  const auto checked = checked_surface(both(both(moved(sphere(12.0, 20), 60), cavity), sphere(30.0, 40)), 3.0);
+  expect_sound(checked.measures);
+  EXPECT_LT(checked.surface.vertices.col(0).maxCoeff(), 31);
+}
+
+TEST(CheckedSurface, TwoBodiesOfASizeAreRefused) {
+  const Surface two = both(sphere(30.0, 40), moved(sphere(28.0, 40), 70));
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { checked_surface(two, 5.0); },
+                                                   {"more than one body", "112 and 91 ml"}));
+}
+
 TEST(CheckedSurface, AFlatSheetIsRefused) {
   Surface sheet = tetrahedron();
   sheet.triangles.conservativeResize(1, 3);

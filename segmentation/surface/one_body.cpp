@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/surface/one_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace brainshift::segmentation {
+
+namespace {
+
+/// Of each vertex one that stands for all that hang together with it.
+class Pieces {
+ public:
+  explicit Pieces(const Surface& surface) : parent_(static_cast<std::size_t>(surface.vertices.rows())) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    for (const auto& corners : surface.triangles.rowwise()) {
+      for (const int other : {1, 2}) {
+        parent_[of(corners[0])] = of(corners[other]);
+      }
+    }
+  }
+
+  std::size_t of(std::int32_t vertex) {
+    auto v = static_cast<std::size_t>(vertex);
+    while (parent_[v] != v) {
+      v = parent_[v] = parent_[parent_[v]];
+    }
+    return v;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Without the vertices that no triangle names.
+Surface of_triangles(const Surface& surface, const std::vector<Eigen::Index>& rows) {
+  Surface part{Points(0, 3), surface.triangles(rows, Eigen::all)};
+  std::vector<std::int32_t> number(static_cast<std::size_t>(surface.vertices.rows()), -1);
+  std::vector<Eigen::Index> kept;
+  for (std::int32_t& corner : part.triangles.reshaped()) {
+    std::int32_t& now = number[static_cast<std::size_t>(corner)];
+    if (now < 0) {
+      now = static_cast<std::int32_t>(kept.size());
+      kept.push_back(corner);
+    }
+    corner = now;
+  }
+  part.vertices = surface.vertices(kept, Eigen::all);
+  return part;
+}
+
+/// How often a closed surface winds around a point: 1 inside it, 0 outside (solid angles by Van Oosterom and Strackee
+/// 1983).
+double winding_number(const Surface& surface, const Eigen::RowVector3d& point) {
+  double angles = 0;
+  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
+    const Triangle corners = triangle(surface, t);
+    const Eigen::Vector3d a = corners.a - point.transpose(), b = corners.b - point.transpose(),
+                          c = corners.c - point.transpose();
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angles += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return angles / (4 * std::numbers::pi);
+}
+
+}  // namespace
+
+OneBody one_body(const Surface& surface) {
+  constexpr double large = 0.2;  // of the largest
+  Pieces pieces(surface);
+  std::map<std::size_t, std::vector<Eigen::Index>> triangles;
+  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
+    triangles[pieces.of(surface.triangles(t, 0))].push_back(t);
+  }
+  if (triangles.size() < 2) {
+    return {surface};
+  }
+  std::map<std::size_t, double> volumes;
+  for (const auto& [piece, rows] : triangles) {
+    volumes[piece] = volume(of_triangles(surface, rows));
+  }
+  const auto largest = std::ranges::max_element(volumes, {}, [](const auto& each) { return each.second; });
+  const Surface body = of_triangles(surface, triangles[largest->first]);
+  OneBody result;
+  std::vector<Eigen::Index> kept;
+  for (const auto& [piece, of_piece] : volumes) {
+    const std::vector<Eigen::Index>& rows = triangles[piece];
+    const Eigen::RowVector3d place = surface.vertices.row(surface.triangles(rows.front(), 0));
+    const bool is_cavity = of_piece < 0 && winding_number(body, place) > 0.5;
+    if (piece == largest->first || is_cavity) {
+      kept.insert(kept.end(), rows.begin(), rows.end());
+      continue;
+    }
+    if (of_piece > large * largest->second) {
+      throw std::invalid_argument(
+          "the surface has more than one body, of " + std::to_string(std::lround(largest->second / 1000)) + " and " +
+          std::to_string(std::lround(of_piece / 1000)) + " ml; give the brain's as one closed surface, or a label map");
+    }
+    result.loose_volume += of_piece;
+    ++result.loose_pieces;
+  }
+  result.surface = of_triangles(surface, kept);
+  return result;
+}
+
+}  // namespace brainshift::segmentation
