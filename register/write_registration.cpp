@@ -32,11 +32,15 @@ std::string field_of(std::string name) {
   return quoted_field(name);
 }
 
-/// Its name, or its number where it has none of its own.
+/// Its name, or where it has none of its own its number, unless another is called so.
 std::string label_of(const std::vector<std::string>& names, std::size_t landmark) {
   const bool named = landmark < names.size() && !names[landmark].empty() &&
                      std::count(names.begin(), names.end(), names[landmark]) == 1;
-  return named ? field_of(names[landmark]) : std::to_string(landmark + 1);
+  std::string label = named ? names[landmark] : std::to_string(landmark + 1);
+  while (!named && std::count(names.begin(), names.end(), label) > 0) {
+    label.insert(0, "landmark ");
+  }
+  return field_of(label);
 }
 
 void write_landmarks(const std::filesystem::path& file, const Registration& registration) {

@@ -88,6 +88,19 @@ struct Coordinates {
   }
 };
 
+/// A template's space is nobody's: what lies there would be moved by the patient's field as if it lay in the patient.
+void check_no_template(const fs::path& file, const giiDataArray& points) {
+  for (int c = 0; c < points.numCS; ++c) {
+    const char* const space = points.coordsys[c]->dataspace;
+    if (space != nullptr && std::string("NIFTI_XFORM_MNI_152") == space) {
+      refuse(
+          file,
+          "its points lie in the space of a template (NIFTI_XFORM_MNI_152); bring the surface into the patient's, or "
+          "where the patient's image lies there itself, say NIFTI_XFORM_SCANNER_ANAT");
+    }
+  }
+}
+
 /// Moves them and appends where they were, LPS.
 template <class Number>
 void move_array(const fs::path& file, giiDataArray& array, PointMover& mover, Points& places) {
@@ -120,6 +133,7 @@ Points move_arrays(const fs::path& file, gifti_image& surface, PointMover& mover
     if (array.intent != NIFTI_INTENT_POINTSET) {
       continue;
     }
+    check_no_template(file, array);
     const bool single = array.datatype == NIFTI_TYPE_FLOAT32;
     if (array.num_dim != 2 || array.dims[1] != 3 || (!single && array.datatype != NIFTI_TYPE_FLOAT64)) {
       refuse(file, "its points must be rows of three floating-point numbers; save the surface again");

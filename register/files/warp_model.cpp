@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/files/warp_model.hpp"
 
+#include <vtkDataArray.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
 #include <vtkPoints.h>
 
 #include "segmentation/files/lower_case.hpp"
@@ -15,8 +17,22 @@ namespace brainshift::registration {
 namespace {
 
 /// The name, unless the model has an array of it already.
-std::string free_name(vtkPointData& arrays, const std::string& name) {
-  return arrays.HasArray(name.c_str()) != 0 ? "warp_" + name : name;
+std::string free_name(vtkPointData& arrays, std::string name) {
+  while (arrays.HasArray(name.c_str()) != 0) {
+    name.insert(0, "warp_");
+  }
+  return name;
+}
+
+/// Of whole numbers a place that moves would be cut to one.
+void give_real_points(vtkPointSet& model) {
+  const int type = model.GetPoints()->GetDataType();
+  if (type != VTK_FLOAT && type != VTK_DOUBLE) {
+    vtkNew<vtkPoints> points;
+    points->SetDataType(VTK_DOUBLE);
+    points->GetData()->DeepCopy(model.GetPoints()->GetData());
+    model.SetPoints(points);
+  }
 }
 
 }  // namespace
@@ -24,6 +40,7 @@ std::string free_name(vtkPointData& arrays, const std::string& name) {
 void warp_model(const std::filesystem::path& in, PointMover& mover, const std::filesystem::path& out) {
   const auto model = read_model(in);
   const Eigen::Vector3d to_lps = axes_to_lps(frame_of_model(in, *model));
+  give_real_points(*model);
   vtkPoints& points = *model->GetPoints();
   vtkPointData& arrays = *model->GetPointData();
   vtkNew<vtkFloatArray> displacement;

@@ -52,9 +52,12 @@ void add_property(const fs::path& file, const std::vector<std::string_view>& wor
 /// Says in the header that more numbers stand behind those of each vertex.
 void write_added(const PlyVertices& vertices, const std::vector<PointValues>& added, OutStream& out) {
   for (const PointValues& each : added) {
-    const bool taken = std::any_of(vertices.properties.begin(), vertices.properties.end(),
-                                   [&](const PlyProperty& property) { return property.name == each.name; });
-    const std::string line = std::string("property float ") + (taken ? "warp_" : "") + each.name + "\n";
+    std::string name = each.name;
+    const auto is_taken = [&](const PlyProperty& property) { return property.name == name; };
+    while (std::any_of(vertices.properties.begin(), vertices.properties.end(), is_taken)) {
+      name.insert(0, "warp_");
+    }
+    const std::string line = "property float " + name + "\n";
     out.write(line.data(), line.size());
   }
 }
@@ -165,11 +168,12 @@ void warp_ply(const fs::path& in, PointMover& mover, const fs::path& out) {
       return vertices.properties[p].type == a || vertices.properties[p].type == b;
     });
   };
-  if (vertices.format == "ascii") {
+  const bool single = all_are("float", "float32"), twofold = all_are("double", "float64");
+  if (vertices.format == "ascii" && (single || twofold)) {
     move_text(in, vertices, places, to_lps, stream, mover, moved);
-  } else if (all_are("float", "float32")) {
+  } else if (single) {
     move_bytes<float>(in, vertices, places, to_lps, stream, mover, moved);
-  } else if (all_are("double", "float64")) {
+  } else if (twofold) {
     move_bytes<double>(in, vertices, places, to_lps, stream, mover, moved);
   } else {
     refuse(in, "x, y and z must be float or double; save the model again so");

@@ -9,20 +9,40 @@ namespace brainshift::registration {
 
 namespace {
 
-/// Of the pairs of voxels beside each other along x that are not both background, the share that is equal.
-double share_of_equal_neighbours(const ScalarImage& image, float background) {
+/// Of the voxels that are not background, the share that lie in a patch, beside an equal one along some axis, or alone
+/// in the background, as an electrode's contact may.
+double share_in_patches(const ScalarImage& image, float background) {
   const Eigen::Array3i& size = image.geometry.size;
-  std::size_t pairs = 0, equal = 0;
+  std::size_t inside = 0, in_patches = 0;
+  const auto is_in_patch = [&](const Eigen::Array3i& voxel) {
+    const float own = image.at(voxel.x(), voxel.y(), voxel.z());
+    bool alone = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int step : {-1, 1}) {
+        Eigen::Array3i beside = voxel;
+        beside[axis] += step;
+        if (beside[axis] >= 0 && beside[axis] < size[axis]) {
+          const float other = image.at(beside.x(), beside.y(), beside.z());
+          if (other == own) {
+            return true;
+          }
+          alone = alone && other == background;
+        }
+      }
+    }
+    return alone;
+  };
   for (int k = 0; k < size.z(); ++k) {
     for (int j = 0; j < size.y(); ++j) {
-      for (int i = 0; i + 1 < size.x(); ++i) {
-        const float a = image.at(i, j, k), b = image.at(i + 1, j, k);
-        pairs += a != background || b != background ? 1 : 0;
-        equal += a != background && a == b ? 1 : 0;
+      for (int i = 0; i < size.x(); ++i) {
+        if (image.at(i, j, k) != background) {
+          ++inside;
+          in_patches += is_in_patch({i, j, k}) ? 1 : 0;
+        }
       }
     }
   }
-  return pairs == 0 ? 1 : static_cast<double>(equal) / static_cast<double>(pairs);
+  return inside == 0 ? 1 : static_cast<double>(in_patches) / static_cast<double>(inside);
 }
 
 /// How often each value comes; empty where one is no label, or there are too many.
@@ -41,15 +61,17 @@ std::unordered_map<float, std::size_t> count_labels(const ScalarImage& image) {
 }  // namespace
 
 bool looks_like_labels(const ScalarImage& image) {
-  constexpr std::size_t of_a_mask = 8;  // electrodes and vessels may be a voxel thick
-  constexpr double mostly = 0.5;
+  constexpr std::size_t of_a_mask = 8;
+  // Of sixteen label maps of brains 0.992 at least, also thin cortex at 2 mm and contacts of electrodes; of 8-bit MRI
+  // 0.63 at most, of probabilities in per cent 0.81, of a smooth map of 31 levels 0.94.
+  constexpr double nearly_all = 0.97;
   const auto counts = count_labels(image);
   if (counts.size() <= of_a_mask) {
-    return !counts.empty();
+    return !counts.empty() && !counts.contains(-1);
   }
   const auto rarer = [](const auto& a, const auto& b) { return a.second < b.second; };
   const float background = std::max_element(counts.begin(), counts.end(), rarer)->first;
-  return share_of_equal_neighbours(image, background) > mostly;
+  return share_in_patches(image, background) > nearly_all;
 }
 
 }  // namespace brainshift::registration

@@ -71,7 +71,7 @@ class Complaints {
 
 /// The first bytes of a file: a header in text.
 std::string beginning_of(const fs::path& file) {
-  constexpr std::size_t header_length = 1024;
+  constexpr std::size_t header_length = 65536;  // its comments may be many
   std::string header(header_length, '\0');
   std::ifstream in(file, std::ios::binary);
   in.read(header.data(), static_cast<std::streamsize>(header.size()));

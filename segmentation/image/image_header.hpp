@@ -23,6 +23,7 @@ struct ImageHeader {
   bool swapped = false;         ///< the other byte order than this machine's; NIfTI and MGH alone
   std::string frame_note = {};  ///< where the file contradicts itself on the place or tells none: what was taken
   bool turned_vectors = false;  ///< of a field: they are not in LPS; NRRD alone
+  double seconds = 1;           ///< of a unit of time; NIfTI alone
   bool floating = false;        ///< values are floating-point numbers; NIfTI and MGH alone
 
   std::uint64_t values() const;

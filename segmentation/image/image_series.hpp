@@ -11,7 +11,7 @@ namespace brainshift {
 /// Volumes of one grid behind each other, in time or by direction of a gradient: a 4-D NIfTI.
 struct ImageSeries {
   std::vector<ScalarImage> volumes;
-  double start = 0, step = 1;  ///< of the fourth axis
+  double start = 0, step = 1;  ///< of the fourth axis; s where it is time
 };
 
 /// Whether a .nii or .nii.gz holds more than one volume. Throws std::invalid_argument, naming the file, when its header

@@ -63,6 +63,10 @@ void read_meta_geometry(const fs::path& file, const HeaderFields& fields, ImageH
     const auto values = numbers_in(file, name, text, dimensions);
     to = Eigen::Vector3d::Map(values.data());
   };
+  const std::string unit = fields.value("DistanceUnits");
+  if (!unit.empty() && unit != "mm" && unit != "?") {
+    refuse(file, "its unit of length is " + unit + "; save it in millimetres");
+  }
   if (!spacing.empty()) {
     copy(spacing, "ElementSpacing", header.spacing);
   }
@@ -78,6 +82,15 @@ void read_meta_geometry(const fs::path& file, const HeaderFields& fields, ImageH
 }
 
 void check_meta_storage(const fs::path& file, const HeaderFields& fields, const ImageHeader& header) {
+  const auto is_or_absent = [&](const char* name, double usual) {
+    const std::string text = fields.value(name);
+    return text.empty() || numbers_in(file, name, text, 1).front() == usual;
+  };
+  if (!is_or_absent("ElementToIntensityFunctionSlope", 1) || !is_or_absent("ElementToIntensityFunctionOffset", 0)) {
+    refuse(file,
+           "its values are scaled (ElementToIntensityFunctionSlope, ...Offset), which its library ignores; save it "
+           "with the scaled values themselves");
+  }
   if (fields.value("ElementDataFile") != "LOCAL") {
     refuse(file, "its voxels are not in the file itself (ElementDataFile is not LOCAL); save it as one .mha");
   }

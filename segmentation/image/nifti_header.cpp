@@ -140,7 +140,8 @@ void read_sform(const fs::path& file, const NiftiFields& fields, ImageHeader& he
     refuse(file, "the header's sform is sheared or singular; resample the image onto a grid at right angles");
   }
   const Eigen::Vector3d off = (by_sform.spacing - header.spacing).cwiseAbs();
-  const bool same_size = (off.array() <= 0.01 * header.spacing.array()).all();
+  constexpr double as_itk = 4.5e-4;  // beyond it ITK reads no such file
+  const bool same_size = (off.array() <= as_itk * header.spacing.array()).all();
   if (!same_size) {
     refuse(file, "the header's sform and pixdim differ on the size of a voxel; repair the header");
   }
@@ -187,9 +188,15 @@ void check_unit(const fs::path& file, int unit) {
   }
 }
 
+double seconds_of(int unit) {
+  constexpr int milliseconds = 16, microseconds = 24;
+  return unit == milliseconds ? 1e-3 : unit == microseconds ? 1e-6 : 1;
+}
+
 void read_nifti_geometry(const fs::path& file, const NiftiFields& fields, ImageHeader& header) {
-  constexpr int of_length = 7;  // of the bits of xyzt_units
+  constexpr int of_length = 7, of_time = 56;  // of the bits of xyzt_units
   check_unit(file, fields.bytes[123] & of_length);
+  header.seconds = seconds_of(fields.bytes[123] & of_time);
   header.spacing = Eigen::Vector3d(fields.step(1), fields.step(2), fields.step(3)).cwiseAbs();
   if (fields.qform_code() > 0) {
     read_qform(file, fields, header);

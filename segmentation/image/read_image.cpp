@@ -289,10 +289,8 @@ bool is_image_series(const fs::path& file) {
 
 ImageSeries read_image_series(const fs::path& file) {
   using Itk4 = itk::Image<float, 4>;
-  const Itk4::Pointer image = naming_faults(file, [&] {
-    const ImageHeader header = check_whole_series(file);
-    return read_by_itk<Itk4>(file, image_format(file), header);
-  });
+  const ImageHeader header = check_whole_series(file);
+  const Itk4::Pointer image = naming_faults(file, [&] { return read_by_itk<Itk4>(file, image_format(file), header); });
   ImageGeometry grid;
   const auto size = image->GetLargestPossibleRegion().GetSize();
   for (unsigned row = 0; row < 3; ++row) {
@@ -304,7 +302,8 @@ ImageSeries read_image_series(const fs::path& file) {
     }
   }
   check_read_geometry(file, grid);
-  ImageSeries series{.volumes = {}, .start = image->GetOrigin()[3], .step = image->GetSpacing()[3]};
+  ImageSeries series{
+      .volumes = {}, .start = header.seconds * image->GetOrigin()[3], .step = header.seconds * image->GetSpacing()[3]};
   for (std::size_t t = 0; t < size[3]; ++t) {
     const float* const begin = image->GetBufferPointer() + t * grid.voxel_count();
     series.volumes.push_back({grid, std::vector<float>(begin, begin + grid.voxel_count())});

@@ -185,6 +185,7 @@ TEST_F(RegistrationFiles, TheLandmarksKeepTheirNames) {
   EXPECT_EQ(labels_with({"gyrus, \"left\"", "#2"}), (Names{"gyrus, \"left\"", "#2"}));
   EXPECT_EQ(labels_with({"", "tumour"}), (Names{"1", "tumour"}));
   EXPECT_EQ(labels_with({"tumour", "tumour"}), (Names{"1", "2"})) << "two of one name";
+  EXPECT_EQ(labels_with({"2", ""}), (Names{"2", "landmark 2"})) << "another is called so";
 }
 
 /// What is thrown names the file.

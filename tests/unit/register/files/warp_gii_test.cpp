@@ -155,6 +155,7 @@ TEST_F(WarpGii, WhatCannotBeUsedIsRefused) {
     return text.replace(text.find(old), old.size(), other);
   };
   expect_parts(refused(with("NIFTI_INTENT_POINTSET", "NIFTI_INTENT_SHAPE")), {"holds no points"});
+  expect_parts(refused(surface(space("NIFTI_XFORM_MNI_152", "NIFTI_XFORM_MNI_152", same), in_ras)), {"a template"});
   expect_parts(refused(with("Dim0=\"3\"", "Dim0=\"2000000000\"")), {"larger than the file"});
   expect_parts(refused(with("Encoding=\"ASCII\"", "Encoding=\"ExternalFileBinary\"")), {"another file"});
   for (const char* what : {"Encoding=\"ASCII\"", "Dimensionality=\"2\"", "DataType=\"NIFTI_TYPE_FLOAT32\""}) {

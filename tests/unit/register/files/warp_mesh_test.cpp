@@ -62,6 +62,11 @@ TEST_F(WarpMesh, AnObjKeepsEveryOtherLine) {
   EXPECT_EQ(warped("ras.obj", "# SPACE=RAS\nv -3 5 8"), "# SPACE=RAS\nv -4.5 7 11");
 }
 
+TEST_F(WarpMesh, APlyOfWholeNumbersIsRefused) {
+  const std::string text = ply("ascii", "int", "200 3 -5 8 0.25\n7 500 0 0 1\n");
+  EXPECT_NE(test::refusal([&] { warped("a.ply", text); }).find("float or double"), std::string::npos);
+}
+
 TEST_F(WarpMesh, APlyKeepsPropertiesAndElementsWithoutAFace) {
   EXPECT_EQ(warped("a.ply", ply("ascii", "float", "200 3 -5 8 0.25\n7 500 0 0 1\n")),
             ply("ascii", "float", "200 4.5 -7 11 0.25\n7 500 0 0 1\n"));

@@ -99,6 +99,9 @@ TEST_F(WarpModel, AnArrayOfTheSameNameStays) {
   vtkPointData& arrays = *model->GetPointData();
   EXPECT_EQ(arrays.GetArray("displacement")->GetComponent(3, 1), 8);
   EXPECT_EQ(Eigen::Vector3d(arrays.GetArray("warp_displacement")->GetTuple3(0)), shift);
+  warp_model(folder_ / "warped_tracts.vtp", mover_, folder_ / "again.vtp");
+  const auto again = read_model(folder_ / "again.vtp");
+  EXPECT_NE(again->GetPointData()->GetArray("warp_warp_displacement"), nullptr);
 }
 
 TEST_F(WarpModel, LegacyFilesKeepTheirFormVersionAndTitle) {
@@ -114,6 +117,16 @@ TEST_F(WarpModel, LegacyFilesKeepTheirFormVersionAndTitle) {
                                  "\ntract of a patient\nASCII\n"))
         << text.substr(0, 60);
   }
+}
+
+TEST_F(WarpModel, PlacesOfWholeNumbersBecomeReal) {
+  std::string text = tract_vtp("LPS");
+  text.replace(text.find("Float64"), 7, "Int32");
+  const auto model = warped("tracts.vtp", text);
+  EXPECT_LT((Eigen::Vector3d(model->GetPoint(1)) - Eigen::Vector3d(4.5, -7, 12)).norm(), 1e-12);
+  std::string old = legacy("3.0", "LINES 1 4\n3 0 1 2");
+  old.replace(old.find("POINTS 3 float"), 14, "POINTS 3 short");
+  EXPECT_LT((Eigen::Vector3d(warped("old.vtk", old)->GetPoint(1)) - Eigen::Vector3d(4.5, -7, 12)).norm(), 1e-6);
 }
 
 TEST_F(WarpModel, WhatCannotBeReadIsRefusedByName) {

@@ -105,6 +105,30 @@ TEST(ImageHeader, ANiftiFormThatIsShearedOrOfAnotherVoxelIsRefused) {
   EXPECT_TRUE(refused(folder.write("a.nii", sheared), {"sheared"}));
   EXPECT_TRUE(refused(folder.write("a.nii", doubled), {"pixdim"}));
   EXPECT_TRUE(refused(folder.write("a.nii", tiny), {"sform"}));
+  std::string slightly = nifti_bytes();
+  put<std::int16_t>(slightly, 252, 0);
+  put<float>(slightly, 280, 2.002F);
+  EXPECT_TRUE(refused(folder.write("a.nii", slightly), {"size of a voxel"}));
+}
+
+TEST(ImageHeader, ANiftisUnitOfTimeIsTold) {
+  const ScratchFolder folder;
+  for (const auto& [unit, seconds] : {std::pair('\x0a', 1.0), {'\x12', 1e-3}, {'\x1a', 1e-6}, {'\x02', 1.0}}) {
+    std::string bytes = nifti_bytes();
+    bytes[123] = unit;
+    EXPECT_EQ(read_nifti_header(folder.write("a.nii", bytes)).seconds, seconds);
+  }
+}
+
+TEST(ImageHeader, AMetaImageInOtherUnitsOrScaledIsRefused) {
+  const ScratchFolder folder;
+  for (const auto& [line, part] : {std::pair("DistanceUnits = cm", "unit of length is cm"),
+                                   {"ElementToIntensityFunctionSlope = 2", "scaled"},
+                                   {"ElementToIntensityFunctionOffset = 5", "scaled"}}) {
+    EXPECT_TRUE(refused(folder.write("a.mha", meta_text(line + std::string("\n")) + voxels), {"a.mha", part})) << line;
+  }
+  const std::string usual = "DistanceUnits = mm\nElementToIntensityFunctionSlope = 1\n";
+  EXPECT_NO_THROW(read_meta_header(folder.write("a.mha", meta_text(usual) + voxels)));
 }
 
 TEST(ImageHeader, FormsThatDisagreeAreTold) {
