@@ -27,7 +27,7 @@ class DampingTurns {
   }
 
   /// Whether the step after so many is one of a turn.
-  bool are_on(int steps) const { return begin_ > 0 && steps < begin_ + rounds * round; }
+  bool are_on(int steps) const { return begin_ > 0 && steps >= begin_ && steps < begin_ + rounds * round; }
 
   /// Whether what is left can be told after so many steps. Slow motions gather speed in the turns that are damped for
   /// less, so that what they went last tells too little.
@@ -53,7 +53,7 @@ class DampingTurns {
   }
 
  private:
-  bool is_slow(int steps) const { return are_on(steps) && steps >= begin_ && (steps - begin_) % round < slow_steps; }
+  bool is_slow(int steps) const { return are_on(steps) && (steps - begin_) % round < slow_steps; }
 
   static constexpr int round = slow_steps + quick_steps;
   static constexpr double slower = 0.24, quicker = 1.6;  // than A_0

@@ -140,11 +140,9 @@ class Relaxation {
   }
 
   /// For the steps up to the next look.
-  void damp() { beta_ = critical_beta(damped_for(motion_.result.steps)); }
-
-  /// A_0 or what the step after so many is damped for in its place.
-  double damped_for(int steps) const {
-    return turns_.eigenvalue(damped_eigenvalue(lowest_, steps, course_.starts_roughly()), steps);
+  void damp() {
+    const int steps = motion_.result.steps;
+    beta_ = critical_beta(turns_.eigenvalue(damped_eigenvalue(lowest_, steps, course_.starts_roughly()), steps));
   }
 
   bool no_change_is_left() const { return !course_.change || course_.change.is_done(); }
