@@ -245,7 +245,7 @@ Segmentation segment_labels(const SegmentInput& input, const SegmentOptions& opt
   Segmentation result;
   result.labels = *input.labels;
   if (input.tumour_mask) {
-    add_tumour(*result.labels, *input.tumour_mask);
+    add_tumour(*result.labels, mask_of(*input.tumour_mask));
   }
   for (const std::uint16_t label : options.brain_labels) {
     check_present(*result.labels, label);
@@ -287,7 +287,7 @@ void note_ventricles(Segmentation& result, double brain_volume) {
 Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options, const Progress& progress) {
   LabelMap mask = *input.brain_mask;
   if (input.tumour_mask) {
-    add_tumour(mask, *input.tumour_mask);
+    add_tumour(mask, mask_of(*input.tumour_mask));
   }
   const Mask tissue = mask_of(mask);
   const BrainBody body = brain_body(tissue, options.closing.value_or(0));
@@ -300,7 +300,7 @@ Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options
   note_body(result, body, tissue, false);
   note_ventricles(result, result.body->volume);
   if (input.tumour_mask) {
-    add_tumour(*result.labels, *input.tumour_mask, body.mask);
+    add_tumour(*result.labels, in_body(*input.tumour_mask, body.mask));
   }
   report(progress, 0.4, "surfaces");
   const std::vector<std::uint16_t> classes = {default_label::parenchyma, default_label::ventricles,

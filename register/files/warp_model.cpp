@@ -8,6 +8,7 @@
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
 
+#include "segmentation/files/free_name.hpp"
 #include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/model_file.hpp"
 #include "segmentation/files/vtu_file.hpp"
@@ -16,12 +17,9 @@ namespace brainshift::registration {
 
 namespace {
 
-/// The name, unless the model has an array of it already.
-std::string free_name(vtkPointData& arrays, std::string name) {
-  while (arrays.HasArray(name.c_str()) != 0) {
-    name.insert(0, "warp_");
-  }
-  return name;
+/// For an array that the model gets.
+std::string name_for(vtkPointData& arrays, const std::string& name) {
+  return free_name(name, [&](const std::string& each) { return arrays.HasArray(each.c_str()) != 0; });
 }
 
 /// Of whole numbers a place that moves would be cut to one.
@@ -44,7 +42,7 @@ void warp_model(const std::filesystem::path& in, PointMover& mover, const std::f
   vtkPoints& points = *model->GetPoints();
   vtkPointData& arrays = *model->GetPointData();
   vtkNew<vtkFloatArray> displacement;
-  displacement->SetName(free_name(arrays, "displacement").c_str());
+  displacement->SetName(name_for(arrays, "displacement").c_str());
   displacement->SetNumberOfComponents(3);
   displacement->SetNumberOfTuples(points.GetNumberOfPoints());
   Points places(points.GetNumberOfPoints(), 3);
@@ -60,7 +58,7 @@ void warp_model(const std::filesystem::path& in, PointMover& mover, const std::f
   arrays.AddArray(displacement);
   const bool may_be_text = ending_of(in) == ".vtk";  // of which readers take no NaN
   for (const PointValues& each : may_be_text ? mover.finite_values(places) : mover.values(places)) {
-    vtu::add_array(arrays, free_name(arrays, each.name).c_str(), each.values);
+    vtu::add_array(arrays, name_for(arrays, each.name).c_str(), each.values);
   }
   write_model(out, *model, in);
 }

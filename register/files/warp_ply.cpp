@@ -7,6 +7,7 @@
 #include "register/files/out_stream.hpp"
 #include "register/files/text_vertex.hpp"
 #include "register/files/warp_mesh.hpp"
+#include "segmentation/files/free_name.hpp"
 #include "segmentation/files/model_file.hpp"
 #include "segmentation/files/ply_claims.hpp"
 #include "segmentation/files/readable_file.hpp"
@@ -51,13 +52,11 @@ void add_property(const fs::path& file, const std::vector<std::string_view>& wor
 
 /// Says in the header that more numbers stand behind those of each vertex.
 void write_added(const PlyVertices& vertices, const std::vector<PointValues>& added, OutStream& out) {
+  const auto is_taken = [&](const std::string& name) {
+    return std::ranges::find(vertices.properties, name, &PlyProperty::name) != vertices.properties.end();
+  };
   for (const PointValues& each : added) {
-    std::string name = each.name;
-    const auto is_taken = [&](const PlyProperty& property) { return property.name == name; };
-    while (std::any_of(vertices.properties.begin(), vertices.properties.end(), is_taken)) {
-      name.insert(0, "warp_");
-    }
-    const std::string line = "property float " + name + "\n";
+    const std::string line = "property float " + free_name(each.name, is_taken) + "\n";
     out.write(line.data(), line.size());
   }
 }

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "segmentation/files/free_name.hpp"
 #include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/not_written.hpp"
 #include "segmentation/files/refuse.hpp"
@@ -209,11 +210,8 @@ void write_point_table(const std::filesystem::path& out, const PointTable& table
     line = std::move(joined);
   }
   for (const PointValues& each : is_csv ? values : std::vector<PointValues>{}) {
-    std::string name = each.name;
-    while (table.find_column(name)) {
-      name.insert(0, "warp_");
-    }
-    append_field(lines[table.header], name);
+    append_field(lines[table.header],
+                 free_name(each.name, [&](const std::string& name) { return table.find_column(name).has_value(); }));
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
       append_field(lines[table.rows[row]], std::isnan(each.values[row]) ? "" : decimal(each.values[row]));
     }

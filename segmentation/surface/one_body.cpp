@@ -5,54 +5,33 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "segmentation/geometry/joined_nodes.hpp"
+#include "segmentation/geometry/loose_vertices.hpp"
 
 namespace brainshift::segmentation {
 
 namespace {
 
-/// Of each vertex one that stands for all that hang together with it.
-class Pieces {
- public:
-  explicit Pieces(const Surface& surface) : parent_(static_cast<std::size_t>(surface.vertices.rows())) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-    for (const auto& corners : surface.triangles.rowwise()) {
-      for (const int other : {1, 2}) {
-        parent_[of(corners[0])] = of(corners[other]);
-      }
-    }
+/// The triangles of each piece that hangs together.
+std::map<std::int32_t, std::vector<Eigen::Index>> triangles_of_pieces(const Surface& surface) {
+  JoinedNodes vertices(static_cast<std::size_t>(surface.vertices.rows()));
+  for (const auto& corners : surface.triangles.rowwise()) {
+    vertices.join(corners[0], corners[1]);
+    vertices.join(corners[0], corners[2]);
   }
-
-  std::size_t of(std::int32_t vertex) {
-    auto v = static_cast<std::size_t>(vertex);
-    while (parent_[v] != v) {
-      v = parent_[v] = parent_[parent_[v]];
-    }
-    return v;
+  std::map<std::int32_t, std::vector<Eigen::Index>> pieces;
+  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
+    pieces[vertices.root(surface.triangles(t, 0))].push_back(t);
   }
+  return pieces;
+}
 
- private:
-  std::vector<std::size_t> parent_;
-};
-
-/// Without the vertices that no triangle names.
 Surface of_triangles(const Surface& surface, const std::vector<Eigen::Index>& rows) {
-  Surface part{Points(0, 3), surface.triangles(rows, Eigen::all)};
-  std::vector<std::int32_t> number(static_cast<std::size_t>(surface.vertices.rows()), -1);
-  std::vector<Eigen::Index> kept;
-  for (std::int32_t& corner : part.triangles.reshaped()) {
-    std::int32_t& now = number[static_cast<std::size_t>(corner)];
-    if (now < 0) {
-      now = static_cast<std::int32_t>(kept.size());
-      kept.push_back(corner);
-    }
-    corner = now;
-  }
-  part.vertices = surface.vertices(kept, Eigen::all);
-  return part;
+  return without_loose_vertices({surface.vertices, surface.triangles(rows, Eigen::all)});
 }
 
 /// How often a closed surface winds around a point: 1 inside it, 0 outside (solid angles by Van Oosterom and Strackee
@@ -73,15 +52,11 @@ double winding_number(const Surface& surface, const Eigen::RowVector3d& point) {
 
 OneBody one_body(const Surface& surface) {
   constexpr double large = 0.2;  // of the largest
-  Pieces pieces(surface);
-  std::map<std::size_t, std::vector<Eigen::Index>> triangles;
-  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
-    triangles[pieces.of(surface.triangles(t, 0))].push_back(t);
-  }
+  auto triangles = triangles_of_pieces(surface);
   if (triangles.size() < 2) {
     return {surface};
   }
-  std::map<std::size_t, double> volumes;
+  std::map<std::int32_t, double> volumes;
   for (const auto& [piece, rows] : triangles) {
     volumes[piece] = volume(of_triangles(surface, rows));
   }

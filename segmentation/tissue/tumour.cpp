@@ -8,17 +8,17 @@
 
 namespace brainshift::segmentation {
 
-void add_tumour(LabelMap& labels, const LabelMap& tumour_mask) {
-  for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
-    if (tumour_mask.voxels[i] != 0) {
-      labels.voxels[i] = default_label::tumour;
-    }
+Mask in_body(const LabelMap& tumour_mask, const Mask& body) {
+  Mask inside = mask_of(tumour_mask);
+  for (std::size_t i = 0; i < inside.voxels.size(); ++i) {
+    inside.voxels[i] = inside.voxels[i] != 0 && body.voxels[i] != 0 ? 1 : 0;
   }
+  return inside;
 }
 
-void add_tumour(LabelMap& labels, const LabelMap& tumour_mask, const Mask& body) {
+void add_tumour(LabelMap& labels, const Mask& tumour) {
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
-    if (tumour_mask.voxels[i] != 0 && body.voxels[i] != 0) {
+    if (tumour.voxels[i] != 0) {
       labels.voxels[i] = default_label::tumour;
     }
   }
@@ -26,12 +26,7 @@ void add_tumour(LabelMap& labels, const LabelMap& tumour_mask, const Mask& body)
 
 std::string outside_body(const LabelMap& tumour_mask, const Mask& body) {
   constexpr double much = 0.1;  // of the mask
-  Mask outside = mask_of(tumour_mask);
-  const double all = volume(outside);
-  for (std::size_t i = 0; i < outside.voxels.size(); ++i) {
-    outside.voxels[i] = outside.voxels[i] != 0 && body.voxels[i] == 0 ? 1 : 0;
-  }
-  const double lost = volume(outside);
+  const double all = volume(mask_of(tumour_mask)), lost = all - volume(in_body(tumour_mask, body));
   if (!(lost > much * all)) {
     return {};
   }

@@ -7,9 +7,11 @@
 
 namespace brainshift::segmentation {
 
-/// Gives the voxels of a tumour mask the tumour's label (default_label::tumour), all of them or those of the body.
-void add_tumour(LabelMap& labels, const LabelMap& tumour_mask);
-void add_tumour(LabelMap& labels, const LabelMap& tumour_mask, const Mask& body);
+/// The part of a tumour mask that lies in the brain's body.
+Mask in_body(const LabelMap& tumour_mask, const Mask& body);
+
+/// Gives the tumour's voxels its label (default_label::tumour).
+void add_tumour(LabelMap& labels, const Mask& tumour);
 
 /// A warning where a tenth of a tumour mask or more lies outside the brain's body, which loses it; else empty.
 std::string outside_body(const LabelMap& tumour_mask, const Mask& body);

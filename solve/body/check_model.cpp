@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "discretise/interface/background_cells.hpp"
+#include "segmentation/geometry/joined_nodes.hpp"
 #include "solve/body/check_discretisation.hpp"
-#include "solve/body/joined_nodes.hpp"
 #include "solve/body/rigid_motions.hpp"
 #include "solve/boundary/wall_load.hpp"
 #include "solve/interface/option_table.hpp"

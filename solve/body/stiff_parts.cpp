@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "solve/body/joined_nodes.hpp"
+#include "segmentation/geometry/joined_nodes.hpp"
 
 namespace brainshift::solve {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "solve/device/device_body.hpp"
 #include "solve/device/device_fault.hpp"
+#include "solve/device/read_look.hpp"
 #include "solve/dynamics/books.hpp"
 #include "solve/dynamics/damping_turns.hpp"
 #include "solve/dynamics/error_bound.hpp"
@@ -272,7 +272,9 @@ class Relaxation {
     add_to_bound();
     find_error_bound();
     if (rigid_) {
-      turns_.begin_if_due(result_.steps, [&] { return left_by_spans() > far_from_rest * tolerance(); });
+      turns_.begin_if_due(result_.steps, [&] {
+        return spans_are_known() && left_by_spans(record_.look) > far_from_rest * tolerance();
+      });
     }
     if (order_.glance) {
       return;
@@ -293,21 +295,12 @@ class Relaxation {
 
   bool spans_are_known() const { return order_.states > 2 * order_.span; }
 
-  /// As SpanBound::value() has it, mm.
-  double left_by_spans() const {
-    const auto& of = record_.look.of;
-    return spans_are_known() ? std::max(of[LookSums::span_of_nodes],
-                                        SpanBound::of_all(of[LookSums::span_longest], of[LookSums::span_product],
-                                                          of[LookSums::span_squares]))
-                             : 0;
-  }
-
   void find_error_bound() {
     error_bound_ = bound_.value();
     if (error_bound_ <= tolerance()) {
-      error_bound_ = spans_are_known()
-                         ? bound_.with_spans(left_by_spans(), window_ == settled_window) + left_of_rigid_motion()
-                         : std::numeric_limits<double>::infinity();
+      error_bound_ = spans_are_known() ? bound_.with_spans(left_by_spans(record_.look), window_ == settled_window) +
+                                             left_of_rigid_motion()
+                                       : std::numeric_limits<double>::infinity();
     }
   }
 
@@ -326,23 +319,9 @@ class Relaxation {
                          course_.settled->of_rigid);
   }
 
-  PointState point_state() const {
-    const auto& of = record_.look.of;
-    PointState state;
-    state.strain_energy = of[LookSums::strain_energy];
-    state.smallest_jacobian = -of[LookSums::minus_jacobian];
-    state.largest_stretch = of[LookSums::stretch];
-    state.compressed_share = of[LookSums::compressed] / std::accumulate(volume_.begin(), volume_.end(), 0.0);
-    for (std::size_t row = 0; row < volume_.size(); ++row) {
-      const double pressed = of[static_cast<std::size_t>(LookSums::pressed) + row];
-      state.pressed_share = std::max(state.pressed_share, volume_[row] > 0 ? pressed / volume_[row] : 0.0);
-    }
-    return state;
-  }
-
   bool is_sound(double moved) {
     const auto& of = record_.look.of;
-    const PointState state = point_state();
+    const PointState state = point_state(record_.look, volume_);
     const double two = of[LookSums::inertia_two], alpha = order_.alpha, beta = order_.beta;
     const double kinetic = kinetic_energy(alpha, beta, two, of[LookSums::inertia_now], of[LookSums::inertia_before]);
     books_.look(state.strain_energy, kinetic);
@@ -392,10 +371,8 @@ class Relaxation {
       return;
     }
     const auto& of = record_.look.of;
-    double estimate = rayleigh_quotient(of[LookSums::stiffness], of[LookSums::inertia_before]);
-    if (looked_under_load_ && feels_rounding(moved, farthest_, precision())) {
-      estimate = std::min(estimate, rayleigh_quotient(of[LookSums::window_stiffness], of[LookSums::window_inertia]));
-    }
+    double estimate =
+        lowest_eigenvalue(record_.look, looked_under_load_ && feels_rounding(moved, farthest_, precision()));
     looked_under_load_ = time_ >= 1 && !course_.settled;
     if (estimate > 0) {
       const double springs = fraction_ == fraction_before_ ? of[LookSums::spring_work] / order_.alpha : 0;

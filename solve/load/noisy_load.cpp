@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/load/noisy_load.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/load/best_fit_plane.hpp"
 #include "solve/load/joined_points.hpp"
 #include "solve/load/near_surface.hpp"
 #include "solve/load/openings.hpp"
@@ -28,12 +28,10 @@ double depth_below(const Points& rim, const PointTree& tree, const Eigen::RowVec
   for (std::size_t i = 0; i < count; ++i) {
     near.row(static_cast<Eigen::Index>(i)) = rim.row(static_cast<Eigen::Index>(row[i]));
   }
-  const Eigen::RowVector3d centre = near.colwise().mean();
-  const Points about = near.rowwise() - centre;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(about.transpose() * about);
-  Eigen::RowVector3d outward = spread.eigenvectors().col(0).transpose();
-  outward *= outward.dot(centre - middle) < 0 ? -1 : 1;
-  return (centre - x).dot(outward);
+  const Plane3 plane = best_fit_plane(near);
+  Eigen::RowVector3d outward = plane.axes.col(2).transpose();
+  outward *= outward.dot(plane.origin - middle) < 0 ? -1 : 1;
+  return (plane.origin - x).dot(outward);
 }
 
 /// The share of each point of the cortex in what is prescribed at each node: what becomes of a displacement of 1 mm of

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "segmentation/geometry/loose_vertices.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
@@ -29,22 +30,6 @@ void check(const Surface& surface, const char* name) {
     throw std::invalid_argument("load: the surface " + std::string(name) +
                                 " has no triangle, a vertex that is not finite, or a triangle of a missing vertex");
   }
-}
-
-/// Without the vertices of no triangle: nothing would move them.
-Surface without_loose_vertices(const Surface& surface) {
-  std::vector<std::int32_t> place(static_cast<std::size_t>(surface.vertices.rows()), -1);
-  for (const std::int32_t v : surface.triangles.reshaped()) {
-    place[v] = 0;
-  }
-  std::vector<Eigen::Index> used;
-  for (std::size_t v = 0; v < place.size(); ++v) {
-    if (place[v] == 0) {
-      place[v] = static_cast<std::int32_t>(used.size());
-      used.push_back(static_cast<Eigen::Index>(v));
-    }
-  }
-  return {surface.vertices(used, Eigen::all), surface.triangles.unaryExpr([&](std::int32_t v) { return place[v]; })};
 }
 
 /// A third of the area of a vertex's triangles, mm².

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "segmentation/files/vtk_bridge.hpp"
+#include "segmentation/geometry/joined.hpp"
 #include "tests/unit/segmentation/builders.hpp"
 
 namespace brainshift::test::checked_surface_test {
@@ -75,14 +76,6 @@ TEST(CheckedSurface, TwoBallsThroughEachOtherBecomeOneBody) {
   EXPECT_NEAR(checked.measures.volume, expected, 0.06 * expected);
 }
 
-Surface both(const Surface& one, const Surface& other) {
-  Surface two{Points(one.vertices.rows() + other.vertices.rows(), 3),
-              Triangles(one.triangles.rows() + other.triangles.rows(), 3)};
-  two.vertices << one.vertices, other.vertices;
-  two.triangles << one.triangles, other.triangles.array() + static_cast<std::int32_t>(one.vertices.rows());
-  return two;
-}
-
 Surface moved(Surface surface, double by) {
   surface.vertices.col(0).array() += by;
   return surface;
@@ -91,7 +84,7 @@ Surface moved(Surface surface, double by) {
 TEST(CheckedSurface, KeepsTheLargestBodyWithItsCavitiesAndCountsTheRest) {
   Surface cavity = sphere(12.0, 30);
   cavity.triangles.col(0).swap(cavity.triangles.col(1));
-  const auto checked = checked_surface(both(both(moved(sphere(8.0, 20), 60), sphere(30.0, 40)), cavity), 4.0);
+  const auto checked = checked_surface(joined(joined(moved(sphere(8.0, 20), 60), sphere(30.0, 40)), cavity), 4.0);
   expect_sound(checked.measures);
   EXPECT_FALSE(checked.measures.repaired);
   const double expected = ball_volume(30.0) - ball_volume(12.0);
@@ -104,13 +97,13 @@ TEST(CheckedSurface, KeepsTheLargestBodyWithItsCavitiesAndCountsTheRest) {
 TEST(CheckedSurface, ADroppedBodyTakesItsCavityAlong) {
   Surface cavity = moved(sphere(5.0, 20), 60);
   cavity.triangles.col(0).swap(cavity.triangles.col(1));
-  const auto checked = checked_surface(both(both(moved(sphere(12.0, 20), 60), cavity), sphere(30.0, 40)), 3.0);
+  const auto checked = checked_surface(joined(joined(moved(sphere(12.0, 20), 60), cavity), sphere(30.0, 40)), 3.0);
   expect_sound(checked.measures);
   EXPECT_LT(checked.surface.vertices.col(0).maxCoeff(), 31);
 }
 
 TEST(CheckedSurface, TwoBodiesOfASizeAreRefused) {
-  const Surface two = both(sphere(30.0, 40), moved(sphere(28.0, 40), 70));
+  const Surface two = joined(sphere(30.0, 40), moved(sphere(28.0, 40), 70));
   EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { checked_surface(two, 5.0); },
                                                    {"more than one body", "112 and 91 ml"}));
 }

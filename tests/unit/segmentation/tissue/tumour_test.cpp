@@ -59,7 +59,7 @@ TEST(Tumour, OfWhichTheLabelIsNoBrainIsRefused) {
 TEST(Tumour, GetsItsLabelInTheBodyAlone) {
   LabelMap labels = brain;
   const LabelMap tumour = tumour_at(24);
-  add_tumour(labels, tumour, mask_of(brain));
+  add_tumour(labels, in_body(tumour, mask_of(brain)));
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
     const bool both = tumour.voxels[i] != 0 && brain.voxels[i] != 0;
     EXPECT_EQ(labels.voxels[i], both ? default_label::tumour : brain.voxels[i]);

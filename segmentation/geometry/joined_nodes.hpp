@@ -6,9 +6,9 @@
 #include <numeric>
 #include <vector>
 
-namespace brainshift::solve {
+namespace brainshift {
 
-/// Sets of nodes, at first of one node each, that are joined pair by pair.
+/// Sets of nodes or vertices, at first of one node each, that are joined pair by pair.
 class JoinedNodes {
  public:
   explicit JoinedNodes(std::size_t nodes) : parent_(nodes) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -30,4 +30,4 @@ class JoinedNodes {
   std::vector<std::int32_t> parent_;
 };
 
-}  // namespace brainshift::solve
+}  // namespace brainshift
