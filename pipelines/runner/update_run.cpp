@@ -14,6 +14,7 @@
 #include "segmentation/files/make_folder.hpp"
 #include "segmentation/files/naming.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/whole_path.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/device/kept_on_device.hpp"
 #include "solve/load/noisy_load.hpp"
@@ -43,7 +44,8 @@ nlohmann::ordered_json record_of(const fs::path& run) {
   return record;
 }
 
-/// Where the record's options are others than the scene's own: what --set and a preset changed.
+/// Where the record's options are others than the scene's own: what --set and a preset changed, elements that the file
+/// does not have among it.
 void add_changes(const std::string& path, const nlohmann::ordered_json& now, const nlohmann::ordered_json& then,
                  std::vector<std::string>& overrides) {
   for (const auto& [name, value] : then.items()) {
@@ -51,7 +53,7 @@ void add_changes(const std::string& path, const nlohmann::ordered_json& now, con
     const std::string place = path.empty() ? name : path + "." + name;
     if (value.is_object()) {
       add_changes(place, there ? now[name] : nlohmann::ordered_json(), value, overrides);
-    } else if (value.is_string() && there && now[name] != value) {
+    } else if (value.is_string() && (there ? now[name] != value : !value.get<std::string>().empty())) {
       overrides.push_back(place + "=" + value.get<std::string>());
     }
   }
@@ -132,7 +134,7 @@ void refuse_what_cannot(const fs::path& run, const Scene& scene, const StageReco
 
 UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Progress& progress,
                        std::optional<solve::Device> device)
-    : run_(fs::absolute(run).lexically_normal()), file_(run_ / "update" / "kept.bin") {
+    : run_(whole_path(run)), file_(run_ / "update" / "kept.bin") {
   const nlohmann::ordered_json record = record_of(run_);
   const StageRecord solved = finished_solve(run_);
   scene_ = scene_of(record);

@@ -144,9 +144,18 @@ SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cl
   return far_out ? SignedDistance(skull) : distance;
 }
 
-/// Surface nodes that something else does not hold in all directions: one on a plane of symmetry slides along it.
-std::vector<std::int32_t> nodes_at_septum(const OrderedCloud& cloud) {
-  std::vector<std::int32_t> nodes = surface_nodes(cloud);
+/// Nodes of the surface, or nearer to the septum than half a spacing: where its sheets meet tissue has no face. One
+/// that something else holds in all directions is none, one on a plane of symmetry slides along it.
+std::vector<std::int32_t> nodes_at_septum(const Surface& septum, const OrderedCloud& cloud) {
+  const SurfaceTree tree(septum);
+  std::vector<std::int32_t> nodes;
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    const Eigen::Vector3d x = cloud.positions.row(a);
+    const double near = 0.5 * cloud.spacing[static_cast<std::size_t>(a)];
+    if (cloud.on_surface[static_cast<std::size_t>(a)] != 0 || (tree.nearest(x).position - x).norm() < near) {
+      nodes.push_back(static_cast<std::int32_t>(a));
+    }
+  }
   std::erase_if(nodes, [&](std::int32_t a) {
     const auto held = [&](int axis) { return cloud.conditions.is_prescribed(a, axis); };
     return held(0) && held(1) && held(2);
@@ -257,8 +266,8 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
   }
   if (model.septum) {
     const double spacing = *std::max_element(cloud.spacing.begin(), cloud.spacing.end());
-    body.septum_contact.emplace(model.septum->sheet, cloud.positions, nodes_at_septum(cloud), septum_reach * spacing,
-                                parts.nodal_rows);
+    body.septum_contact.emplace(model.septum->sheet, cloud.positions, nodes_at_septum(model.septum->sheet, cloud),
+                                septum_reach * spacing, parts.nodal_rows);
   }
   return body;
 }

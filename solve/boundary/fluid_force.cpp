@@ -23,7 +23,16 @@ struct Above {
   }
 };
 
-/// The middle of what each point stands for: of a cell with eight equal points, Gauss's, that of the octant.
+/// Whether eight equal points lie as Gauss's in a box: the product of their variances along its sides is (8 v)²/12³.
+/// The middles of octants, which a cell that was split has, lie nearer together.
+bool are_gauss_points(const Points& points, double volume) {
+  const Eigen::MatrixX3d from_middle = points.rowwise() - Eigen::RowVector3d(points.colwise().mean());
+  const Eigen::Matrix3d variance = from_middle.transpose() * from_middle / 8;
+  const double expected = 64 * volume * volume / 1728;
+  return std::abs(variance.determinant() - expected) < 0.05 * expected;
+}
+
+/// The middle of what each point stands for: of a cell with eight of Gauss's, that of the octant.
 Points middles(const IntegrationPoints& points) {
   Points middle = points.positions;
   constexpr std::size_t octants = 8;
@@ -36,6 +45,9 @@ Points middles(const IntegrationPoints& points) {
     if (next - first == octants && std::all_of(points.volume.begin() + static_cast<std::ptrdiff_t>(first),
                                                points.volume.begin() + static_cast<std::ptrdiff_t>(next), equal)) {
       auto of_cell = middle.middleRows(static_cast<Eigen::Index>(first), octants);
+      if (!are_gauss_points(of_cell, points.volume[first])) {
+        continue;
+      }
       const Eigen::RowVector3d centre = of_cell.colwise().mean();
       of_cell = (inwards * (of_cell.rowwise() - centre)).rowwise() + centre;
     }

@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include "segmentation/geometry/same_places.hpp"
+#include "solve/cut/cut_fronts.hpp"
 
 namespace brainshift::solve {
 
@@ -99,45 +101,11 @@ void append_sheet(const Cut& sheet, double after, double until, CutFacets& out) 
   }
 }
 
-/// Ends of paths: inside the body a tip, at its surface taken beyond it, so that nothing is left there.
-void find_tips(const InsideBody& inside, double spacing, CutFacets& cut) {
-  std::map<std::int32_t, std::vector<std::int32_t>> neighbours;
-  for (const auto& f : cut.facets.rowwise()) {
-    neighbours[f[0]].push_back(f[1]);
-    neighbours[f[1]].push_back(f[0]);
-  }
-  for (const auto& [v, next] : neighbours) {
-    const Eigen::Vector3d end = cut.vertices.row(v), from = cut.vertices.row(next[0]);
-    if (next.size() > 1) {
-      continue;
-    }
-    const Eigen::Vector3d ahead = (end - from).normalized();
-    if (inside(end + spacing / 2 * ahead)) {
-      cut.front.push_back({v, v});
-    } else {
-      cut.vertices.row(v) += spacing * ahead.transpose();
-    }
-  }
-}
-
-/// Edges of one triangle only, inside the body.
-void find_front_edges(const InsideBody& inside, double spacing, CutFacets& cut) {
-  std::map<std::array<std::int32_t, 2>, std::pair<int, std::int32_t>> edges;  // triangles, and the corner opposite
-  for (const auto& f : cut.facets.rowwise()) {
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t a = f[i], b = f[(i + 1) % 3];
-      auto& [count, opposite] = edges[{std::min(a, b), std::max(a, b)}];
-      ++count;
-      opposite = f[(i + 2) % 3];
-    }
-  }
-  for (const auto& [edge, found] : edges) {
-    const Eigen::Vector3d a = cut.vertices.row(edge[0]), b = cut.vertices.row(edge[1]), middle = (a + b) / 2;
-    const Eigen::Vector3d along = (b - a).normalized(), in = Eigen::Vector3d(cut.vertices.row(found.second)) - middle;
-    const Eigen::Vector3d outward = (along * along.dot(in) - in).normalized();
-    if (found.first == 1 && inside(middle + spacing / 2 * outward)) {
-      cut.front.push_back(edge);
-    }
+/// Triangles hang together where their corners lie at the same place, in one sheet and from one to the next.
+void join_at_corners(CutFacets& cut) {
+  const std::vector<std::int32_t> first = first_at_same_place(cut.vertices);
+  for (std::int32_t& corner : cut.facets.reshaped()) {
+    corner = first[static_cast<std::size_t>(corner)];
   }
 }
 
@@ -191,16 +159,15 @@ CutFacets facets_between(std::span<const Cut> cuts, double after, double until) 
       append_sheet(c, after, until, cut);
     }
   }
+  if (!cut.planar) {
+    join_at_corners(cut);
+  }
   return cut;
 }
 
 CutFacets facets_at(std::span<const Cut> cuts, double time, const InsideBody& inside, double spacing) {
   CutFacets cut = facets_between(cuts, from_the_start, time);
-  if (cut.planar) {
-    find_tips(inside, spacing, cut);
-  } else {
-    find_front_edges(inside, spacing, cut);
-  }
+  find_fronts(inside, spacing, cut);
   return cut;
 }
 

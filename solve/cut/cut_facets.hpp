@@ -10,8 +10,8 @@
 namespace brainshift::solve {
 
 /// The cuts as far as they have come at a time of the load's curve: a path up to where its tip is then, of a sheet the
-/// triangles that it has passed in the mean. spacing of the nodes, mm: an end nearer than half of it to the body's
-/// surface reaches it, and is no front.
+/// triangles that it has passed in the mean; sheets hang together at corners that lie at the same place. spacing of the
+/// nodes, mm, for the fronts (find_fronts()).
 CutFacets facets_at(std::span<const Cut> cuts, double time, const InsideBody& inside, double spacing);
 
 /// One set of facets and another.

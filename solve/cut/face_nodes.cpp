@@ -2,6 +2,7 @@
 #include "solve/cut/face_nodes.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/cut/quarters.hpp"
 
 namespace brainshift::solve {
 
@@ -24,6 +26,7 @@ constexpr double from_rim = 0.25;  // of a septum
 constexpr double sampling = 0.05;
 constexpr double mouth_within = 0.5;  // so near to a mouth a node is moved there: two would be too near to each other
 constexpr double mouth_apart = 0.6;
+constexpr double at_once = 40;           // of a facet: farther than any that lies in a body of so many nodes
 constexpr double next_on_surface = 1.6;  // so near are neighbours on the body's surface
 
 constexpr std::int32_t no_node = -1;
@@ -247,11 +250,21 @@ class CutFaces {
   }
 
   /// Tries places close together over the facet.
-  void add_pairs(Eigen::Index f) {
-    const Eigen::Vector3d a = corner(f, 0), first = corner(f, 1) - a;
-    const Eigen::Vector3d second = cut_.planar ? Eigen::Vector3d::Zero().eval() : Eigen::Vector3d(corner(f, 2) - a);
-    const double h = spacing(nearest_node(a + first / 3 + second / 3));
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::max(first.norm(), second.norm()) / (sampling * h))));
+  void add_pairs(Eigen::Index f) { add_pairs(f, {corner(f, 0), corner(f, 1), corner(f, cut_.planar ? 0 : 2)}); }
+
+  /// The same over part of it; of a large part where it comes near the body.
+  void add_pairs(Eigen::Index f, const Triangle& part) {
+    const Eigen::Vector3d a = part.a, first = part.b - a, second = part.c - a;
+    const double h = spacing(nearest_node(a + first / 3 + second / 3)), longest = std::max(first.norm(), second.norm());
+    if (!cut_.planar && longest > at_once * h) {
+      for (const Triangle& quarter : quarters(part)) {
+        if (inside_.is_within(quarter.centroid(), reach_of(quarter))) {
+          add_pairs(f, quarter);
+        }
+      }
+      return;
+    }
+    const int steps = std::max(1, static_cast<int>(std::ceil(longest / (sampling * h))));
     for (int i = 0; i <= steps; ++i) {
       for (int j = 0; j <= (cut_.planar ? 0 : steps - i); ++j) {
         const Eigen::Vector3d x =
@@ -331,15 +344,56 @@ std::int32_t append_node(NodeCloud& cloud, Conditions& conditions, std::int32_t 
   return static_cast<std::int32_t>(row);
 }
 
+/// What is prescribed of nodes, as a linear function about each: a node that moves onto a face takes the value there.
+class Prescribed {
+ public:
+  Prescribed(const NodeCloud& cloud, const Conditions& conditions)
+      : positions_(cloud.positions), spacing_(cloud.spacing), values_(conditions.displacement) {}
+
+  /// Adds to the row what the values of the nodes about it, on its side of the face, change by on the way there.
+  void move(const Place& p, const Eigen::Vector3d& to, Points& values) const {
+    if (values_.rows() == 0 || values_.row(p.node).array().isNaN().all()) {
+      return;
+    }
+    const Eigen::RowVector3d from = positions_.row(p.node);
+    const auto side = [&](const Eigen::RowVector3d& x) { return p.normal.dot(x.transpose() - p.x) >= 0; };
+    const double reach = next_on_surface * spacing_[static_cast<std::size_t>(p.node)];
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      std::vector<Eigen::Index> near;
+      for (Eigen::Index a = 0; a < values_.rows(); ++a) {
+        if (!std::isnan(values_(a, axis)) && a != p.node && (positions_.row(a) - from).norm() < reach &&
+            side(positions_.row(a)) == side(from)) {
+          near.push_back(a);
+        }
+      }
+      if (near.empty() || std::isnan(values_(p.node, axis))) {
+        continue;
+      }
+      const Eigen::MatrixX3d apart = positions_(near, Eigen::all).rowwise() - from;
+      const Eigen::VectorXd change = values_(near, axis).array() - values_(p.node, axis);
+      Eigen::JacobiSVD<Eigen::MatrixX3d> fit(apart, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      fit.setThreshold(0.05);  // across a patch of the surface nothing is known
+      values(p.node, axis) += (to.transpose() - from).dot(fit.solve(change));
+    }
+  }
+
+ private:
+  const Points positions_;
+  const std::vector<double> spacing_;
+  const Points values_;
+};
+
 std::size_t add_at(const std::vector<Place>& places, NodeCloud& cloud, Conditions& conditions,
                    std::vector<FacePair>& pairs) {
   std::size_t split = 0;
+  const Prescribed prescribed(cloud, conditions);
   for (const Place& p : places) {
     const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;
     FacePair pair{p.node, no_node, p.x, p.normal};
     const bool was_there = p.node != no_node;
     if (was_there) {
       ++split;
+      prescribed.move(p, p.x, conditions.displacement);
       cloud.positions.row(p.node) = p.x + off;
       cloud.on_surface[static_cast<std::size_t>(p.node)] = 1;
     } else {

@@ -7,11 +7,16 @@
 #include <stdexcept>
 
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/geometry/same_places.hpp"
 
 namespace brainshift::solve {
 
 Septum read_septum(const std::filesystem::path& file) {
   Septum septum{file.string(), read_surface(file)};
+  const std::vector<std::int32_t> first = first_at_same_place(septum.sheet.vertices);
+  for (std::int32_t& corner : septum.sheet.triangles.reshaped()) {
+    corner = first[static_cast<std::size_t>(corner)];
+  }
   check_septum(septum, false);
   return septum;
 }

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "segmentation/geometry/same_places.hpp"
+
 namespace brainshift::solve {
 
 namespace {
@@ -34,13 +36,15 @@ std::span<const Face> faces_of(CellKind kind) {
 
 /// Vertices of the faces that one cell alone has, in the cell's order.
 std::vector<Face> single_faces(const BackgroundCells& cells) {
-  std::map<Face, std::pair<int, Face>> count;  // by its sorted vertices
+  const std::vector<std::int32_t> first = first_at_same_place(cells.vertices);  // cells may share no vertex
+  std::map<Face, std::pair<int, Face>> count;                                   // by its sorted vertices
   const auto corners = static_cast<std::size_t>(cells.corners());
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     for (const Face& corner : faces_of(cells.kind)) {
       Face face;
       std::transform(corner.begin(), corner.end(), face.begin(), [&](int k) {
-        return k < 0 ? -1 : cells.connectivity[corners * cell + static_cast<std::size_t>(k)];
+        const auto place = corners * cell + static_cast<std::size_t>(std::max(k, 0));
+        return k < 0 ? -1 : first[static_cast<std::size_t>(cells.connectivity[place])];
       });
       Face key = face;
       std::sort(key.begin(), key.end());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/quadrature/merge_slivers.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "segmentation/geometry/point_tree.hpp"
@@ -9,7 +11,8 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double sliver = 0.1;  // of the full volume
+constexpr double sliver = 0.1;        // of the full volume
+constexpr double farthest_merge = 4;  // sides of a point's full volume: about two cells
 
 /// The points of one tissue that are no slivers, to be found by place.
 struct WholePoints {
@@ -68,7 +71,12 @@ std::vector<MergedPoint> merge_slivers(std::span<const double> full, Integration
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (dropped[i] != 0 && points.label[i] == label) {
         const auto row = static_cast<Eigen::Index>(i);
-        const auto into = whole.index[tree.nearest(points.positions.row(row).data()).first];
+        const auto [nearest, squared] = tree.nearest(points.positions.row(row).data());
+        if (squared > std::pow(farthest_merge * std::max(std::cbrt(full[i]), std::sqrt(full[i])), 2)) {
+          dropped[i] = 0;
+          continue;
+        }
+        const std::int32_t into = whole.index[nearest];
         double& volume = points.volume[static_cast<std::size_t>(into)];
         const double share = points.volume[i] / (points.volume[i] + volume);
         points.positions.row(into) += share * (points.positions.row(row) - points.positions.row(into));

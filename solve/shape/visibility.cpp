@@ -17,7 +17,8 @@ Eigen::Vector3d nearest_on_edge(const Eigen::Vector3d& x, const Eigen::Vector3d&
   return squared > 0 ? a + std::clamp((x - a).dot(along) / squared, 0.0, 1.0) * along : a;
 }
 
-/// Of each vertex the lowest that it hangs together with.
+}  // namespace
+
 std::vector<std::int32_t> pieces_of(const CutFacets& cut) {
   std::vector<std::int32_t> piece(static_cast<std::size_t>(cut.vertices.rows()));
   std::iota(piece.begin(), piece.end(), 0);
@@ -34,8 +35,6 @@ std::vector<std::int32_t> pieces_of(const CutFacets& cut) {
   }
   return piece;
 }
-
-}  // namespace
 
 LevelSets level_sets(const Eigen::Vector3d& x, const Eigen::Vector3d& end, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d away = x - end, v = direction.normalized();

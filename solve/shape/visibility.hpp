@@ -19,6 +19,9 @@ struct LevelSets {
 };
 LevelSets level_sets(const Eigen::Vector3d& x, const Eigen::Vector3d& end, const Eigen::Vector3d& direction);
 
+/// Of each vertex the lowest that it hangs together with by facets.
+std::vector<std::int32_t> pieces_of(const CutFacets& cut);
+
 /// The way round a cut, over its front.
 struct Detour {
   double length;             ///< mm; infinite where there is no front

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view format = "brainshift kept run 8\n";
+constexpr std::string_view format = "brainshift kept run 9\n";
 constexpr std::size_t head_size = 256;
 
 /// Tells damage; eight bytes at a time, every fourth in a sum of its own, which do not wait for each other.
@@ -168,6 +168,7 @@ void kept_run(Archive& archive, Run& run) {
   archive.points(run.prescribed);
   archive.points(run.displacement);
   kept_body(archive, run.fine);
+  archive.plain(run.trusted);
   archive.many(run.responses.nodes);
   archive.many(run.responses.waves);
   archive.many(run.responses.parameters);

@@ -128,9 +128,10 @@ bool responses_tell(const KeptRun& run, const Conditions& load) {
          (load.displacement.array().isNaN() == run.origin.prescribed.array().isNaN()).all();
 }
 
-/// Masses and damping of an answer's steps; nothing of a slow body.
-std::optional<Settled> settled_for(const Conditions& load, bool tells_all, const KeptRun& run) {
-  if (run.origin.lowest <= slow_body) {
+/// Masses and damping of an answer's steps; nothing of a slow body, or of a change that is too large to be sure that
+/// what is left open is local. change: of what is prescribed, from the run's own load, mm.
+std::optional<Settled> settled_for(const Conditions& load, const Points& change, bool tells_all, const KeptRun& run) {
+  if (run.origin.lowest <= slow_body || change.rowwise().norm().maxCoeff() > run.trusted) {
     return std::nullopt;
   }
   Settled settled = run.fine.settled;
@@ -281,6 +282,9 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
   if (!model.conditions.measured && run.origin.lowest > slow_body) {
     run.responses = responses_of(run.fine, run.prescribed, options, progress);
   }
+  if (run.origin.lowest > slow_body) {
+    run.trusted = trusted_change(run, solved.conditions, progress);
+  }
   return run;
 }
 
@@ -305,13 +309,21 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
   const NodalVectors told = first_order(prescribed, from_origin, tells_all, run);
   Course course;
   course.start = told;
-  course.settled = settled_for(load, tells_all, run);
+  course.settled = settled_for(load, from_origin, tells_all, run);
   course.bound = run.options.device == Device::cpu ? BoundOf::displacement : BoundOf::parameters;
   if (tells_all) {
     run.departures.add_expected(run.responses, from_origin, course.start);
   }
   set_fine_load(load, run);
   SteppingResult stepped = come_to_rest(run, course, progress);
+  if (!stepped.failure.empty() && course.settled) {
+    run.fine.body = std::move(stepped.body);
+    course.settled.reset();
+    stepped = come_to_rest(run, course, progress);
+  }
+  if (!stepped.failure.empty()) {
+    stepped.failure += "; run the scene with this load instead";
+  }
   SolveResult result = result_of(stepped, run.options, measures);
   result.measures.seconds_stepping = stepping.seconds();
   if (result.measures.measured) {

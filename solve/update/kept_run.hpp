@@ -40,6 +40,7 @@ struct KeptRun {
   Points displacement;    ///< (n × 3) mm, at rest
   KeptBody fine;          ///< at rest
   RestState origin;       ///< under the run's own load; responses are of it
+  double trusted = 0;     ///< mm: a load that differs from the run's by more is relaxed as a run (trusted_change())
   Responses responses;    ///< none where noise leaves springs: of what is prescribed exactly alone
   Departures departures;  ///< from the first order; not kept on disk
   std::optional<ThinnedBody> thinned = {};  ///< of a load with noise, which chooses each load's weight; else absent
@@ -63,6 +64,12 @@ KeptRun keep(const Model& model, const SolveOptions& options, const Points& disp
 /// the run did, by more than half, or has noise where the run had none; TooFewNodes where its conditions contradict
 /// each other; the kept run then is as it was. After another throw or a failure it must be read or made again.
 SolveResult update(KeptRun& kept, const Conditions& load, const Progress& progress = {});
+
+/// The largest change of a load, mm at a node, whose answers are as near to rest as they say (KeptRun::trusted); load:
+/// the run's own. Found by trial: a few loads that differ by so much are answered, and answered once more as a run
+/// would, far closer. What an answer is damped for is right where what responses leave open is local; of a head that
+/// drifts and turns slowly in its fluid it is not, and no bound that looks back on a few steps sees that.
+double trusted_change(const KeptRun& kept, const Conditions& load, const Progress& progress);
 
 /// Of displacements that are imposed exactly, (n × 3) mm, NaN: free.
 inline SolveResult update(KeptRun& kept, const Points& prescribed, const Progress& progress = {}) {

@@ -91,6 +91,34 @@ TEST_F(Update, IsAsARunFromTheBeginningAndLeavesTheRunAlone) {
   EXPECT_GT((updated - old).rowwise().norm().maxCoeff(), 0.5) << "the load has changed something";
 }
 
+/// A head that turns and drifts slowly in the fluid that is left.
+TEST_F(Update, OfAHeadInDrainedFluidIsAsNearToRestAsItSays) {
+  const fs::path head = *scratch / "large", drained = *scratch / "drained";
+  ASSERT_EQ(run_shell("brainshift phantom --size 64 --spacing 3 --out " + quoted(head)).code, 0);
+  const std::string how =
+      " --until solve --preset fast --set discretise.nodes=400 --set gravity.direction=0,1,0 --set gravity.drained=30 "
+      "--quiet --out ";
+  const std::string run_scene = "brainshift run " + quoted(head / "scene.xml") + how;
+  ASSERT_EQ(run_shell(run_scene + quoted(drained)).code, 0);
+  for (const double factor : {1.2, 0.6}) {
+    solve::CraniotomyLoad other = solve::read_craniotomy_csv(head / "craniotomy.csv");
+    other.displacement *= factor;
+    solve::write_craniotomy_csv(*scratch / "other.csv", other);
+    const ProgramResult updated = update(drained, "--load " + quoted(*scratch / "other.csv"));
+    ASSERT_EQ(updated.code, 0) << updated.err;
+    const fs::path answer = drained / "update/other/solve", close = *scratch / "close";
+    const ProgramResult ran = run_shell(run_scene + quoted(close) + " --set solve.tolerance=0.001 --set " +
+                                        "load.craniotomy.file=" + quoted(*scratch / "other.csv"));
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const double off =
+        (read_solution(answer / "solution.vtu").displacement - read_solution(close / "solve/solution.vtu").displacement)
+            .rowwise()
+            .norm()
+            .maxCoeff();
+    EXPECT_LT(off, read_table(answer / "history.csv").back().at("error_bound_mm")) << factor;
+  }
+}
+
 TEST_F(Update, TellsHowWellANoisyLoadKnowsTheLandmarks) {
   const fs::path noisy = *scratch / "noisy";
   const ProgramResult ran = run_shell("brainshift run " + quoted(*scratch / "head/scene.xml") +

@@ -40,6 +40,22 @@ TEST(FluidForce, IsTheWeightOfTheFluidThatHeldWhatIsAboveTheLevel) {
   }
 }
 
+/// As where integration splits each cell once.
+TEST(FluidForce, IsTheSameOfPointsInTheMiddleOfTheirOctants) {
+  Cube cube;
+  for (std::size_t p = 0; p < cube.points.size(); ++p) {
+    auto x = cube.points.positions.row(static_cast<Eigen::Index>(p));
+    const Eigen::RowVector3d middle = (side / 7 * ((x / (side / 7)).array().floor() + 0.5)).matrix();
+    x = middle + std::sqrt(3) / 2 * (x - middle);
+  }
+  cube.rows = ShapeFunctions(cube.cloud.positions, cube.cloud.spacing, {}).evaluate(cube.points.positions, true);
+  for (const double height : {37.3, 4.1}) {
+    const Eigen::Vector3d weight = 1007e-9 * side * side * (side - height) * down;
+    const Eigen::Vector3d total = newton * resultant(cube.force(drained_to(height), {{1, {}}}));
+    EXPECT_LE((total - weight).norm(), 1e-3 * weight.norm()) << height;
+  }
+}
+
 TEST(FluidForce, IsNoneInARoomThatDrains) {
   const Cube cube;
   EXPECT_EQ(largest(cube.force(drained_to(10), {{1, {.room = Room::drained}}})), 0);

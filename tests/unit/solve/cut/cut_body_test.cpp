@@ -36,4 +36,24 @@ TEST(CutBody, SplitsNodesOnThePathAndAddsPairsBetween) {
   }
 }
 
+/// Of a body that takes little of a large triangle, and not its middle.
+TEST(CutBody, IsMetBySheetsOfLargeTriangles) {
+  Model model;
+  model.cloud = test::irregular_box(7, 18);
+  model.conditions = test::all_free(model.cloud);
+  model.cells = test::box_cells(6, 18);
+  model.materials[1] = {3000, 0.45, 1000};
+  for (const double off : {0.0, 40.0}) {
+    Cut sheet{"sheet", Points(4, 3), Triangles(2, 3), {}};
+    sheet.vertices << -100, -30, 9 + off, 190, -30, 9 + off, 190, 270, 9 + off, -100, 270, 9 + off;
+    sheet.triangles << 0, 1, 2, 0, 2, 3;
+    model.cuts = {sheet};
+    if (off == 0) {
+      EXPECT_FALSE(cut_body(model).pairs.empty());
+    } else {
+      EXPECT_THROW(cut_body(model), std::invalid_argument);
+    }
+  }
+}
+
 }  // namespace brainshift::solve::cut_body_test

@@ -92,6 +92,74 @@ TEST(CutFacets, OfASheetHaveAFrontOnlyInsideTheBody) {
   EXPECT_TRUE(facets_at(cuts, 1, body, 1).front.empty()) << "the sheet ends outside";
 }
 
+/// A rectangle of two triangles in y = 10 or x = 10, from one corner to the other.
+Cut rectangle_sheet(int across, double from, double to, double low, double high) {
+  Cut cut{"sheet", Points(4, 3), Triangles(2, 3), {}};
+  const int along = 1 - across;
+  cut.vertices.col(across).setConstant(10);
+  cut.vertices.col(along) << from, to, to, from;
+  cut.vertices.col(2) << low, low, high, high;
+  cut.triangles << 0, 1, 2, 0, 2, 3;
+  return cut;
+}
+
+InsideBody cube() {
+  const IntegrationPoints points = integration_points(test::box_cells(10, 20), 8, nullptr, {1});
+  return {points.positions, points.volume, false};
+}
+
+double front_length(const CutFacets& cut) {
+  double length = 0;
+  for (const auto& [a, b] : cut.front) {
+    length += (cut.vertices.row(a) - cut.vertices.row(b)).norm();
+  }
+  return length;
+}
+
+/// However far the sheet sticks out of the body, and wherever the middle of its rim is.
+TEST(CutFacets, OfASheetHaveAFrontAlongThePartOfALongRimThatIsInside) {
+  for (const auto& [low, high] : {std::pair(-5.0, 25.0), {-5.0, 60.0}, {-300.0, 25.0}}) {
+    const std::vector<Cut> cuts = {rectangle_sheet(1, -5, 12, low, high)};
+    const CutFacets cut = facets_at(cuts, 0, cube(), spacing);
+    EXPECT_NEAR(front_length(cut), 20, spacing) << low << " to " << high;
+    for (const auto& [a, b] : cut.front) {
+      EXPECT_EQ(cut.vertices(a, 0), 12);
+      EXPECT_EQ(cut.vertices(b, 0), 12);
+    }
+    EXPECT_NEAR(extent(cut), 17 * (high - low), 1e-9 * extent(cut)) << "split, but the same";
+  }
+}
+
+/// An L and a T of two sheets: exactly at each other, or one a little beyond the other or short of it.
+TEST(CutFacets, OfSheetsThatMeetHaveNoFrontThere) {
+  for (const double beyond : {0.0, 0.6, -0.6}) {
+    const std::vector<Cut> l = {rectangle_sheet(1, -5, 10 + beyond, -5, 25),
+                                rectangle_sheet(0, 10 - beyond, 25, -5, 25)};
+    EXPECT_EQ(front_length(facets_at(l, 0, cube(), spacing)), 0) << beyond;
+    const std::vector<Cut> t = {rectangle_sheet(1, -5, 10 + beyond, -5, 25), rectangle_sheet(0, -5, 25, -5, 25)};
+    EXPECT_EQ(front_length(facets_at(t, 0, cube(), spacing)), 0) << beyond;
+  }
+  const std::vector<Cut> apart = {rectangle_sheet(1, -5, 8, -5, 25), rectangle_sheet(0, -5, 25, -5, 25)};
+  EXPECT_NEAR(front_length(facets_at(apart, 0, cube(), spacing)), 20, spacing) << "a spacing of tissue is left";
+}
+
+TEST(CutFacets, OfTrianglesThatShareNoCornersHangTogether) {
+  Cut whole = rectangle_sheet(1, -5, 12, -5, 25), parted = whole;
+  parted.vertices = Points(whole.vertices({0, 1, 2, 0, 2, 3}, Eigen::all));
+  parted.triangles << 0, 1, 2, 3, 4, 5;
+  EXPECT_EQ(front_length(facets_at(std::vector{parted}, 0, cube(), spacing)),
+            front_length(facets_at(std::vector{whole}, 0, cube(), spacing)));
+}
+
+TEST(CutFacets, OfPathsThatMeetHaveNoTipThere) {
+  for (const double beyond : {0.2, 0.0, -0.4}) {
+    const std::vector<Cut> cuts = {cut_path({{-5, 10}, {20 + beyond, 10}}), cut_path({{20, 10 - beyond}, {20, 25}})};
+    EXPECT_TRUE(facets_at(cuts, 0, rectangle(), spacing).front.empty()) << beyond;
+  }
+  const std::vector<Cut> apart = {cut_path({{-5, 10}, {18, 10}}), cut_path({{20, -5}, {20, 25}})};
+  EXPECT_EQ(facets_at(apart, 0, rectangle(), spacing).front.size(), 1U);
+}
+
 TEST(CutFacets, AdvanceByAStrideEachTime) {
   const std::vector<Cut> cuts = {cut_path({{0, 0}, {8, 0}, {8, 3}}, {0, 0.8, 2.3})};
   const std::vector<double> times = times_of_advance(cuts, 2);

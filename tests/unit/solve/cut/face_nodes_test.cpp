@@ -99,6 +99,22 @@ TEST(FaceNodes, AreHeldAsTheNodeWasAndShareItsForce) {
   EXPECT_TRUE(std::isnan(body.conditions.displacement(of_held->below, 1)));
 }
 
+TEST(FaceNodes, ThatMoveTakeWhatIsPrescribedWhereTheyComeToLie) {
+  Cutting body;
+  const auto prescribed = [](const Eigen::RowVector3d& x) { return 0.3 * x.x() - 0.1 * x.y(); };
+  for (Eigen::Index a = 0; a < 121; ++a) {
+    body.conditions.displacement(a, 0) = prescribed(body.cloud.positions.row(a));
+  }
+  body.along({{-2, 10.4}, {22, 10.4}}, false);
+  EXPECT_GT(body.split, 0U);
+  for (const FacePair& p : body.pairs) {
+    if (p.above < 121) {
+      EXPECT_NEAR(body.conditions.displacement(p.above, 0), prescribed(p.place.transpose()), 1e-9);
+      EXPECT_EQ(body.conditions.displacement(p.below, 0), body.conditions.displacement(p.above, 0));
+    }
+  }
+}
+
 TEST(FaceNodes, OfACutOutsideTheBodyAreNone) {
   Cutting body;
   body.along({{-9, 40}, {30, 40}}, false);

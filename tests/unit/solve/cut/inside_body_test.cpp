@@ -51,6 +51,19 @@ TEST(InsideBody, TakesNearlyEveryPlaceBetweenThePointsOfTetrahedraAndTriangles) 
   }
 }
 
+TEST(InsideBody, CountsDistancesInTheLengthsOfLongCells) {
+  const BackgroundCells cells = test::rectangle_cells(40, 5, side, side);  // 0.5 × 4 mm
+  const IntegrationPoints points = integration_points(cells, 4, nullptr, {1});
+  const InsideBody body(points.positions, points.volume, true, {0.5, 4, 0});
+  const Points places = test::random_points(2000, side);
+  for (const auto& x : places.rowwise()) {
+    EXPECT_TRUE(body({x[0], x[1], 0}));
+  }
+  EXPECT_FALSE(body({-0.5, side / 2, 0}));
+  EXPECT_FALSE(body({side / 2, -3, 0}));
+  EXPECT_TRUE(body.is_within({-3, side / 2, 0}, 3));
+}
+
 /// It reaches beyond the surface by less than the distance of the points, here half a cell of 5 mm.
 TEST(InsideBody, LeavesOutWhatIsFurtherOffThanThePointsAreApart) {
   const InsideBody cube = inside(test::box_cells(4, side), 8),

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift::solve::cell_boundary_test {
@@ -29,6 +31,14 @@ TEST(CellBoundary, OfPlanarCellsStandsOnTheirEdges) {
     EXPECT_EQ(strip.area_vector()[2], 0);
     EXPECT_GT(strip.area_vector().dot(strip.centroid() - Eigen::Vector3d(side / 2, height / 2, 0)), 0) << t;
   }
+}
+
+TEST(CellBoundary, OfCellsThatShareNoVertexIsTheSame) {
+  BackgroundCells cells = test::box_cells(3, side);
+  cells.vertices = Points(cells.vertices(cells.connectivity, Eigen::all));
+  std::iota(cells.connectivity.begin(), cells.connectivity.end(), 0);
+  const Surface surface = cell_boundary(cells);
+  EXPECT_NEAR(area(surface), 6 * side * side, 1e-9 * side * side);
 }
 
 TEST(CellBoundary, IsUnknownWhereACellIsCut) {

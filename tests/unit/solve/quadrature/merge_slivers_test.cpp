@@ -48,4 +48,20 @@ TEST(IntegrationPoints, KeepASliverThatIsAllItsTissueHas) {
   EXPECT_EQ(std::count(points.label.begin(), points.label.end(), 2), 8);
 }
 
+TEST(IntegrationPoints, KeepASliverThatIsFarFromTheRestOfItsTissue) {
+  BackgroundCells cells = box_cells(6, 6 * side);
+  cells.label.front() = cells.label.back() = 2;
+  cells.inside_fraction.back() = 0.01;
+  const IntegrationPoints points = integration_points(cells, 8, nullptr, tissues);
+  int far = 0;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (points.label[p] == 2) {
+      const Eigen::RowVector3d x = points.positions.row(static_cast<Eigen::Index>(p));
+      EXPECT_TRUE(x.maxCoeff() < side || x.minCoeff() > 5 * side) << x;
+      far += x.minCoeff() > 5 * side ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(far, 8);
+}
+
 }  // namespace brainshift::solve::merge_slivers_test
