@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a BIDS folder holds and what it lacks; the plan; the table and which rows lie far from the others."""
 import hashlib
+import os
 import pathlib
 import sys
 import tempfile
@@ -11,7 +12,7 @@ from unittest import mock
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipelines/bids"))
 
-from cohort import dataset, derivatives, files, marks, measures, names, pages, plan  # noqa: E402
+from cohort import dataset, derivatives, files, marks, measures, names, pages, plan, program  # noqa: E402
 from cohort.finder import Finder  # noqa: E402
 
 POINTS = "derivatives/plan/sub-01/anat/sub-01_desc-cortex_points.csv"
@@ -101,6 +102,19 @@ class FinderTest(Folder):
         self.assertIn("--pick T1w:", self.find()[1]["sub-01"])
         self.assertEqual(self.relative(self.one(pick={"T1w": {"acq": "mprage"}}).t1), images[1])
 
+    def test_an_empty_value_picks_the_file_without_the_entity(self):
+        self.make(T1W, "sub-01/anat/sub-01_ce-gadolinium_T1w.nii.gz", DSEG, TABLE, POINTS)
+        self.assertIn("--pick T1w", self.find()[1]["sub-01"])
+        self.assertEqual(self.relative(self.one(pick={"T1w": {"ce": ""}}).t1), T1W)
+
+    def test_which_brain_mask_says_nothing_of_the_tumours(self):
+        stem = "derivatives/plan/sub-01/anat/sub-01_"
+        tumour = stem + "label-tumor_mask.nii.gz"
+        self.make(T1W, POINTS, tumour, *(stem + f"rec-{rec}_desc-brain_mask.nii.gz" for rec in "ab"))
+        case = self.one(pick={"mask": {"rec": "a"}})
+        self.assertEqual(self.relative(case.brain_mask), stem + "rec-a_desc-brain_mask.nii.gz")
+        self.assertEqual(self.relative(case.tumour), tumour)
+
     def test_says_that_a_link_has_no_content(self):
         self.make("sub-01/anat/x", POINTS)
         (self.root / "sub-01/anat/sub-01_T1w.nii.gz").symlink_to("gone")
@@ -177,6 +191,20 @@ class FinderTest(Folder):
                          ("sub-01_ses-intraop", "sub-01/ses-preop/anat/sub-01_ses-preop_T1w.nii.gz"))
 
 
+class DatasetTest(Folder):
+    def test_another_dataset_keeps_its_description(self):
+        with self.assertRaisesRegex(program.Unusable, "folder of the images"):
+            dataset.refuse_others(self.root, self.root)
+        out = self.root / "out"
+        dataset.refuse_others(out, self.root)
+        dataset.write(out, {}, "brainshift 1.0")
+        dataset.refuse_others(out, self.root)
+        for text in ('{"GeneratedBy": [{"Name": "fMRIPrep"}]}', '{"Name": "raw"}', "[]", "no JSON"):
+            (out / "dataset_description.json").write_text(text)
+            with self.assertRaisesRegex(program.Unusable, "another dataset"):
+                dataset.refuse_others(out, self.root)
+
+
 class PlanTest(Folder):
     def test_a_case_is_newer_only_where_something_changed(self):
         self.make("t1.nii.gz", text="one")
@@ -199,6 +227,22 @@ class PlanTest(Folder):
         self.make("t1.nii.gz", text="two")
         self.assertTrue(plan.has_changed(record, case))
 
+    def test_a_file_that_an_option_names_counts_as_the_scenes_own(self):
+        self.make("load.csv", "t1/slice.dcm", "discretise/nodes.vtu", text="one")
+        (self.root / "scene.xml").write_text('<scene><image t1="t1"/><stage name="discretise" command="x"/></scene>')
+        scene = self.root / "scene.xml"
+        self.assertEqual(plan.scene_inputs(scene), [str(scene), str(self.root / "t1")])
+        options = ["load.craniotomy.file=load.csv", "solve.max_steps=", "report.x=discretise"]
+        named = plan.option_inputs(options, self.root)
+        self.assertEqual(named, [str(self.root / "load.csv")])
+        case = plan.Case("row", "", [], [], [str(self.root / "t1")])
+        plan.write_case(self.root, case, "1.0")
+        first = (self.root / "row/case.sh").read_text()
+        self.make("t1/slice.dcm", text="another")
+        plan.write_case(self.root, case, "1.0")
+        self.assertNotEqual((self.root / "row/case.sh").read_text(), first)
+        self.assertFalse(plan.has_changed({"inputs": []}, case), "a folder's own sum is the run's matter")
+
     def test_an_image_whose_compression_is_damaged_has_no_grid(self):
         file = self.root / "a.nii.gz"
         file.write_bytes(b"\x1f\x8b\x08\0\0\0\0\0\0\3" + 40 * b"\xff")
@@ -216,6 +260,15 @@ class PlanTest(Folder):
         self.assertIn("interrupted after segment", marks.fault(self.root, stages))
         self.make("marks/solve", text="1.0\n2.0\n2\nsolve: the load is empty\n")
         self.assertEqual(marks.fault(self.root, stages), "solve: the load is empty")
+
+    def test_what_was_computed_before_a_change_is_no_result(self):
+        self.make("case.sh", "marks/report")
+        (self.root / "marks/report").write_text("1\n2\n0\n\n")
+        os.utime(self.root / "case.sh", (1000, 1000))
+        self.assertEqual(marks.fault(self.root, ("report",)), "")
+        os.utime(self.root / "case.sh")
+        os.utime(self.root / "marks/report", (2000, 2000))
+        self.assertIn("have changed", marks.fault(self.root, ("report",)))
 
     def test_a_mark_that_the_disk_cut_off_is_none(self):
         self.make("marks/solve", text="1.0\n2.")

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What stands at the top of a folder of derivatives, and how its files name those that they were made from."""
+import json
 from pathlib import Path
 
 from .files import as_json, replace_text
+from .program import Unusable
 
 ABOUT = ("Computed brain shift of each participant: the preoperative T1w and its labels, warped to the intraoperative "
          "brain, and the transforms between them. group.html lists all.\n")
@@ -24,6 +26,21 @@ def uri(file, known):
         return file.as_uri()
     name = max(holding)[1]
     return f"bids:{name}:{file.relative_to(known[name]).as_posix()}"
+
+
+def refuse_others(out, bids):
+    """A dataset that is not ours keeps its description."""
+    if out.resolve() == bids.resolve():
+        raise Unusable(f"{out}: is the folder of the images; choose another for OUT, as derivatives/brainshift in it")
+    try:
+        about = json.loads((out / "dataset_description.json").read_text(encoding="utf-8"))
+        makers = [maker.get("Name") for maker in about.get("GeneratedBy", [])]
+    except FileNotFoundError:
+        return
+    except (ValueError, AttributeError):
+        makers = []
+    if "brainshift" not in makers:
+        raise Unusable(f"{out}: is another dataset, by its dataset_description.json; choose another folder for OUT")
 
 
 def write(out, known, version):

@@ -89,8 +89,7 @@ class Finder:
         case = Case(name, participant, session, t1=self._t1(raw, participant))
         case.skull_stripped = is_stripped(case.t1)
         self._find_labels(case, derived, [names.case_name(participant, each) for each in of_the_image])
-        case.tumour = self._one([f for f in self._matching(derived, "mask", IMAGE) if own_space(f)
-                                 and names.parse(f.name).entities.get("label") in ("tumor", "tumour")], "mask")
+        case.tumour = self._mask(derived, "label", ("tumor", "tumour"))
         case.points = self._points(loads, name)
         return case
 
@@ -120,11 +119,16 @@ class Finder:
         if without_table:
             raise Missing(f"{without_table} has no table of its numbers: put a .tsv of its name with the columns index "
                           "and name beside it, or dseg.tsv into the folder of derivatives")
-        masks = [f for f in self._matching(files, "mask", IMAGE) if own_space(f)]
-        case.brain_mask = self._one([f for f in masks if names.parse(f.name).entities.get("desc") == "brain"], "mask")
+        case.brain_mask = self._mask(files, "desc", ("brain",))
         if not case.brain_mask:
             raise Missing(f"no labels: put {case.name}_dseg.nii.gz with its .tsv, FreeSurfer's mri/aparc+aseg.mgz or "
                           f"{case.name}_desc-brain_mask.nii.gz into a folder of derivatives")
+
+    def _mask(self, files, entity, values):
+        """What picks one of two brain masks says nothing of a tumour's, and the other way round."""
+        masks = [f for f in of_suffix(files, "mask", IMAGE) if own_space(f)
+                 and names.parse(f.name).entities.get(entity) in values]
+        return self._one(self._picked(masks, "mask") if len(masks) > 1 else masks, "mask")
 
     def _freesurfer(self, subjects):
         for root in (*self.derivatives, self.bids / "sourcedata" / "freesurfer"):
@@ -158,10 +162,12 @@ class Finder:
         return [f for root in self.derivatives for f in listed(root, participant, session)]
 
     def _matching(self, files, suffix, extensions=()):
+        return self._picked(of_suffix(files, suffix, extensions), suffix)
+
+    def _picked(self, files, suffix):
+        """An empty value: without the entity."""
         wanted = self.pick.get(suffix, {}).items()
-        parsed = ((f, names.parse(f.name)) for f in files)
-        return [f for f, name in parsed if name and name.suffix == suffix
-                and (not extensions or name.extension in extensions) and wanted <= name.entities.items()]
+        return [f for f in files if all(names.parse(f.name).entities.get(e, "") == value for e, value in wanted)]
 
     @staticmethod
     def _one(files, suffix):
@@ -171,6 +177,12 @@ class Finder:
             return ""
         check_place(files[0])
         return str(files[0])
+
+
+def of_suffix(files, suffix, extensions=()):
+    parsed = ((f, names.parse(f.name)) for f in files)
+    return [f for f, name in parsed if name and name.suffix == suffix
+            and (not extensions or name.extension in extensions)]
 
 
 def listed(root, participant, session):

@@ -29,9 +29,18 @@ def drop(folder, stages):
             return
 
 
+def is_newer(file, than):
+    try:
+        return file.stat().st_mtime_ns > than.stat().st_mtime_ns
+    except FileNotFoundError:
+        return False
+
+
 def fault(folder, stages):
     """Empty, or why a case has no result."""
     last = read(folder, stages[-1])
+    if last and is_newer(folder / "case.sh", folder / "marks" / stages[-1]):
+        return "its files, its options or the program have changed since it was computed; the same command goes on"
     if last:
         return last.sentence or (f"ended with {last.code}" if last.code else "")
     begun = [stage for stage in stages if read(folder, stage)]

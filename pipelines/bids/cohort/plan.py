@@ -43,7 +43,7 @@ class Case(NamedTuple):
 def write_case(work, case, version):
     folder = work / case.name
     folder.mkdir(parents=True, exist_ok=True)
-    states = [(os.stat(file), file) for file in case.inputs if os.path.exists(file)]
+    states = [(os.stat(file), file) for given in case.inputs for file in files_in(given)]
     lines = [f"# {version}", *(f"# {s.st_size} {s.st_mtime_ns} {json.dumps(file)}" for s, file in states),
              f"scene={shlex.quote(case.scene)}", f"files=({shlex.join(case.words)})",
              f"options=({shlex.join(set_words(case))})"]
@@ -53,10 +53,18 @@ def write_case(work, case, version):
         replace_text(file, text)
 
 
+def files_in(given):
+    """The file itself, or the folder's files."""
+    if os.path.isdir(given):
+        return sorted(entry.path for entry in os.scandir(given) if entry.is_file())
+    return [given] if os.path.exists(given) else []
+
+
 def has_changed(record, case):
     """Whether a file of the case is none of those that its run, by run.json, was made of."""
     made_of = {given.get("sha256") for given in record["inputs"]}
-    return any(hashlib.sha256(Path(file).read_bytes()).hexdigest() not in made_of for file in case.inputs)
+    return any(hashlib.sha256(Path(file).read_bytes()).hexdigest() not in made_of for file in case.inputs
+               if os.path.isfile(file))
 
 
 def set_words(case):
@@ -66,8 +74,20 @@ def set_words(case):
 def scene_inputs(scene):
     """The scene's own file and those that it names."""
     scene = Path(scene)
-    named = [scene.parent / value for element in tree.parse(scene).iter() for value in element.attrib.values()]
-    return [str(scene)] + [str(file) for file in named if os.path.isfile(file)]
+    named = [(f"{element.tag}.{name}", value) for element in tree.parse(scene).iter()
+             for name, value in element.attrib.items()]
+    return [str(scene)] + files_named(named, scene.parent)
+
+
+def option_inputs(options, folder):
+    """Files that options PATH=VALUE name, from the scene's folder on."""
+    return files_named([option.partition("=")[::2] for option in options], Path(folder))
+
+
+def files_named(named, folder):
+    """Of pairs of an option's path and value, those values that are files; an image may be a folder of slices."""
+    return [str(folder / value) for path, value in named if value and len(value) < 4096
+            and (os.path.isfile(folder / value) or path.startswith("image.") and os.path.isdir(folder / value))]
 
 
 def grid(file):
