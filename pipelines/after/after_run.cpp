@@ -7,6 +7,7 @@
 #include "pipelines/after/cheaper_models.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/stage_record.hpp"
+#include "segmentation/files/whole_path.hpp"
 #include "segmentation/options/values.hpp"
 #include "solve/output/field_difference.hpp"
 
@@ -95,7 +96,7 @@ std::string verdict(const Trial& trial, bool left_out, double within) {
 
 std::string explain_after(const Scene& scene, const fs::path& run, std::optional<double> within,
                           Interruption& interruption, const std::function<void(const std::string&)>& tell) {
-  const fs::path folder = fs::absolute(run).lexically_normal();
+  const fs::path folder = whole_path(run);
   check_run(scene, folder, interruption);
   const double limit = within.value_or(scene.solve.tolerance);
   const SolveInput input = read_input(solve_job(scene, folder));

@@ -57,7 +57,12 @@ void add_parts_of_the_model(const Model& model, const SolveOptions& options, std
     found.push_back({"gravity", "left out", "", [](Model& m, SolveOptions&) { m.gravity.setZero(); }});
   }
   if (model.fluid) {
-    found.push_back({"drained fluid", "left out", "", [](Model& m, SolveOptions&) { m.fluid.reset(); }});
+    found.push_back({"drained fluid", "left out", "", [](Model& m, SolveOptions&) {
+                       m.fluid.reset();
+                       if (m.resection) {
+                         m.resection->fluid_level.reset();  // it goes by the fluid's gravity
+                       }
+                     }});
   }
   if (model.resection) {
     add_resection(*model.resection, found);

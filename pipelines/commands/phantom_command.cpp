@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 
-#include "pipelines/checksum/sha256.hpp"
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/table_option.hpp"
 #include "pipelines/phantom/cylinder.hpp"
 #include "pipelines/phantom/phantom.hpp"
 #include "pipelines/runner/stage_folder.hpp"
-#include "segmentation/files/refuse.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -17,17 +15,6 @@ struct PhantomArguments {
   std::string shape = "head";
   std::filesystem::path out;
 };
-
-/// Throws std::invalid_argument, naming the file, where another one of that name lies in the folder: it may be a
-/// patient's.
-void refuse_others_files(const std::filesystem::path& made, const std::filesystem::path& folder) {
-  for (const auto& entry : std::filesystem::directory_iterator(made)) {
-    const std::filesystem::path there = folder / entry.path().filename();
-    if (std::filesystem::exists(there) && sha256_of_file(there) != sha256_of_file(entry.path())) {
-      refuse(there, "another file of that name lies here already; choose another folder, or move it away");
-    }
-  }
-}
 
 }  // namespace
 
@@ -45,14 +32,18 @@ void add_phantom_command(CLI::App& program, const Settings& settings) {
                                      [options = &arguments->options]() -> PhantomOptions& { return *options; });
   }
   command->add_option("--out", arguments->out, "folder for the head")->required()->type_name("DIR");
-  command->callback([arguments, &settings] {
+  command->callback([command, arguments, &settings] {
+    if (arguments->shape == "cylinder" &&
+        command->count("--size") + command->count("--spacing") + command->count("--seed") > 0) {
+      throw std::invalid_argument("the cylinder is always the same; leave --size, --spacing and --seed out");
+    }
     StageFolder folder(arguments->out, *settings.interruption);
     if (arguments->shape == "cylinder") {
       write_cylinder(folder.path());
     } else {
       write_phantom(arguments->options, folder.path());
     }
-    refuse_others_files(folder.path(), arguments->out);
+    folder.refuse_others_files();
     folder.merge();
   });
 }

@@ -2,8 +2,6 @@
 #include <memory>
 
 #include "pipelines/commands/commands.hpp"
-#include "pipelines/runner/stage_record.hpp"
-#include "register/files/register_fields.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -17,12 +15,8 @@ struct RegisterArguments {
 void register_images(const RegisterArguments& arguments, const Settings& settings) {
   RegisterJob job = arguments.job;
   job.options = arguments.scene.registration;
-  const auto earlier = read_stage_record(arguments.out);
   run_single_stage(StageId::registration, arguments.out, settings,
                    [&](const auto& folder, const Progress& progress) { return run_job(job, folder, progress); });
-  if (earlier && earlier->artefacts.contains(registration::removed_name)) {  // this command knows no resection
-    std::filesystem::remove(arguments.out / registration::removed_name);
-  }
 }
 
 }  // namespace

@@ -65,6 +65,12 @@ void explain_all(const Scene& scene, const SceneArguments& arguments, const Sett
 }
 
 void look_at_scene(const SceneArguments& arguments, const Settings& settings) {
+  const bool of_a_scene = !arguments.check.empty() || !arguments.explain.empty();
+  if (!of_a_scene && (!arguments.preset.empty() || !arguments.overrides.empty())) {
+    throw std::invalid_argument(
+        "--preset and --set are of a scene that is there, for --check and --explain; leave them out, and give them to "
+        "'brainshift run'");
+  }
   if (arguments.defaults) {
     std::cout << default_scene();
   } else if (arguments.options) {
@@ -95,7 +101,7 @@ void add_files_at_hand(CLI::App& command, CLI::Option& make, FilesAtHand& files)
   const std::tuple<const char*, std::filesystem::path&, const char*> images[] = {
       {"--t1", files.t1, "the preoperative image"},
       {"--labels", files.labels, "its label map"},
-      {"--brain-mask", files.brain_mask, "or a mask of its brain; a T1 without its skull is its own"},
+      {"--brain-mask", files.brain_mask, "or a mask of its brain, as a T1 without its skull is"},
       {"--tumour", files.tumour, "a label map of the tumour"}};
   for (const auto& [name, file, help] : images) {
     command.add_option(name, file, help)->type_name("FILE")->needs(&make);

@@ -173,9 +173,12 @@ Scene scene_of(const SlicerArguments& arguments, const fs::path& folder) {
   for (const std::string& sentence : made.taken) {
     std::cout << printable(sentence) << '\n';
   }
-  std::vector<std::string> options = preset_overrides(arguments.value("preset"));
+  std::vector<std::string> options;
   for_each_parameter(Kind::option, [&](const SlicerParameter& option) {
-    if (arguments.values.contains(option.flag) && !option.path.empty() && option.flag != "labels_are") {
+    if (option.flag == "preset") {
+      const bool given = arguments.values.contains(option.flag);
+      options = preset_overrides(given ? arguments.value(option.flag) : option.default_value);
+    } else if (arguments.values.contains(option.flag) && !option.path.empty() && option.flag != "labels_are") {
       options.push_back(option.path + "=" + arguments.value(option.flag));
     }
   });
@@ -261,9 +264,9 @@ void write_returned(const SlicerArguments& arguments, const RunOutcome& outcome)
   for_each_parameter(Kind::returned, [&](const SlicerParameter& returned) {
     const auto measure = measures.find(returned.flag);
     text += returned.flag + " = " +
-            (returned.flag == "warning"  ? printable(warnings_of(outcome))
-             : measure != measures.end() ? measure->dump()
-                                         : returned.default_value) +
+            (returned.flag == "warning"                         ? printable(warnings_of(outcome))
+             : measure != measures.end() && !measure->is_null() ? measure->dump()
+                                                                : returned.default_value) +
             "\n";
   });
   write_whole(arguments.return_file, text);

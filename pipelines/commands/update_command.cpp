@@ -39,8 +39,10 @@ StageReport answer(UpdatedRun& run, const fs::path& load, const fs::path& out,
   StageFolder folder(out, interruption);
   const StageReport report = run.answer(load, folder.path(), progress);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_stage_record(folder.path(),
-                     {.stamp = "", .failure = report.failure, .entry = stage_entry(report, seconds, peak_memory_mb())});
+  write_stage_record(folder.path(), {.stage = std::string(stage_name(StageId::solve)),
+                                     .stamp = "",
+                                     .failure = report.failure,
+                                     .entry = stage_entry(report, seconds, peak_memory_mb())});
   folder.replace();
   return report;
 }

@@ -52,7 +52,9 @@ void add_warp_command(CLI::App& program, const Settings& settings) {
   command->add_flag("--inverse", arguments->inverse, "the files are intraoperative; take them back");
   command->add_option("--like", arguments->job.like, "image whose grid warped images take; their own if absent")
       ->type_name("IMAGE");
-  command->add_option("--interpolation", arguments->interpolation, "of images; auto: label maps nearest, else linear")
+  command
+      ->add_option("--interpolation", arguments->interpolation,
+                   "of images; auto: label maps nearest, else linear; nearest takes label maps alone")
       ->check(CLI::IsMember({"auto", "nearest", "linear", "bspline"}))
       ->type_name("auto | nearest | linear | bspline")
       ->capture_default_str();

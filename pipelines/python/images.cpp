@@ -92,6 +92,9 @@ Image<T> image_of(const py::array& voxels, const RowMajor<double>& affine) {
   if (voxels.size() == 0) {
     throw std::invalid_argument("the image has no voxels");
   }
+  if (voxels.dtype().kind() == 'c') {
+    throw std::invalid_argument("the voxels are complex numbers; give their real part or their size");
+  }
   Image<T> image;
   const Eigen::Array3i size(static_cast<int>(voxels.shape(0)), static_cast<int>(voxels.shape(1)),
                             static_cast<int>(voxels.shape(2)));
@@ -183,6 +186,9 @@ ImageGeometry geometry_of(const Eigen::Array3i& size, const RowMajor<double>& af
     throw std::invalid_argument("affine must be an array of (4, 4) numbers");
   }
   const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(affine.data());
+  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+    throw std::invalid_argument("affine must have 0 0 0 1 as its last row");
+  }
   ImageGeometry geometry{.size = size,
                          .spacing = matrix.topLeftCorner<3, 3>().colwise().norm().transpose(),
                          .origin = matrix.topRightCorner<3, 1>()};

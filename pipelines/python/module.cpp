@@ -106,6 +106,10 @@ solve::Material material_of(const py::handle& given) {
 std::map<std::int32_t, solve::Material> materials_of(const py::dict& given) {
   std::map<std::int32_t, solve::Material> materials;
   for (const auto& [label, material] : given) {
+    if (!py::isinstance<py::int_>(label) && !py::hasattr(label, "__index__")) {
+      throw py::type_error("materials has the key " + py::repr(label).cast<std::string>() +
+                           "; a whole number, the label of a tissue, is expected");
+    }
     materials[label.cast<std::int32_t>()] = material_of(material);
   }
   return materials;
@@ -274,6 +278,7 @@ std::vector<std::string> warp_files(const std::filesystem::path& run, const std:
   pipelines::refuse_stage_folder(out);
   pipelines::StageFolder folder(out, interruption);
   const std::vector<std::string> notes = pipelines::warp_files(job, folder.path());
+  pipelines::remove_values_of_earlier(job.files, folder.path(), out);
   folder.merge();
   return notes;
 }
@@ -350,13 +355,26 @@ PYBIND11_MODULE(_core, m) {
       [](const std::filesystem::path& out, const py::kwargs& named) {
         pipelines::PhantomOptions options;
         set_options(pipelines::phantom_options(), named, options);
-        pipelines::write_phantom(options, out);
+        pipelines::Interruption interruption;
+        pipelines::StageFolder folder(out, interruption);
+        pipelines::write_phantom(options, folder.path());
+        folder.refuse_others_files();
+        folder.merge();
       },
       py::arg("out"),
       ("Writes a synthetic head with its load and its scene.xml into a folder." +
        options_help(pipelines::phantom_options(), pipelines::PhantomOptions{}))
           .c_str());
-  m.def("set_threads", &pipelines::set_threads, py::arg("threads"), "Threads to use; results do not depend on it.");
+  m.def(
+      "set_threads",
+      [](int threads) {
+        if (threads < 1) {
+          throw std::invalid_argument("threads is " + std::to_string(threads) +
+                                      "; a whole number from 1 on is expected");
+        }
+        pipelines::set_threads(threads);
+      },
+      py::arg("threads"), "Threads to use; results do not depend on it.");
   m.attr("__version__") = BRAINSHIFT_VERSION;
 }
 

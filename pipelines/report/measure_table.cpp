@@ -26,6 +26,8 @@ struct Rule {
   const char* meaning;
 };
 
+constexpr const char* constraint_error = "/solve/measures/constraint_error_mm";
+
 constexpr Rule rules[] = {
     {"segment", "/segment/measures/brain/boundary_distance_95_mm", "mm", -infinity, 1, false, "at most 1 mm",
      "distance of the brain's surface from the edge of its label, 95 % of the surface"},
@@ -33,7 +35,7 @@ constexpr Rule rules[] = {
      "bound of what further steps could still move a node"},
     {"solve", "/solve/measures/estimated_error_95_mm", "mm", -infinity, infinity, false, "",
      "estimated error of the displacement from the spacing of the nodes, 95 % of the brain"},
-    {"solve", "/solve/measures/constraint_error_mm", "mm", -infinity, 0.05, false, "at most 0.05 mm",
+    {"solve", constraint_error, "mm", -infinity, 0.05, false, "at most 0.05 mm",
      "largest miss of the measured displacement at a node of the opening"},
     {"solve", "/solve/measures/largest_penetration_mm", "mm", -infinity, 0.5, false, "at most 0.5 mm",
      "how far the worst node lies outside the skull"},
@@ -81,9 +83,15 @@ Verdict judge(bool good) {
   return good ? Verdict::within : Verdict::outside;
 }
 
+// Without a measured displacement there is none to miss.
+bool concerns(const Rule& rule, const json& record) {
+  return std::string_view(rule.pointer) != constraint_error ||
+         number_at(record, "/solve/sizes/loaded_nodes").value_or(1) > 0;
+}
+
 void add_rule(std::vector<MeasureRow>& rows, const json& record, const Rule& rule) {
   const auto value = number_at(record, rule.pointer);
-  if (!value) {
+  if (!value || !concerns(rule, record)) {
     return;
   }
   const std::string bound = rule.bound;
@@ -137,7 +145,7 @@ std::string readable(double value) {
   }
   char text[400];
   const bool whole = value == std::round(value);
-  if (!whole && std::abs(value) < 1000) {
+  if (!whole && std::abs(value) < 999.5) {
     std::snprintf(text, sizeof text, "%.3g", value);
     return text;
   }

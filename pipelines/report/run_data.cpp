@@ -10,6 +10,7 @@
 #include "pipelines/checksum/sha256.hpp"
 #include "register/files/register_fields.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/options/values.hpp"
 #include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
@@ -118,6 +119,15 @@ solve::Dynamics dynamics_of(const json& record) {
   const json::json_pointer place("/options/solve/dynamics");
   return record.contains(place) && record.at(place) == "transient" ? solve::Dynamics::transient
                                                                    : solve::Dynamics::relaxation;
+}
+
+bool is_taken_out(const RunData& run, const Eigen::Vector3d& place) {
+  const json::json_pointer labels("/options/resection/labels");
+  if (!run.labels || !run.record.contains(labels)) {
+    return false;
+  }
+  const auto numbers = read_numbers<std::uint16_t>(run.record.at(labels).get<std::string>());
+  return numbers && std::ranges::find(*numbers, label_at(*run.labels, place)) != numbers->end();
 }
 
 Points loaded_positions(const Solution& solution) {

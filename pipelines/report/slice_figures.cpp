@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "register/field/nodal_values.hpp"
 #include "register/warp/warp.hpp"
+#include "segmentation/labels/label_table.hpp"
 
 namespace brainshift::pipelines {
 
@@ -76,11 +78,17 @@ Figure lettered(Sheet sheet, const std::string& title) {
 // What closing took in, as a label of the picture; no map holds it.
 constexpr std::int32_t taken_in = -1;
 
-// Far apart for labels that are near each other.
-Colour colour_of_label(std::int32_t label) {
-  constexpr Colour colours[] = {{150, 150, 150}, {240, 200, 90},  {80, 140, 255},  {230, 70, 70},
-                                {90, 220, 220},  {245, 245, 245}, {200, 140, 110}, {130, 210, 90}};
-  return label == taken_in ? Colour{255, 60, 220} : colours[static_cast<std::size_t>(label) % std::size(colours)];
+// Far apart for labels that are near each other. Each round is darker.
+std::map<std::int32_t, Colour> colours_of_labels(const LabelMap& labels) {
+  constexpr Colour colours[] = {{240, 200, 90},  {80, 140, 255},  {230, 70, 70},  {90, 220, 220},
+                                {245, 245, 245}, {200, 140, 110}, {130, 210, 90}, {150, 150, 150}};
+  std::map<std::int32_t, Colour> of = {{taken_in, {255, 60, 220}}};
+  for (std::size_t place = 0; const auto& [label, volume] : segmentation::label_volumes(labels)) {
+    const double share = std::pow(0.7, static_cast<double>(place / std::size(colours)));
+    of[label] = blend(colour::black, colours[place % std::size(colours)], share);
+    ++place;
+  }
+  return of;
 }
 
 bool in_opening(const View& view, const Vector3d& place) {
@@ -198,12 +206,13 @@ Figure labels_figure(const RunData& run, const View& view, const Slice& slice) {
   const SlicePlane& plane = slice.plane;
   Canvas canvas = grey(view, plane, slice.t1);
   const double share = slice.t1.empty() ? 0.75 : 0.35;
+  const std::map<std::int32_t, Colour> colours = colours_of_labels(*run.labels);
   std::set<std::int32_t> shown;
   for (std::size_t pixel = 0; pixel < canvas.pixels.size(); ++pixel) {
     const Vector3d place = centre_of(plane, pixel);
     const bool closed = run.closed && label_at(*run.closed, place) != 0;
     if (const std::int32_t label = closed ? taken_in : label_at(*run.labels, place); label != 0) {
-      canvas.pixels[pixel] = blend(canvas.pixels[pixel], colour_of_label(label), share);
+      canvas.pixels[pixel] = blend(canvas.pixels[pixel], colours.at(label), share);
       shown.insert(label);
     }
   }
@@ -212,7 +221,7 @@ Figure labels_figure(const RunData& run, const View& view, const Slice& slice) {
   double line = 40;
   for (const std::int32_t label : shown) {
     const std::string name = label == taken_in ? "taken in" : name_of_label(run.record, label);
-    sheet.svg.rectangle({10, line - 6}, {12, 12}, colour_of_label(label));
+    sheet.svg.rectangle({10, line - 6}, {12, 12}, colours.at(label));
     sheet.svg.text({28, line}, name, {.fill = colour::white, .halo = true});
     line += 18;
   }

@@ -24,7 +24,7 @@ constexpr double depth_of_planes = 12;
 struct Slice {
   SlicePlane plane;
   std::vector<Segment> outline;     ///< of the brain before, pixels
-  std::vector<std::size_t> inside;  ///< pixels whose centres lie in it
+  std::vector<std::size_t> inside;  ///< pixels whose centres lie in tissue of it that is not taken out
   std::vector<float> t1;            ///< one value a pixel; none where there is no T1
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/external_command.hpp"
+#include "segmentation/files/whole_path.hpp"
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -21,7 +22,7 @@ namespace {
 
 std::string quoted(const std::filesystem::path& path) {
   std::string text = "'";
-  for (const char c : std::filesystem::absolute(path).lexically_normal().string()) {
+  for (const char c : whole_path(path).string()) {
     text += c == '\'' ? "'\\''" : std::string(1, c);
   }
   return text + "'";

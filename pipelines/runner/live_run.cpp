@@ -18,6 +18,7 @@
 #include "register/warp/warp.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/files/whole_path.hpp"
 #include "solve/output/solution_file.hpp"
 
 namespace brainshift::pipelines {
@@ -60,7 +61,7 @@ void check_image(const fs::path& run, const fs::path& t1) {
 
 LiveRun::LiveRun(const fs::path& run, bool with_image, std::optional<solve::Device> device, Interruption& interruption,
                  const Progress& progress)
-    : run_(fs::absolute(run).lexically_normal()), live_(run_ / "live"), device_(device), interruption_(interruption) {
+    : run_(whole_path(run)), live_(run_ / "live"), device_(device), interruption_(interruption) {
   updated_.emplace(run_, interruption_, progress, device_);
   not_kept_ = updated_->not_kept();
   const Scene& scene = updated_->scene();

@@ -6,22 +6,22 @@
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/scene_labels.hpp"
+#include "segmentation/files/whole_path.hpp"
 
 namespace brainshift::pipelines {
 
 nlohmann::ordered_json begin_run_record(const Scene& scene, InputStates& states) {
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array();
   for (const InputFile& file : scene_files(scene)) {
-    inputs.push_back({{"role", file.role},
-                      {"path", std::filesystem::absolute(file.path).lexically_normal().string()},
-                      {"sha256", states.sha256(file.path)}});
+    inputs.push_back(
+        {{"role", file.role}, {"path", whole_path(file.path).string()}, {"sha256", states.sha256(file.path)}});
   }
   nlohmann::ordered_json names = nlohmann::ordered_json::object();
   for (const auto& [label, name] : label_names(scene)) {
     names[std::to_string(label)] = name;
   }
   nlohmann::ordered_json record = {{"version", BRAINSHIFT_VERSION},
-                                   {"scene", std::filesystem::absolute(scene.source.file).lexically_normal().string()},
+                                   {"scene", whole_path(scene.source.file).string()},
                                    {"scene_sha256", states.sha256(scene.source.file)},
                                    {"inputs", std::move(inputs)},
                                    {"options", effective_options(scene)},

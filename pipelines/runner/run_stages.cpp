@@ -109,7 +109,8 @@ StageRecord make_stage(const StagePlan& plan, const fs::path& folder, InputState
   for (const InputFile& input : plan.inputs) {
     states.check_unchanged(input.path);
   }
-  const StageRecord record{.stamp = stamp(plan, states),
+  const StageRecord record{.stage = std::string(stage_name(plan.stage)),
+                           .stamp = stamp(plan, states),
                            .failure = report.failure,
                            .entry = stage_entry(report, seconds.count(), peak_memory_mb())};
   write_stage_record(unfinished.path(), record);

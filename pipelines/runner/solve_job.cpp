@@ -221,6 +221,16 @@ void note_replaced(const SolveJob& job, const solve::Conditions& own, std::vecto
   }
 }
 
+/// Of cells that the body's surface cuts: without it, where the body ends between their corners.
+void note_unknown_boundary(const SolveJob& job, const solve::Model& model, std::vector<std::string>& notes) {
+  const bool cut = std::ranges::any_of(model.cells.inside_fraction, [](double share) { return share < 1; });
+  if (job.surface.empty() && cut && !is_planar(model.cells.kind)) {
+    notes.push_back("warning: " + job.cells.string() +
+                    " has cells that lie in the body in part, and no surface says where it ends: at its surface the "
+                    "answer may be off by a tenth of what moves; give the body's surface (--surface)");
+  }
+}
+
 /// A segmentation that another program made, or that was edited, may hold a number that the scene has no tissue for.
 void check_labels(const SolveJob& job, const solve::Model& model) {
   if (!model.labels || !job.other_labels) {
@@ -273,6 +283,7 @@ SolveInput read_input(const SolveJob& job) {
   if (!job.surface.empty()) {
     model.boundary = read_surface(job.surface);
   }
+  note_unknown_boundary(job, model, input.notes);
   if (!job.skull.empty()) {
     model.skull = read_surface(job.skull);
   }

@@ -6,9 +6,11 @@
 #include <string>
 #include <system_error>
 
+#include "pipelines/checksum/sha256.hpp"
 #include "pipelines/runner/own_folder.hpp"
 #include "segmentation/files/make_folder.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/whole_path.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -53,7 +55,7 @@ fs::path place_of(const fs::path& named) {
   if (named.empty()) {
     throw std::invalid_argument("the folder to write to has no name; give one with --out");
   }
-  fs::path place = fs::absolute(named).lexically_normal();
+  fs::path place = whole_path(named);
   place = place.has_filename() ? place : place.parent_path();  // a trailing slash
   std::error_code unknown;
   if (fs::exists(place, unknown) && !fs::is_directory(place, unknown)) {
@@ -113,6 +115,16 @@ void StageFolder::replace() {
   move(partial_, place_);
   replaced_ = true;
   remove_own_folder(old);
+}
+
+void StageFolder::refuse_others_files(const std::set<std::string>& own) const {
+  for (const auto& entry : fs::recursive_directory_iterator(partial_)) {
+    const fs::path name = entry.path().lexically_relative(partial_), there = place_ / name;
+    if (entry.is_regular_file() && fs::exists(there) && !own.contains(name.generic_string()) &&
+        (!fs::is_regular_file(there) || sha256_of_file(there) != sha256_of_file(entry.path()))) {
+      refuse(there, "another file of that name lies here already; choose another folder, or move it away");
+    }
+  }
 }
 
 void StageFolder::merge() {

@@ -33,11 +33,9 @@ nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, do
 }
 
 void write_stage_record(const std::filesystem::path& folder, const StageRecord& record) {
-  const nlohmann::ordered_json json = {{"version", BRAINSHIFT_VERSION},
-                                       {"stamp", record.stamp},
-                                       {"failure", record.failure},
-                                       {"entry", record.entry},
-                                       {"artefacts", artefacts_in(folder)}};
+  const nlohmann::ordered_json json = {{"version", BRAINSHIFT_VERSION}, {"stage", record.stage},
+                                       {"stamp", record.stamp},         {"failure", record.failure},
+                                       {"entry", record.entry},         {"artefacts", artefacts_in(folder)}};
   write_whole(folder / "stage.json", json_text(json));
 }
 
@@ -48,12 +46,16 @@ std::optional<StageRecord> read_stage_record(const std::filesystem::path& folder
     return json.contains(name) && json[name].type() == type;
   };
   using Type = nlohmann::ordered_json::value_t;
-  if (!json.is_object() || !has("stamp", Type::string) || !has("failure", Type::string) ||
-      !has("entry", Type::object) || !has("artefacts", Type::object)) {
+  const bool names_stage = json.contains("stage");  // earlier versions do not
+  if (!json.is_object() || (names_stage && !has("stage", Type::string)) || !has("stamp", Type::string) ||
+      !has("failure", Type::string) || !has("entry", Type::object) || !has("artefacts", Type::object)) {
     return std::nullopt;
   }
-  return StageRecord{
-      .stamp = json["stamp"], .failure = json["failure"], .entry = json["entry"], .artefacts = json["artefacts"]};
+  return StageRecord{.stage = names_stage ? json["stage"] : "",
+                     .stamp = json["stamp"],
+                     .failure = json["failure"],
+                     .entry = json["entry"],
+                     .artefacts = json["artefacts"]};
 }
 
 }  // namespace brainshift::pipelines

@@ -13,6 +13,7 @@ namespace brainshift::pipelines {
 /// stage.json, in each stage's folder: what it was made from and what the stage said of itself. It travels with the
 /// folder, so that folder and stamp cannot disagree.
 struct StageRecord {
+  std::string stage;  ///< its name
   std::string stamp;
   std::string failure;
   nlohmann::ordered_json entry;                                         ///< the stage's entry in run.json

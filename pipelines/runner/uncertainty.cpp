@@ -315,7 +315,8 @@ void write_covariance(const fs::path& file, const Points& places, const solve::S
     covariance += result.measures.measured->covariance;
   }
   std::ofstream stream(file);
-  stream << "# frame: LPS\nx,y,z,xx,yy,zz,xy,yz,zx\n";
+  stream << "# frame: LPS\n"
+         << (known ? "# of the load's noise alone: constants are taken as known\n" : "") << "x,y,z,xx,yy,zz,xy,yz,zx\n";
   for (Eigen::Index row = 0; row < places.rows(); ++row) {
     stream << places(row, 0) << ',' << places(row, 1) << ',' << places(row, 2);
     for (const double entry : covariance.row(row)) {

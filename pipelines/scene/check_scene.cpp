@@ -59,6 +59,14 @@ void check_image(const Scene& scene) {
     fail(scene, "image.labels_are",
          "labels_are says what the label map's numbers are, so tissues are named by class, not by label");
   }
+  for (const char* own : {"skull_label", "other_labels"}) {
+    if (const std::string path = std::string("image.") + own;
+        scene.source.lines.contains(path) && label_reading(scene).by_class) {
+      fail(scene, path,
+           path + " is a number of the label map, but its tissues are named by class: " + own +
+               " would say nothing; leave it out, or name a <tissue> for each label");
+    }
+  }
   if (!image.tumour.empty() && !image.tumour_mask.empty()) {
     fail(scene, "image.tumour", "<image> names a tumour and a tumour_mask; give one of them");
   }

@@ -2,6 +2,7 @@
 #include "pipelines/scene/check_tissues.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -67,6 +68,18 @@ bool by_class(const Tissue& tissue) {
   return tissue.tissue_class != 0;
 }
 
+/// Whether Young's modulus was written beside or after what gives a tissue its law: a state or the command line may
+/// change the law of a tissue that had one.
+bool modulus_is_last(const Scene& scene, const std::string& tissue) {
+  const auto order_of = [&](const char* name) {
+    const auto found = scene.source.lines.find(tissue + name);
+    const bool by_command = found != scene.source.lines.end() && found->second == 0;
+    return found == scene.source.lines.end() ? 0 : by_command ? std::numeric_limits<int>::max() : found->second;
+  };
+  const int modulus = order_of(".youngs_modulus");
+  return modulus > 0 && modulus >= std::max(order_of(".law"), order_of(".material"));
+}
+
 /// Of tissues named by class.
 void check_classes(const Scene& scene) {
   if (!std::all_of(scene.tissues.begin(), scene.tissues.end(), by_class)) {
@@ -84,7 +97,13 @@ void check_tissues(const Scene& scene) {
     fail(scene, "tissues", "the scene has no <tissues>; name a tissue with its material for each label of the brain");
   }
   for (const Tissue& tissue : scene.tissues) {
-    check_at(scene, "tissues." + std::to_string(tissue.label), [&] { check_material(tissue); });
+    const std::string place = "tissues." + std::to_string(tissue.label);
+    check_at(scene, place, [&] { check_material(tissue); });
+    if (tissue.material.law == solve::Law::ogden && modulus_is_last(scene, place)) {
+      fail(scene, place + ".youngs_modulus",
+           place + " follows the law ogden, whose stiffness is in its terms, so that youngs_modulus would change " +
+               "nothing; leave it out, or set law to another");
+    }
   }
   if (!is_ours(scene, StageId::segment)) {
     return;

@@ -14,6 +14,7 @@
 #include "segmentation/files/points_file.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/files/whole_path.hpp"
 #include "segmentation/interface/options.hpp"
 #include "segmentation/labels/label_table.hpp"
 #include "segmentation/labels/segmentation_file.hpp"
@@ -32,8 +33,8 @@ std::string in_millilitres(double volume) {
   return std::to_string(std::lround(volume / 1000)) + " ml";
 }
 
-/// An image of zeros around a head that was cut out: such a T1 is its own brain mask.
-bool is_skull_stripped(const ScalarImage& t1) {
+/// Zeros around a brain or a head that was cut out. Which of the two does not show: both may hold 1.5 l.
+bool has_empty_background(const ScalarImage& t1) {
   const auto zeros = std::count(t1.voxels.begin(), t1.voxels.end(), 0.0F);
   return 2 * static_cast<std::size_t>(zeros) > t1.voxels.size();
 }
@@ -113,11 +114,11 @@ class Writer {
 
   void look_at_t1() {
     const ScalarImage t1 = read_image(files_.t1);
-    const bool stripped = is_skull_stripped(t1);
-    take(files_.t1, "the T1, " + described(t1.geometry) + (stripped ? ", without its skull" : ""));
-    if (stripped && files_.labels.empty() && mask_.empty()) {
-      mask_ = files_.t1;
-      take(files_.t1, "the brain mask as well, where it is not 0; no label map was given");
+    take(files_.t1, "the T1, " + described(t1.geometry));
+    if (has_empty_background(t1) && files_.labels.empty() && mask_.empty()) {
+      refuse(files_.t1,
+             "says not which voxels are brain, and no label map is given; it is 0 outside: if it is without "
+             "its skull, give it a second time, as --brain-mask, else a mask of the brain");
     }
   }
 
@@ -216,7 +217,7 @@ class Writer {
 
   void write_load() {
     xml_.OpenElement("load");
-    if (files_.points.size() == 1 && files_.points[0].extension() != ".csv") {
+    if (files_.points.size() == 1 && in_lower_case(files_.points[0].extension().string()) != ".csv") {
       throw std::invalid_argument(files_.points[0].string() +
                                   ": markups and surfaces come in pairs, before and after; give both to --points");
     }
@@ -255,7 +256,7 @@ class Writer {
 
   void push_file(const char* name, const fs::path& file) {
     if (!file.empty()) {
-      xml_.PushAttribute(name, fs::absolute(file).lexically_normal().c_str());
+      xml_.PushAttribute(name, whole_path(file).c_str());
     }
   }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <regex>
 #include <stdexcept>
 
 #include "pipelines/scene/read_elements.hpp"
@@ -58,14 +57,23 @@ void require_options(const Scene& scene) {
   }
 }
 
+/// Whether a line holds the character of number 0, or its name in XML: "&#0;", "&#x00;".
+bool has_nul(const std::string& line) {
+  bool found = line.find('\0') != std::string::npos;
+  for (std::size_t at = line.find("&#"); at != std::string::npos && !found; at = line.find("&#", at + 2)) {
+    const std::size_t first = at + 2 < line.size() && line[at + 2] == 'x' ? at + 3 : at + 2;
+    const std::size_t end = line.find_first_not_of('0', first);
+    found = end != std::string::npos && end > first && line[end] == ';';
+  }
+  return found;
+}
+
 /// The parser ends a value at a character of number 0, so that a file's name would be none.
 void refuse_nul(const SceneSource& source) {
   std::ifstream stream(source.file, std::ios::binary);
-  static const std::regex nul("&#x?0+;");
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
-    if (line.find('\0') != std::string::npos ||
-        (line.find("&#") != std::string::npos && std::regex_search(line, nul))) {
+    if (has_nul(line)) {
       Where{source, number, ""}.fail("there is a character of number 0 here; remove it");
     }
   }

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
+#include <vector>
 
 #include "pipelines/scene/scene_table.hpp"
+#include "segmentation/files/whole_path.hpp"
 
 namespace brainshift::pipelines {
 
@@ -28,7 +31,7 @@ void set_value(const Option<T>& option, T& target, const std::string& value, con
     where.fail(where.element + " " + option.name + " holds a control character; a file's name is expected");
   }
   if (names_file(option, value)) {
-    stored = std::filesystem::absolute(where.source.file.parent_path() / value).lexically_normal().string();
+    stored = whole_path(where.source.file.parent_path() / value).string();
   }
   if (!set_option(option, target, stored)) {
     where.fail(where.element + " " + refusal(option, value));
@@ -139,6 +142,19 @@ std::string tissue_key(const tinyxml2::XMLElement& xml, const Where& where) {
   return std::to_string(tissue.tissue_class);
 }
 
+/// Throws where a number of the map would be of two tissues.
+void refuse_shared_labels(const Tissue& tissue, const std::vector<Tissue>& others, const Where& where) {
+  const auto numbers_of = [](const Tissue& of) { return of.labels.empty() ? std::vector{of.label} : of.labels; };
+  for (const Tissue& other : others) {
+    const std::vector<std::uint16_t> taken = numbers_of(other);
+    for (const std::uint16_t number : numbers_of(tissue)) {
+      if (std::ranges::find(taken, number) != taken.end()) {
+        where.fail("there are two tissues of label " + std::to_string(number) + "; take it out of one of them");
+      }
+    }
+  }
+}
+
 /// The number that the stages know the tissue by.
 void settle_label(Tissue& tissue, const Where& where) {
   if (tissue.label == 0) {
@@ -163,10 +179,7 @@ void read_tissues(const tinyxml2::XMLElement& xml, Scene& scene) {
     Tissue tissue;
     read_attributes(child, tissue_options(), tissue, path, scene.source);
     settle_label(tissue, where);
-    const auto same = [&](const Tissue& other) { return other.label == tissue.label; };
-    if (std::any_of(scene.tissues.begin(), scene.tissues.end(), same)) {
-      where.fail("there are two tissues of label " + std::to_string(tissue.label));
-    }
+    refuse_shared_labels(tissue, scene.tissues, where);
     scene.source.lines[path] = where.line;
     scene.tissues.push_back(std::move(tissue));
   });
@@ -253,8 +266,12 @@ void set_tissue_option(Scene& scene, const std::string& label, const std::string
 
 void change_tissues(const tinyxml2::XMLElement& xml, Scene& scene) {
   refuse_attributes(xml, scene.source);
+  std::set<std::string> changed;
   read_list(xml, "tissue", scene.source, [&](const tinyxml2::XMLElement& child, const Where& where) {
     const std::string key = tissue_key(child, where);
+    if (!changed.insert(key).second) {
+      where.fail("the state changes the tissue of label " + key + " twice; change it once");
+    }
     const auto found =
         std::ranges::find_if(scene.tissues, [&](const Tissue& tissue) { return std::to_string(tissue.label) == key; });
     if (found == scene.tissues.end()) {

@@ -109,6 +109,30 @@ void check_classes(const ImageInputs& image, const std::string& when, const Labe
   }
 }
 
+// Of tissues that list numbers: those of the map that none does.
+void note_unlisted(const ImageInputs& image, const LabelReading& reading, ReadLabels& read) {
+  if (reading.joined.empty()) {
+    return;
+  }
+  std::map<std::uint16_t, std::uint16_t> named = reading.joined;
+  for (const std::uint16_t number : image.other_labels) {
+    named.emplace(number, number);
+  }
+  const auto volumes = sg::label_volumes(read.map);
+  if (const std::string unlisted = sg::unknown_labels(volumes, {"", named}); !unlisted.empty()) {
+    read.notes.push_back(image.labels.string() + ": taken for not brain, as no tissue lists them: " + unlisted);
+  }
+  for (const std::uint16_t number : sg::enclosed_labels(read.map, reading.joined)) {
+    if (!named.contains(number)) {
+      read.notes.push_back(
+          "warning: " + image.labels.string() + ": label " + std::to_string(number) + " (" +
+          sg::in_millilitres(volumes.at(number)) +
+          ") lies within the brain, but no tissue lists it, and it counts as the tissue about it; list "
+          "it in a tissue, or in other_labels if it is not of the brain");
+    }
+  }
+}
+
 // Segments of 3D Slicer, whose names are taken unless the user says what the numbers are.
 bool are_named(const ImageInputs& image) {
   return image.labels_are.empty() && sg::names_tell(read_segments(image.labels));
@@ -118,12 +142,21 @@ bool are_named(const ImageInputs& image) {
 
 std::map<std::uint16_t, std::string> label_names(const Scene& scene) {
   namespace label = sg::default_label;
-  std::map<std::uint16_t, std::string> names = {{label::parenchyma, "parenchyma"}, {label::ventricles, "ventricles"},
-                                                {label::tumour, "tumour"},         {label::csf, "fluid"},
-                                                {label::skull, "skull"},           {label::skin, "skin"}};
+  std::map<std::uint16_t, std::string> names = {{label::csf, "fluid"}, {label::skull, "skull"}, {label::skin, "skin"}};
+  const bool own_numbers = !scene.image.labels.empty() && !label_reading(scene).by_class;
+  if (own_numbers) {
+    // What is not of the brain has its usual meaning only where the scene leaves it at that.
+    names = scene.source.lines.contains("image.other_labels") ? decltype(names){} : names;
+    if (scene.image.skull_label) {
+      names[*scene.image.skull_label] = "skull";
+    }
+  } else {
+    names.insert({{label::parenchyma, "parenchyma"}, {label::ventricles, "ventricles"}, {label::tumour, "tumour"}});
+  }
   for (const Tissue& tissue : scene.tissues) {
-    if (!tissue.name.empty()) {
-      names[tissue.label] = tissue.name;
+    const std::string& name = tissue.name.empty() && own_numbers ? tissue.named_material : tissue.name;
+    if (!name.empty()) {
+      names[tissue.label] = name;
     }
   }
   return names;
@@ -137,6 +170,11 @@ LabelReading label_reading(const Scene& scene) {
   for (const Tissue& tissue : scene.tissues) {
     for (const std::uint16_t number : tissue.labels) {
       reading.joined[number] = tissue.label;
+    }
+  }
+  for (const Tissue& tissue : scene.tissues) {
+    if (!reading.joined.empty() && tissue.labels.empty()) {
+      reading.joined[tissue.label] = tissue.label;
     }
   }
   return reading;
@@ -156,6 +194,7 @@ ReadLabels read_labels(const ImageInputs& image, const LabelReading& reading) {
   auto [map, notes] = sg::read_by_numbers(image.labels);
   ReadLabels result{std::move(map), std::move(notes)};
   if (!reading.by_class) {
+    note_unlisted(image, reading, result);
     sg::renumber(result.map, reading.joined, sg::Unnamed::stay);
     return result;
   }

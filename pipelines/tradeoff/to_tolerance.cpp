@@ -28,9 +28,14 @@ constexpr std::size_t first_nodes = 1000;
 constexpr double stop_share = 0.05;   // of the tolerance, left to stepping
 constexpr double mb_per_node = 0.04;  // of the solve stage, measured: 33 kB and what the image takes
 
-void check(const Scene& scene, double tolerance, const RunOptions& options) {
+void check(const Scene& scene, const Tolerance& wanted, const RunOptions& options) {
+  const double tolerance = wanted.error;
   if (!(tolerance > 0) || !std::isfinite(tolerance)) {
     throw std::invalid_argument("--tolerance is " + std::to_string(tolerance) + ", but must be a number > 0 (mm)");
+  }
+  if (wanted.most_nodes.value_or(first_nodes) < first_nodes) {
+    throw std::invalid_argument("--max-nodes is " + std::to_string(*wanted.most_nodes) +
+                                ", but a run to a tolerance begins with " + std::to_string(first_nodes) + " nodes");
   }
   if (options.until < StageId::solve) {
     throw std::invalid_argument("a run to a tolerance solves: --until must be solve or a later stage");
@@ -186,7 +191,7 @@ ToleranceOutcome run_to_tolerance(const Scene& scene, const Tolerance& wanted, c
                                   Interruption& interruption, const RunObserver& observer,
                                   const std::function<void(const Level&)>& level_done) {
   const double tolerance = wanted.error;
-  check(scene, tolerance, options);
+  check(scene, wanted, options);
   ToleranceOutcome outcome;
   RunOptions segment = options;
   segment.until = StageId::segment;

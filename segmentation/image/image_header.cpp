@@ -31,7 +31,8 @@ void check_shape(const fs::path& file, const ImageHeader& header, std::uint64_t 
   }
   if (header.components != components) {
     refuse(file, std::to_string(components) + " value(s) a voxel are needed, the file holds " +
-                     std::to_string(header.components));
+                     std::to_string(header.components) +
+                     "; of a segmentation in layers export one label map, of colours one channel");
   }
   if (values > static_cast<double>(most_values)) {
     constexpr double bytes_a_value = 30;  // of a whole head at the most, measured on heads of 256³

@@ -141,4 +141,36 @@ std::string unknown_labels(const LabelVolumes& volumes, const LabelTable& table)
   return unknown.size() > most ? text + " and " + std::to_string(unknown.size() - most) + " more" : text;
 }
 
+std::vector<std::uint16_t> enclosed_labels(const LabelMap& labels,
+                                           const std::map<std::uint16_t, std::uint16_t>& brain) {
+  std::vector<std::int64_t> balance(all_numbers);  // faces to the brain less faces to anything else
+  const auto note_face = [&](std::uint16_t number, std::uint16_t beside) {
+    if (number != beside) {
+      balance[number] += brain.contains(beside) ? 1 : -1;
+    }
+  };
+  const Eigen::Array3i size = labels.geometry.size;
+  for (int k = 0; k < size.z(); ++k) {
+    for (int j = 0; j < size.y(); ++j) {
+      for (int i = 0; i < size.x(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+          Eigen::Array3i next(i, j, k);
+          if (++next[axis] < size[axis]) {
+            const std::uint16_t here = labels.at(i, j, k), there = labels.at(next.x(), next.y(), next.z());
+            note_face(here, there);
+            note_face(there, here);
+          }
+        }
+      }
+    }
+  }
+  std::vector<std::uint16_t> enclosed;
+  for (std::size_t number = 1; number < all_numbers; ++number) {
+    if (balance[number] > 0 && !brain.contains(static_cast<std::uint16_t>(number))) {
+      enclosed.push_back(static_cast<std::uint16_t>(number));
+    }
+  }
+  return enclosed;
+}
+
 }  // namespace brainshift::segmentation

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "segmentation/files/lower_case.hpp"
+#include "segmentation/files/point_table.hpp"
 #include "segmentation/files/points_file.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
@@ -47,6 +48,13 @@ NamedPoints read_list(const std::filesystem::path& path) {
     refuse(path, points.not_placed().front() + " has not been placed; place or delete it");
   }
   return {path, points.positions(), points.labels(), points.labels()};
+}
+
+/// A table of displacements is a load by itself: of a pair of them only the places would count.
+void refuse_displacements(const std::filesystem::path& file) {
+  if (in_lower_case(file.extension().string()) == ".csv" && read_point_table(file).find_column("ux")) {
+    refuse(file, "holds displacements (a column ux), not points before or after; give it alone, as the craniotomy");
+  }
 }
 
 /// Where the two do not name the same points letter for letter, "Vein " names what "vein" does.
@@ -111,6 +119,8 @@ Partners partners(const NamedPoints& before, const NamedPoints& after) {
 }  // namespace
 
 CraniotomyLoad read_markups(const std::filesystem::path& before, const std::filesystem::path& after) {
+  refuse_displacements(before);
+  refuse_displacements(after);
   NamedPoints first = read_list(before), second = read_list(after);
   compare_by_letters_alone(first, second);
   const Partners paired = partners(first, second);

@@ -292,6 +292,25 @@ TEST_F(Run, StagesAloneGiveWhatTheRunGave) {
     EXPECT_EQ(contents_of(out + file), contents_of(r + file)) << file;
   }
   EXPECT_TRUE(fs::exists(out + "/register/warped_brain.vtp"));
+  const ProgramResult twice = run_shell("brainshift report " + r + " --out " + out + "/segment");
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_NE(twice.err.find("the folder of the stage segment"), std::string::npos) << twice.err;
+}
+
+TEST_F(Run, AStageAloneDoesNotWriteOverItsUsersFiles) {
+  const std::string mine = (*scratch / "mine").string(), labels = "/labels.nii.gz";
+  fs::create_directory(mine);
+  LabelMap map = read_label_map(head_folder() + labels);
+  for (std::uint16_t& label : map.voxels) {
+    label = label == 6 ? std::uint16_t{0} : label;
+  }
+  write_image(mine + labels, map);
+  const std::string before = contents_of(mine + labels);
+  const ProgramResult result = run_shell("brainshift segment --labels " + mine + labels +
+                                         " --brain-labels 1 2 3 --skull-label 5 --edge-length 15 --out " + mine);
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("another file of that name"), std::string::npos) << result.err;
+  EXPECT_EQ(contents_of(mine + labels), before);
 }
 
 TEST_F(Run, ALoadOfMarkupsIsThatOfTheirDisplacements) {

@@ -114,6 +114,10 @@ TEST_F(Tolerance, RunSaysWhatItReachedWhereItCouldNot) {
   EXPECT_TRUE(fs::exists(out / "report/index.html")) << "what was reached is carried to the end";
   EXPECT_GT(record(out)["stages"]["solve"]["measures"]["estimated_error_95_mm"], 0) << "the solve's own, of one level";
   EXPECT_EQ(run_shell("brainshift run " + scene() + " --tolerance 0 --out " + out.string()).code, 2);
+  const ProgramResult few =
+      run_shell("brainshift run " + scene() + " --tolerance 1 --max-nodes 999 --out " + out.string());
+  EXPECT_EQ(few.code, 2);
+  EXPECT_NE(few.err.find("begins with 1000 nodes"), std::string::npos) << few.err;
   EXPECT_EQ(run_shell("brainshift run " + scene() + " --tolerance 1 --preset fast --out " + out.string()).code, 2);
 }
 

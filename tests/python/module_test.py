@@ -104,6 +104,9 @@ class Faults(WithFolder):
         eye, ones = np.eye(4), np.ones((4, 4, 4))
         sheared = eye + np.eye(4, k=1) * [[1], [0], [0], [0]]
         self.refused("right angles", ValueError, brainshift.ScalarImage, ones, sheared)
+        self.refused("0 0 0 1", ValueError, brainshift.ScalarImage, ones, eye + np.eye(4, k=-1) * [[0], [0], [0], [5]])
+        self.refused("complex", ValueError, brainshift.ScalarImage, ones * 1j, eye)
+        self.refused("from 1 on", ValueError, brainshift.set_threads, -3)
         self.refused("whole numbers", ValueError, brainshift.LabelMap, ones * 1.5, eye)
         self.refused("whole numbers", ValueError, brainshift.LabelMap, -ones, eye)
         self.refused("not finite", ValueError, brainshift.ScalarImage, ones * np.nan, eye)
@@ -142,6 +145,8 @@ class Chain(WithFolder):
         body = brainshift.discretise(head.brain, labels, nodes=1000)
         load = brainshift.read_load(self.head / "craniotomy.csv")
         materials = {1: "brain", 2: "ventricle", 3: "tumour"}
+        with self.assertRaisesRegex(TypeError, "key 1.0; a whole number"):
+            brainshift.solve(body, {1.0: "brain"}, load, labels, head.skull, head.brain)
         moved = brainshift.solve(body, materials, load, labels, head.skull, head.brain)
         warped = brainshift.register(moved, head.brain, t1, labels)
         self.assertEqual(len(body.nodes), record["stages"]["solve"]["sizes"]["nodes"])

@@ -17,6 +17,14 @@ TEST(MeasureTable, JudgesByTheBound) {
   EXPECT_EQ(verdict_of(std::nan("")), Verdict::outside);
 }
 
+TEST(MeasureTable, WithoutAMeasuredDisplacementThereIsNoneToMiss) {
+  for (const int loaded : {0, 3}) {
+    const nlohmann::json record = {
+        {"stages", {{"solve", {{"sizes", {{"loaded_nodes", loaded}}}, {"measures", {{"constraint_error_mm", 0.0}}}}}}}};
+    EXPECT_EQ(quality_measures(record).size(), loaded > 0 ? 1U : 0U);
+  }
+}
+
 TEST(MeasureTable, ComparesVolumesAndFlagsAndLeavesOutWhatIsNotThere) {
   const nlohmann::json record = nlohmann::json::parse(R"({"stages": {"segment": {"measures": {"brain":
       {"closed": true, "self_intersecting": true, "volume_mm3": 98, "label_volume_mm3": 100}}}}})");
@@ -33,6 +41,8 @@ TEST(MeasureTable, NumbersHaveThreeFiguresAndWholeOnesAll) {
   EXPECT_EQ(readable(12), "12");
   EXPECT_EQ(readable(-1234567), "-1,234,567");
   EXPECT_EQ(readable(1234.6), "1,235");
+  EXPECT_EQ(readable(999.7), "1,000");
+  EXPECT_EQ(readable(999.4), "999");
   EXPECT_EQ(readable(std::nan("")), "not known");
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
+#include <set>
+
 #include "tests/unit/pipelines/report/small_run.hpp"
 
 namespace brainshift::pipelines::slice_figures_test {
@@ -65,6 +67,34 @@ TEST(SliceFigures, TheLabelsHaveAColourEachAndWhatWasTakenInOneOfItsOwn) {
   const Figure both = labels_figure(run, without_image, without_image.slices[1]);
   for (const char* name : {"label 1", "ventricles", "taken in"}) {
     EXPECT_NE(both.svg.find(name), std::string::npos) << name;
+  }
+}
+
+TEST(SliceFigures, LabelsFarApartHaveDifferentColours) {
+  RunData run = small_run();
+  const View view = make_view(run);
+  run.labels = LabelMap{run.t1->geometry, std::vector<std::uint16_t>(run.t1->voxels.size(), 1)};
+  std::fill_n(run.labels->voxels.begin(), run.labels->voxels.size() / 2, std::uint16_t{9});
+  tinyxml2::XMLDocument document;
+  document.Parse(labels_figure(run, view, view.slices[1]).svg.c_str());
+  std::set<std::string> colours;
+  for (const auto* e = document.RootElement()->FirstChildElement("rect"); e != nullptr;
+       e = e->NextSiblingElement("rect")) {
+    colours.insert(e->Attribute("fill"));
+  }
+  EXPECT_EQ(colours.size(), 3U) << "black, and two";
+}
+
+TEST(SliceFigures, TissueThatIsTakenOutDoesNotMove) {
+  RunData run = small_run();
+  run.labels = LabelMap{run.t1->geometry, std::vector<std::uint16_t>(run.t1->voxels.size(), 1)};
+  std::fill_n(run.labels->voxels.begin(), run.labels->voxels.size() / 2, std::uint16_t{2});
+  const std::size_t all = make_view(run).slices[0].inside.size();
+  run.record["options"]["resection"]["labels"] = "2 7";
+  const View view = make_view(run);
+  EXPECT_LT(view.slices[0].inside.size(), all);
+  for (const std::size_t pixel : view.slices[1].inside) {
+    EXPECT_EQ(label_at(*run.labels, centre_of(view.slices[1].plane, pixel)), 1);
   }
 }
 

@@ -16,10 +16,12 @@ class RunRecordTest : public RunFolder {};
 
 TEST_F(RunRecordTest, AStageRecordReadsBackAndADamagedOneIsNone) {
   write("brain.vtp", "surface");
-  write_stage_record(folder_,
-                     {.stamp = "stamp", .failure = "failure", .entry = {{"status", "failed"}}, .artefacts = {}});
+  write_stage_record(
+      folder_,
+      {.stage = "segment", .stamp = "stamp", .failure = "failure", .entry = {{"status", "failed"}}, .artefacts = {}});
   const auto record = read_stage_record(folder_);
   ASSERT_TRUE(record);
+  EXPECT_EQ(record->stage, "segment");
   EXPECT_EQ(record->stamp, "stamp");
   EXPECT_EQ(record->failure, "failure");
   EXPECT_EQ(record->entry["status"], "failed");

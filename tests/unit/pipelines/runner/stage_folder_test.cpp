@@ -36,6 +36,22 @@ TEST_F(StageFolderTest, ASingleStageKeepsOtherFilesOfItsFolder) {
   EXPECT_EQ(read(folder_ / "stage/made"), "new");
 }
 
+TEST_F(StageFolderTest, ASingleStageDoesNotTakeThePlaceOfAnothersFile) {
+  write("stage/labels", "a patient's");
+  write("stage/same", "same");
+  StageFolder finished(folder_ / "stage", interruption_);
+  std::ofstream(finished.path() / "same") << "same";
+  std::ofstream(finished.path() / "labels") << "ours";
+  EXPECT_NO_THROW(finished.refuse_others_files({"labels"}));
+  try {
+    finished.refuse_others_files();
+    FAIL() << "no fault";
+  } catch (const std::invalid_argument& fault) {
+    test::expect_parts(fault.what(), {"stage/labels", "another file of that name"});
+  }
+  EXPECT_EQ(read(folder_ / "stage/labels"), "a patient's");
+}
+
 TEST_F(StageFolderTest, ASingleStageWritesAFolderAnewUnlessOtherFilesWouldBeAmongIts) {
   write("stage/series/1", "old");
   {

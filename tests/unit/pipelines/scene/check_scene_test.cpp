@@ -63,6 +63,17 @@ TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
   expect_parts(fault(scene(image + two + load), {"solve.curve_join=straight"}), {"--set", "no curve"});
   expect_parts(fault(scene(image + two + load), {"tissues.3.law=ogden"}), {"scene.xml:2", "label 3", "no terms"});
   expect_parts(fault(scene(image + two + load), {"tissues.3.ogden=1,2"}), {"scene.xml:2", "1,2", "law neo_hookean"});
+  const std::string soft = "tissues.3.youngs_modulus=9", ogden = "tissues.3.material=brain_ogden";
+  expect_parts(fault(scene(image + two + load), {ogden, soft}), {"--set", "tissues.3", "ogden", "change nothing"});
+  EXPECT_EQ(
+      fault(scene(image + load + "<tissues><tissue label=\"1\"/><tissue label=\"3\" youngs_modulus=\"9\"/></tissues>"),
+            {ogden}),
+      "")
+      << "the command line sets all anew";
+  for (const std::string own : {"skull_label", "other_labels"}) {
+    expect_parts(fault(scene("<image labels=\"labels.nii.gz\" labels_are=\"freesurfer\" " + own + "=\"6\"/>" + load)),
+                 {"scene.xml:2", own, "named by class", "leave it out"});
+  }
   std::ofstream(folder_ / "curve.csv") << "time,factor\n0,0\n2,1\n";
   EXPECT_EQ(fault(scene(image + two + load), {"solve.curve=curve.csv"}), "");
   expect_parts(

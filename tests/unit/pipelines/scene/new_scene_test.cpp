@@ -122,11 +122,24 @@ TEST_F(MakeScene, OfSegmentsOf3DSlicerGoesByTheirNames) {
   expect_parts(made.taken[0], {"a.seg.nrrd", "3D Slicer", "parenchyma 10 ml, tumour 10 ml"});
 }
 
-TEST_F(MakeScene, TakesASkullStrippedT1ForItsOwnMask) {
-  const NewScene made = new_scene(
-      {.t1 = t1(100), .labels = {}, .labels_are = {}, .brain_mask = {}, .tumour = {}, .points = {write_load()}});
-  const Scene scene = parse(made.text);
+TEST_F(MakeScene, DoesNotGuessWhetherAnImageIsOfABrainOrAHeadAlone) {
+  FilesAtHand files{
+      .t1 = t1(100), .labels = {}, .labels_are = {}, .brain_mask = {}, .tumour = {}, .points = {write_load()}};
+  expect_parts(refusal(files), {"t1 & more", "not which voxels are brain", "second time, as --brain-mask"});
+  files.brain_mask = files.t1;
+  const Scene scene = parse(new_scene(files).text);
   EXPECT_EQ(scene.image.brain_mask, scene.image.t1);
+}
+
+TEST_F(MakeScene, TablesOfDisplacementsAreNoPair) {
+  const std::filesystem::path load = write_load();
+  const FilesAtHand files{.t1 = {},
+                          .labels = labels("f.nii.gz", freesurfer),
+                          .labels_are = {},
+                          .brain_mask = {},
+                          .tumour = {},
+                          .points = {load, load}};
+  expect_parts(refusal(files), {"load.csv", "holds displacements", "give it alone"});
 }
 
 TEST_F(MakeScene, SaysWhatIsMissing) {

@@ -183,6 +183,8 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
       {"<stage name=\"solve\" duration=\"0\"/>", {at + "2", "'0'", "> 0"}},
       {"<tissues><tissue name=\"a\"/></tissues>", {at + "2", "needs one of the attributes 'label'", "'class'"}},
       {"<tissues>\n<tissue label=\"1\"/>\n<tissue label=\"1\"/></tissues>", {at + "4", "two tissues of label 1"}},
+      {"<tissues><tissue labels=\"1 2\"/>\n<tissue labels=\"3 2\"/></tissues>", {at + "3", "two tissues of label 2"}},
+      {"<tissues><tissue labels=\"1 2\"/>\n<tissue label=\"2\"/></tissues>", {at + "3", "two tissues of label 2"}},
       {"<tissues><tissue label=\"1\" class=\"tumour\"/></tissues>", {at + "2", "needs one of"}},
       {"<tissues><tissue labels=\"\"/></tissues>", {at + "2", "no label and no class"}},
       {"<tissues><tissue labels=\"9-2\"/></tissues>", {at + "2", "'9-2'", "10-13 is 10 11 12 13"}},
@@ -220,6 +222,23 @@ TEST_F(SceneFile, FaultsNameFileAndLineAndWhatIsAllowed) {
   expect_parts(fault("<scene>\n<image t1=\"&#0;\"/></scene>"), {"scene.xml:2", "character of number 0"});
   expect_parts(fault("<scene>\n<image t1=\"&#x00;t1.nii\"/></scene>"), {"scene.xml:2", "character of number 0"});
   expect_parts(fault("<scene>\n<image t1=\"t&#27;[1.nii\"/></scene>"), {"scene.xml:2", "control character"});
+}
+
+TEST_F(SceneFile, ALongRowOfZerosIsNoCharacterAndNoEndOfTheProgram) {
+  EXPECT_NO_THROW(parse("<scene>\n<!-- &#" + std::string(400000, '0') + " &#x &# &#01; --></scene>"));
+  expect_parts(fault("<scene>\n<!-- &#x" + std::string(400000, '0') + "; --></scene>"), {"scene.xml:2", "number 0"});
+}
+
+/// As the system has it: the folder above the one that the link leads to.
+TEST_F(SceneFile, TheFolderAboveALinkIsThatOfTheFolderItLeadsTo) {
+  namespace fs = std::filesystem;
+  fs::create_directories(folder_ / "real/deep");
+  fs::create_directories(folder_ / "top");
+  fs::create_directory_symlink(folder_ / "real/deep", folder_ / "top/link");
+  std::ofstream(folder_ / "top/link/s.xml") << "<scene><image t1=\"../t1.nii\" labels=\"l.nii\"/></scene>";
+  const Scene scene = parse_scene(folder_ / "top/link/s.xml", {});
+  EXPECT_EQ(scene.image.t1, fs::canonical(folder_) / "real/t1.nii");
+  EXPECT_EQ(scene.image.labels, folder_ / "top/link/l.nii") << "other links keep their names";
 }
 
 TEST_F(SceneFile, FaultsOfOverridesNameThePath) {

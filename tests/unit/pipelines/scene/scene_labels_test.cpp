@@ -74,6 +74,17 @@ TEST(LabelNames, AreThoseOfTheTissuesElseTheUsualOnes) {
   EXPECT_EQ(names.at(12), "falx");
 }
 
+TEST_F(SceneLabels, NumbersOfTheUsersOwnAreNotCalledByOurs) {
+  const auto named = [&](const std::string& image) {
+    return label_names(parse("<scene><image labels=\"l.nii\" " + image +
+                             "/><tissues><tissue label=\"2\" material=\"brain\"/>"
+                             "<tissue label=\"5\" material=\"tumour\"/></tissues></scene>"));
+  };
+  using Names = std::map<std::uint16_t, std::string>;
+  EXPECT_EQ(named("other_labels=\"3 6\" skull_label=\"3\""), (Names{{2, "brain"}, {3, "skull"}, {5, "tumour"}}));
+  EXPECT_EQ(named(""), (Names{{2, "brain"}, {4, "fluid"}, {5, "tumour"}, {6, "skin"}}));
+}
+
 TEST_F(SceneLabels, WhatIsNoLabelMapIsRefusedWithASentence) {
   struct Case {
     float value;
@@ -154,6 +165,26 @@ TEST_F(SceneLabels, NumbersThatATissueListsAreJoined) {
   const auto read = read_labels(image_of(block_labels()), reading);
   EXPECT_EQ(read.map.at(1, 2, 1), 3);
   EXPECT_EQ(read.map.at(1, 1, 1), 1);
+  EXPECT_TRUE(read.notes.empty());
+}
+
+TEST_F(SceneLabels, NumbersThatNoTissueListsAreToldAndWarnedOfWithinTheBrain) {
+  LabelMap map;
+  map.geometry.size = {5, 5, 5};
+  map.geometry.spacing.setConstant(10);
+  map.voxels.assign(125, 1);
+  map.at(2, 2, 2) = 7;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      map.at(i, j, 0) = 0;
+      map.at(i, j, 1) = 9;
+    }
+  }
+  const Scene scene = parse("<scene><tissues><tissue labels=\"1 2\"/></tissues></scene>");
+  const auto read = read_labels(image_of(map), label_reading(scene));
+  ASSERT_EQ(read.notes.size(), 2U);
+  expect_parts(read.notes[0], {"labels.nii.gz", "not brain", "no tissue lists them", "9 (25 ml), 7 (1 ml)"});
+  expect_parts(read.notes[1], {"warning", "label 7 (1 ml)", "within the brain", "other_labels"});
 }
 
 }  // namespace brainshift::pipelines::scene_labels_test
