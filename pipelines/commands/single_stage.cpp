@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <chrono>
 #include <optional>
-#include <set>
 #include <string>
+#include <vector>
 
 #include "pipelines/checksum/sha256.hpp"
 #include "pipelines/commands/commands.hpp"
@@ -16,33 +17,42 @@ namespace brainshift::pipelines {
 
 namespace {
 
-/// What an earlier time of the stage left there. Throws std::invalid_argument where it is another stage's.
+/// What an earlier stage left there. Throws std::invalid_argument where it is another stage of a run.
 std::optional<StageRecord> earlier_record(StageId stage, const std::filesystem::path& out) {
   auto earlier = read_stage_record(out);
-  if (earlier && !earlier->stage.empty() && earlier->stage != stage_name(stage)) {
-    refuse(out, "this is the folder of the stage " + earlier->stage + "; choose another with --out");
+  if (earlier && !earlier->stamp.empty() && !earlier->stage.empty() && earlier->stage != stage_name(stage)) {
+    refuse(out, "this is the folder of the stage " + earlier->stage + " of a run; choose another with --out");
   }
   return earlier;
 }
 
-std::set<std::string> own_files(const std::optional<StageRecord>& earlier) {
-  std::set<std::string> own;
-  if (earlier) {
-    own.insert("stage.json");
-    for (const auto& [name, state] : earlier->artefacts.items()) {
-      own.insert(name);
+/// Throws std::invalid_argument where a file of the stage's main ones lies there already: it may be a patient's. Of the
+/// others that is seen once they are made.
+void refuse_before_work(StageId stage, const std::filesystem::path& out) {
+  static const std::array<std::vector<const char*>, all_stages.size()> main_files = {{
+      {"labels.nii.gz", "brain.vtp", "skull.vtp"},
+      {"nodes.vtu", "cells.vtu"},
+      {"solution.vtu", "history.csv", "load.csv"},
+      {"warped.nii.gz", "warped_labels.nii.gz", "landmarks.csv"},
+      {"index.html"},
+  }};
+  for (const char* name : main_files[index_of(stage)]) {
+    if (std::filesystem::exists(out / name)) {
+      refuse(out / name, "another file of that name lies here already; choose another folder, or move it away");
     }
   }
-  return own;
 }
 
-/// Among new artefacts old ones, as of a cut that is not there any more, would be taken for theirs.
-void remove_left_over(const std::optional<StageRecord>& earlier, const std::filesystem::path& out) {
+/// Among new artefacts old ones of the stage, as of a cut that is not there any more, would be taken for theirs.
+void remove_left_over(const StageRecord& earlier, const std::filesystem::path& out) {
   const auto now = read_stage_record(out);
-  for (const std::string& name : own_files(earlier)) {
+  if (!now || earlier.stage != now->stage) {
+    return;
+  }
+  for (const auto& [name, state] : earlier.artefacts.items()) {
     const std::filesystem::path file = out / name;
-    if (name != "stage.json" && now && !now->artefacts.contains(name) && std::filesystem::is_regular_file(file) &&
-        sha256_of_file(file) == earlier->artefacts[name].value("sha256", "")) {
+    if (!now->artefacts.contains(name) && std::filesystem::is_regular_file(file) &&
+        sha256_of_file(file) == state.value("sha256", "")) {
       std::filesystem::remove(file);
     }
   }
@@ -54,6 +64,9 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
                       const std::function<StageReport(const std::filesystem::path& folder, const Progress&)>& work) {
   Console console(settings.quiet, settings.verbose);
   const std::optional<StageRecord> earlier = earlier_record(stage, out);
+  if (!earlier) {
+    refuse_before_work(stage, out);
+  }
   console.started(stage);
   StageFolder folder(out, *settings.interruption);
   reset_peak_memory();
@@ -65,9 +78,13 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
                                      .stamp = "",
                                      .failure = report.failure,
                                      .entry = stage_entry(report, seconds, peak_memory_mb())});
-  folder.refuse_others_files(own_files(earlier));
+  if (!earlier) {
+    folder.refuse_others_files();
+  }
   folder.merge();
-  remove_left_over(earlier, out);
+  if (earlier) {
+    remove_left_over(*earlier, out);
+  }
   for (const std::string& note : report.notes) {
     console.note(stage, note);
   }

@@ -121,13 +121,10 @@ solve::Dynamics dynamics_of(const json& record) {
                                                                    : solve::Dynamics::relaxation;
 }
 
-bool is_taken_out(const RunData& run, const Eigen::Vector3d& place) {
+std::vector<std::uint16_t> resected_labels(const json& record) {
   const json::json_pointer labels("/options/resection/labels");
-  if (!run.labels || !run.record.contains(labels)) {
-    return false;
-  }
-  const auto numbers = read_numbers<std::uint16_t>(run.record.at(labels).get<std::string>());
-  return numbers && std::ranges::find(*numbers, label_at(*run.labels, place)) != numbers->end();
+  const std::string text = record.contains(labels) ? record.at(labels).get<std::string>() : "";
+  return read_numbers<std::uint16_t>(text).value_or(std::vector<std::uint16_t>());
 }
 
 Points loaded_positions(const Solution& solution) {

@@ -41,8 +41,8 @@ RunData read_run(const std::filesystem::path& run_folder);
 /// What time stepping was for, from run.json's options; relaxation where they do not say.
 solve::Dynamics dynamics_of(const nlohmann::json& record);
 
-/// Whether what lay at a preop place, mm, is taken out by the run's resection.
-bool is_taken_out(const RunData& run, const Eigen::Vector3d& place);
+/// Labels that the run's resection takes out.
+std::vector<std::uint16_t> resected_labels(const nlohmann::json& record);
 
 /// The nodes on which a displacement was imposed (those with a reaction), (n × 3) mm; no row where there are none.
 Points loaded_positions(const Solution& solution);

@@ -84,7 +84,7 @@ std::map<std::int32_t, Colour> colours_of_labels(const LabelMap& labels) {
                                 {245, 245, 245}, {200, 140, 110}, {130, 210, 90}, {150, 150, 150}};
   std::map<std::int32_t, Colour> of = {{taken_in, {255, 60, 220}}};
   for (std::size_t place = 0; const auto& [label, volume] : segmentation::label_volumes(labels)) {
-    const double share = std::pow(0.7, static_cast<double>(place / std::size(colours)));
+    const double share = std::max(0.4, std::pow(0.8, static_cast<double>(place / std::size(colours))));
     of[label] = blend(colour::black, colours[place % std::size(colours)], share);
     ++place;
   }

@@ -95,15 +95,19 @@ View make_view(const RunData& run) {
   const double depth = view.opening.rows() == 0 ? 0 : depth_of_planes;
   view.focus = view.opening_centre + depth * view.inward;
   const discretise::Scanlines body(*run.brain);
-  std::ranges::transform(
-      anatomical_planes(view.focus, low, high, pixels_per_mm), view.slices.begin(), [&](const SlicePlane& plane) {
-        std::vector<std::size_t> tissue = pixels_inside(plane, body);
-        std::erase_if(tissue, [&](auto pixel) { return is_taken_out(run, centre_of(plane, pixel)); });
-        return Slice{.plane = plane,
-                     .outline = cut_surface(plane, *run.brain),
-                     .inside = std::move(tissue),
-                     .t1 = run.t1 ? sample_slice(plane, *run.t1) : std::vector<float>{}};
-      });
+  const std::vector<std::uint16_t> resected = run.labels ? resected_labels(run.record) : std::vector<std::uint16_t>();
+  const auto is_taken_out = [&](const Vector3d& place) {
+    return !resected.empty() && std::ranges::find(resected, label_at(*run.labels, place)) != resected.end();
+  };
+  std::ranges::transform(anatomical_planes(view.focus, low, high, pixels_per_mm), view.slices.begin(),
+                         [&](const SlicePlane& plane) {
+                           std::vector<std::size_t> tissue = pixels_inside(plane, body);
+                           std::erase_if(tissue, [&](auto pixel) { return is_taken_out(centre_of(plane, pixel)); });
+                           return Slice{.plane = plane,
+                                        .outline = cut_surface(plane, *run.brain),
+                                        .inside = std::move(tissue),
+                                        .t1 = run.t1 ? sample_slice(plane, *run.t1) : std::vector<float>{}};
+                         });
   std::tie(view.darkest, view.brightest) = grey_window(view.slices);
   const Points shift = displacement_at(run, vertices);
   view.deformed = {vertices + shift, run.brain->triangles};

@@ -117,10 +117,10 @@ void StageFolder::replace() {
   remove_own_folder(old);
 }
 
-void StageFolder::refuse_others_files(const std::set<std::string>& own) const {
+void StageFolder::refuse_others_files() const {
   for (const auto& entry : fs::recursive_directory_iterator(partial_)) {
     const fs::path name = entry.path().lexically_relative(partial_), there = place_ / name;
-    if (entry.is_regular_file() && fs::exists(there) && !own.contains(name.generic_string()) &&
+    if (entry.is_regular_file() && fs::exists(there) &&
         (!fs::is_regular_file(there) || sha256_of_file(there) != sha256_of_file(entry.path()))) {
       refuse(there, "another file of that name lies here already; choose another folder, or move it away");
     }

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "pipelines/runner/folder_lock.hpp"
@@ -26,9 +25,9 @@ class StageFolder {
 
   /// Takes the place, and with it all that was there.
   void replace();
-  /// Throws std::invalid_argument, naming the file, where merge() would take the place of one with other contents that
-  /// is not among `own`, by its name in the folder: it may be a patient's.
-  void refuse_others_files(const std::set<std::string>& own = {}) const;
+  /// Throws std::invalid_argument, naming the file, where merge() would take the place of one with other contents: it
+  /// may be a patient's.
+  void refuse_others_files() const;
   /// Moves the files into the place, each over one of the same name; other files there stay. The same with those in
   /// a folder, but std::invalid_argument is thrown, before any is moved, when other files are in the one there.
   void merge();

@@ -398,11 +398,11 @@ Warnings warnings_of(const registration::RegisterMeasures& measures) {
                        "), where the warped images mean nothing; look at the load, or solve with more nodes; "
                        "beside falx, tentorium and cuts a field cannot jump");
   }
-  constexpr double usual_fit = 0.8;  // mm; without cuts and septa it is 0.15 to 0.45
+  constexpr double usual_fit = 0.8;  // mm; of voxels up to 5 mm without cuts and septa it is 0.15 to 0.77
   if (measures.fit_error > usual_fit) {
     warnings.push_back("the field departs from the solution by up to " + with_digits(measures.fit_error) +
-                       " mm, as it cannot jump at a cut, falx or tentorium: images, landmarks and tracts beside it are "
-                       "off by as much; solution.vtu is not");
+                       " mm at a node, as its voxels are coarse or it cannot jump at a cut, falx or tentorium: images, "
+                       "landmarks and tracts there are off by as much; solution.vtu is not");
   }
   if (measures.landmarks_outside > 0) {
     warnings.push_back(std::to_string(measures.landmarks_outside) +

@@ -68,8 +68,8 @@ bool by_class(const Tissue& tissue) {
   return tissue.tissue_class != 0;
 }
 
-/// Whether Young's modulus was written beside or after what gives a tissue its law: a state or the command line may
-/// change the law of a tissue that had one.
+/// Whether Young's modulus was written beside or after what gives a tissue its law: the command line may change the law
+/// of a tissue that had one, and so may a state, whose others may use it.
 bool modulus_is_last(const Scene& scene, const std::string& tissue) {
   const auto order_of = [&](const char* name) {
     const auto found = scene.source.lines.find(tissue + name);
@@ -77,7 +77,7 @@ bool modulus_is_last(const Scene& scene, const std::string& tissue) {
     return found == scene.source.lines.end() ? 0 : by_command ? std::numeric_limits<int>::max() : found->second;
   };
   const int modulus = order_of(".youngs_modulus");
-  return modulus > 0 && modulus >= std::max(order_of(".law"), order_of(".material"));
+  return !scene.state && modulus > 0 && modulus >= std::max(order_of(".law"), order_of(".material"));
 }
 
 /// Of tissues named by class.

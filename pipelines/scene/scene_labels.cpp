@@ -118,6 +118,9 @@ void note_unlisted(const ImageInputs& image, const LabelReading& reading, ReadLa
   for (const std::uint16_t number : image.other_labels) {
     named.emplace(number, number);
   }
+  if (image.skull_label) {
+    named.emplace(*image.skull_label, *image.skull_label);
+  }
   const auto volumes = sg::label_volumes(read.map);
   if (const std::string unlisted = sg::unknown_labels(volumes, {"", named}); !unlisted.empty()) {
     read.notes.push_back(image.labels.string() + ": taken for not brain, as no tissue lists them: " + unlisted);
@@ -154,6 +157,9 @@ std::map<std::uint16_t, std::string> label_names(const Scene& scene) {
     names.insert({{label::parenchyma, "parenchyma"}, {label::ventricles, "ventricles"}, {label::tumour, "tumour"}});
   }
   for (const Tissue& tissue : scene.tissues) {
+    if (own_numbers) {
+      names.erase(tissue.label);
+    }
     const std::string& name = tissue.name.empty() && own_numbers ? tissue.named_material : tissue.name;
     if (!name.empty()) {
       names[tissue.label] = name;

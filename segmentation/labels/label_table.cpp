@@ -143,10 +143,10 @@ std::string unknown_labels(const LabelVolumes& volumes, const LabelTable& table)
 
 std::vector<std::uint16_t> enclosed_labels(const LabelMap& labels,
                                            const std::map<std::uint16_t, std::uint16_t>& brain) {
-  std::vector<std::int64_t> balance(all_numbers);  // faces to the brain less faces to anything else
+  std::vector<std::uint8_t> touches_brain(all_numbers), touches_else(all_numbers);
   const auto note_face = [&](std::uint16_t number, std::uint16_t beside) {
     if (number != beside) {
-      balance[number] += brain.contains(beside) ? 1 : -1;
+      (brain.contains(beside) ? touches_brain : touches_else)[number] = 1;
     }
   };
   const Eigen::Array3i size = labels.geometry.size;
@@ -166,7 +166,8 @@ std::vector<std::uint16_t> enclosed_labels(const LabelMap& labels,
   }
   std::vector<std::uint16_t> enclosed;
   for (std::size_t number = 1; number < all_numbers; ++number) {
-    if (balance[number] > 0 && !brain.contains(static_cast<std::uint16_t>(number))) {
+    if (touches_brain[number] != 0 && touches_else[number] == 0 &&
+        !brain.contains(static_cast<std::uint16_t>(number))) {
       enclosed.push_back(static_cast<std::uint16_t>(number));
     }
   }

@@ -58,8 +58,7 @@ void renumber(LabelMap& labels, const std::map<std::uint16_t, std::uint16_t>& nu
 /// "136 (1.4 ml), 137 (0.2 ml)" of the numbers that a table lacks, the largest first; empty where it has them all.
 std::string unknown_labels(const LabelVolumes& volumes, const LabelTable& table);
 
-/// Numbers, not among those of the brain, that border more on these than on all else, by faces of voxels.
-/// brain: its keys are the brain's numbers.
+/// Numbers, not among those of the brain, whose voxels border on these alone. brain: its keys are the brain's numbers.
 std::vector<std::uint16_t> enclosed_labels(const LabelMap& labels, const std::map<std::uint16_t, std::uint16_t>& brain);
 
 }  // namespace brainshift::segmentation

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/body/lay_out.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 
 #include "segmentation/geometry/surface_tree.hpp"
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/fluid_force.hpp"
+#include "solve/cut/cut_fronts.hpp"
 #include "solve/force/firmness.hpp"
 #include "solve/force/stiffness_bound.hpp"
 #include "solve/shape/too_few_nodes.hpp"
@@ -144,15 +147,24 @@ SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cl
   return far_out ? SignedDistance(skull) : distance;
 }
 
-/// Nodes of the surface, or nearer to the septum than half a spacing: where its sheets meet tissue has no face. One
-/// that something else holds in all directions is none, one on a plane of symmetry slides along it.
+/// Whether a place is nearer than that, mm, to one of the edges of a surface.
+bool is_near(const Eigen::Vector3d& x, double reach, const Surface& surface,
+             const std::vector<std::array<std::int32_t, 2>>& edges) {
+  return std::ranges::any_of(edges, [&](const auto& edge) {
+    const Eigen::Vector3d a = surface.vertices.row(edge[0]), along = Eigen::Vector3d(surface.vertices.row(edge[1])) - a;
+    const double share = std::clamp((x - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    return (a + share * along - x).norm() < reach;
+  });
+}
+
+/// Nodes of the surface, and those where sheets of the septum meet, which are on no face of it. One that something else
+/// holds in all directions is none; one on a plane of symmetry slides along it.
 std::vector<std::int32_t> nodes_at_septum(const Surface& septum, const OrderedCloud& cloud) {
-  const SurfaceTree tree(septum);
+  const std::vector<std::array<std::int32_t, 2>> branches = branching_edges(septum.triangles);
   std::vector<std::int32_t> nodes;
   for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
-    const Eigen::Vector3d x = cloud.positions.row(a);
-    const double near = 0.5 * cloud.spacing[static_cast<std::size_t>(a)];
-    if (cloud.on_surface[static_cast<std::size_t>(a)] != 0 || (tree.nearest(x).position - x).norm() < near) {
+    const auto k = static_cast<std::size_t>(a);
+    if (cloud.on_surface[k] != 0 || is_near(cloud.positions.row(a), 0.5 * cloud.spacing[k], septum, branches)) {
       nodes.push_back(static_cast<std::int32_t>(a));
     }
   }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/cut/cut_fronts.hpp"
 #include "solve/cut/quarters.hpp"
 
 namespace brainshift::solve {
@@ -38,24 +39,6 @@ struct Place {
 };
 
 using Edge = std::array<std::int32_t, 2>;
-
-/// Edges at which more than two triangles meet.
-std::vector<Edge> branching_edges(const Triangles& facets) {
-  std::map<Edge, int> triangles;
-  for (const auto& f : facets.rowwise()) {
-    for (int i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax({f[i], f[(i + 1) % 3]});
-      ++triangles[{low, high}];
-    }
-  }
-  std::vector<Edge> branching;
-  for (const auto& [edge, count] : triangles) {
-    if (count > 2) {
-      branching.push_back(edge);
-    }
-  }
-  return branching;
-}
 
 class CutFaces {
  public:
@@ -358,14 +341,15 @@ class Prescribed {
     const Eigen::RowVector3d from = positions_.row(p.node);
     const auto side = [&](const Eigen::RowVector3d& x) { return p.normal.dot(x.transpose() - p.x) >= 0; };
     const double reach = next_on_surface * spacing_[static_cast<std::size_t>(p.node)];
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      std::vector<Eigen::Index> near;
-      for (Eigen::Index a = 0; a < values_.rows(); ++a) {
-        if (!std::isnan(values_(a, axis)) && a != p.node && (positions_.row(a) - from).norm() < reach &&
-            side(positions_.row(a)) == side(from)) {
-          near.push_back(a);
-        }
+    std::vector<Eigen::Index> about;
+    for (Eigen::Index a = 0; a < values_.rows(); ++a) {
+      if (a != p.node && (positions_.row(a) - from).norm() < reach && side(positions_.row(a)) == side(from)) {
+        about.push_back(a);
       }
+    }
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      std::vector<Eigen::Index> near = about;
+      std::erase_if(near, [&](Eigen::Index a) { return std::isnan(values_(a, axis)); });
       if (near.empty() || std::isnan(values_(p.node, axis))) {
         continue;
       }

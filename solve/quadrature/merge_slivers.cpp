@@ -66,13 +66,15 @@ std::vector<MergedPoint> merge_slivers(std::span<const double> full, Integration
   for (std::size_t i = 0; i < points.size(); ++i) {
     dropped[i] = by_label.contains(points.label[i]) ? dropped[i] : std::uint8_t{0};  // all that its tissue has
   }
+  const bool planar = points.positions.col(2).isZero(0);
   for (const auto& [label, whole] : by_label) {
     const PointTree tree(whole.positions);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (dropped[i] != 0 && points.label[i] == label) {
         const auto row = static_cast<Eigen::Index>(i);
         const auto [nearest, squared] = tree.nearest(points.positions.row(row).data());
-        if (squared > std::pow(farthest_merge * std::max(std::cbrt(full[i]), std::sqrt(full[i])), 2)) {
+        const double side = planar ? std::sqrt(full[i]) : std::cbrt(full[i]);
+        if (squared > std::pow(farthest_merge * side, 2)) {
           dropped[i] = 0;
           continue;
         }

@@ -131,7 +131,7 @@ bool responses_tell(const KeptRun& run, const Conditions& load) {
 /// Masses and damping of an answer's steps; nothing of a slow body, or of a change that is too large to be sure that
 /// what is left open is local. change: of what is prescribed, from the run's own load, mm.
 std::optional<Settled> settled_for(const Conditions& load, const Points& change, bool tells_all, const KeptRun& run) {
-  if (run.origin.lowest <= slow_body || change.rowwise().norm().maxCoeff() > run.trusted) {
+  if (run.origin.lowest <= slow_body || run.trusted <= 0 || change.rowwise().norm().maxCoeff() > run.trusted) {
     return std::nullopt;
   }
   Settled settled = run.fine.settled;
@@ -283,7 +283,7 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
     run.responses = responses_of(run.fine, run.prescribed, options, progress);
   }
   if (run.origin.lowest > slow_body) {
-    run.trusted = trusted_change(run, solved.conditions, progress);
+    run.trusted = trusted_change(run, with_all_rows(solved.conditions, displacement.rows()), progress);
   }
   return run;
 }
@@ -316,7 +316,7 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
   }
   set_fine_load(load, run);
   SteppingResult stepped = come_to_rest(run, course, progress);
-  if (!stepped.failure.empty() && course.settled) {
+  if (!stepped.failure.empty() && course.settled && std::isfinite(run.trusted)) {  // a trial is to see it fail
     run.fine.body = std::move(stepped.body);
     course.settled.reset();
     stepped = come_to_rest(run, course, progress);

@@ -40,7 +40,7 @@ struct KeptRun {
   Points displacement;    ///< (n × 3) mm, at rest
   KeptBody fine;          ///< at rest
   RestState origin;       ///< under the run's own load; responses are of it
-  double trusted = 0;     ///< mm: a load that differs from the run's by more is relaxed as a run (trusted_change())
+  double trusted = 0;     ///< mm: a load that differs from the run's by more, or of 0 each, relaxes as a run
   Responses responses;    ///< none where noise leaves springs: of what is prescribed exactly alone
   Departures departures;  ///< from the first order; not kept on disk
   std::optional<ThinnedBody> thinned = {};  ///< of a load with noise, which chooses each load's weight; else absent

@@ -48,15 +48,17 @@ std::vector<Conditions> loads_that_differ(const Conditions& load, double by) {
 
 /// Whether the answer is no farther from rest than a good part of its bound.
 bool is_answered_honestly(const KeptRun& kept, const Conditions& load, const Progress& progress) {
-  KeptRun run = kept;
-  run.trusted = std::numeric_limits<double>::infinity();
-  const SolveResult answer = update(run, load, progress);
+  const auto answered = [&](double trusted, double tolerance) {
+    KeptRun run = kept;
+    run.trusted = trusted;
+    run.options.tolerance *= tolerance;
+    return update(run, load, progress);
+  };
+  const SolveResult answer = answered(std::numeric_limits<double>::infinity(), 1);
   if (!answer.failure.empty()) {
     return false;
   }
-  run.trusted = -1;
-  run.options.tolerance *= much_closer;
-  const SolveResult close = update(run, load, progress);
+  const SolveResult close = answered(0, much_closer);
   const double off = largest(answer.solution.displacement - close.solution.displacement);
   return close.failure.empty() && off <= share_of_bound * answer.measures.error_bound;
 }

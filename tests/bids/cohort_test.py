@@ -114,6 +114,8 @@ class FinderTest(Folder):
         case = self.one(pick={"mask": {"rec": "a"}})
         self.assertEqual(self.relative(case.brain_mask), stem + "rec-a_desc-brain_mask.nii.gz")
         self.assertEqual(self.relative(case.tumour), tumour)
+        self.make(stem + "acq-flair_label-tumor_mask.nii.gz")
+        self.assertIn("would both do", self.find(pick={"mask": {"rec": "a"}})[1]["sub-01"])
 
     def test_says_that_a_link_has_no_content(self):
         self.make("sub-01/anat/x", POINTS)

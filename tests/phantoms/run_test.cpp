@@ -292,7 +292,7 @@ TEST_F(Run, StagesAloneGiveWhatTheRunGave) {
     EXPECT_EQ(contents_of(out + file), contents_of(r + file)) << file;
   }
   EXPECT_TRUE(fs::exists(out + "/register/warped_brain.vtp"));
-  const ProgramResult twice = run_shell("brainshift report " + r + " --out " + out + "/segment");
+  const ProgramResult twice = run_shell("brainshift report " + r + " --out " + r + "/segment");
   EXPECT_EQ(twice.code, 2);
   EXPECT_NE(twice.err.find("the folder of the stage segment"), std::string::npos) << twice.err;
 }

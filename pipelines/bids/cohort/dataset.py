@@ -37,7 +37,7 @@ def refuse_others(out, bids):
         makers = [maker.get("Name") for maker in about.get("GeneratedBy", [])]
     except FileNotFoundError:
         return
-    except (ValueError, AttributeError):
+    except (ValueError, AttributeError, TypeError):
         makers = []
     if "brainshift" not in makers:
         raise Unusable(f"{out}: is another dataset, by its dataset_description.json; choose another folder for OUT")

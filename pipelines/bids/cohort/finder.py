@@ -128,7 +128,7 @@ class Finder:
         """What picks one of two brain masks says nothing of a tumour's, and the other way round."""
         masks = [f for f in of_suffix(files, "mask", IMAGE) if own_space(f)
                  and names.parse(f.name).entities.get(entity) in values]
-        return self._one(self._picked(masks, "mask") if len(masks) > 1 else masks, "mask")
+        return self._one((self._picked(masks, "mask") or masks) if len(masks) > 1 else masks, "mask")
 
     def _freesurfer(self, subjects):
         for root in (*self.derivatives, self.bids / "sourcedata" / "freesurfer"):

@@ -86,7 +86,8 @@ def option_inputs(options, folder):
 
 def files_named(named, folder):
     """Of pairs of an option's path and value, those values that are files; an image may be a folder of slices."""
-    return [str(folder / value) for path, value in named if value and len(value) < 4096
+    return [str(folder / value) for path, value in named
+            if value and len(value) < 4096 and not path.endswith(".command")
             and (os.path.isfile(folder / value) or path.startswith("image.") and os.path.isdir(folder / value))]
 
 
