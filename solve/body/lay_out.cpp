@@ -7,10 +7,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "segmentation/geometry/branching_edges.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/fluid_force.hpp"
-#include "solve/cut/cut_fronts.hpp"
 #include "solve/force/firmness.hpp"
 #include "solve/force/stiffness_bound.hpp"
 #include "solve/shape/too_few_nodes.hpp"

@@ -184,22 +184,6 @@ void find_front_edges(const InsideBody& inside, double spacing, CutFacets& cut) 
 
 }  // namespace
 
-std::vector<std::array<std::int32_t, 2>> branching_edges(const Triangles& triangles) {
-  std::map<Edge, int> count;
-  for (const auto& f : triangles.rowwise()) {
-    for (int i = 0; i < 3; ++i) {
-      ++count[edge_of(f[i], f[(i + 1) % 3])];
-    }
-  }
-  std::vector<Edge> branching;
-  for (const auto& [edge, times] : count) {
-    if (times > 2) {
-      branching.push_back(edge);
-    }
-  }
-  return branching;
-}
-
 void find_fronts(const InsideBody& inside, double spacing, CutFacets& cut) {
   if (cut.planar) {
     find_tips(inside, spacing, cut);

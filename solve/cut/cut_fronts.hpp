@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "solve/cut/inside_body.hpp"
 #include "solve/shape/visibility.hpp"
 
@@ -15,8 +11,5 @@ namespace brainshift::solve {
 /// between them would be narrower than any node sees. A path's end at the body's surface is taken beyond it; triangles
 /// with a long rim are split, so that a front lies along the part of the rim that is inside.
 void find_fronts(const InsideBody& inside, double spacing, CutFacets& cut);
-
-/// Edges, by their vertices, at which more than two triangles meet.
-std::vector<std::array<std::int32_t, 2>> branching_edges(const Triangles& triangles);
 
 }  // namespace brainshift::solve

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "segmentation/geometry/branching_edges.hpp"
 #include "segmentation/geometry/point_tree.hpp"
-#include "solve/cut/cut_fronts.hpp"
 #include "solve/cut/quarters.hpp"
 
 namespace brainshift::solve {
