@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "solve/cut/cut_fronts.hpp"
 #include "solve/cut/quarters.hpp"
 #include "solve/cut/septum.hpp"
 #include "solve/quadrature/cell_points.hpp"
@@ -60,7 +61,8 @@ void add_septum(const Septum& septum, double spacing, CutBody& body) {
                                 ": the septum does not meet the body; are its coordinates in mm and in the body's "
                                 "frame?");
   }
-  body.septum = facets_at(std::span(&sheet, 1), 0, body.inside, spacing);
+  body.septum = facets_between(std::span(&sheet, 1), from_the_start, 0);
+  find_fronts(body.inside, spacing, body.septum);
   body.split += add_septum_nodes(body.septum, body.inside, body.cloud, body.conditions, body.pairs);
   body.septum_pairs = body.pairs.size();
   body.visibility = std::make_shared<const Visibility>(body.septum);

@@ -167,6 +167,9 @@ CutFacets facets_between(std::span<const Cut> cuts, double after, double until) 
 
 CutFacets facets_at(std::span<const Cut> cuts, double time, const InsideBody& inside, double spacing) {
   CutFacets cut = facets_between(cuts, from_the_start, time);
+  if (!cut.planar) {
+    split_long_rims(spacing, inside, cut);
+  }
   find_fronts(inside, spacing, cut);
   return cut;
 }

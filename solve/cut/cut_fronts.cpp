@@ -168,8 +168,7 @@ class Rims {
 };
 
 void find_front_edges(const InsideBody& inside, double spacing, CutFacets& cut) {
-  Rims rims(cut);
-  rims.split(spacing, inside, cut);
+  const Rims rims(cut);
   const Pieces pieces(cut);
   rims.for_each(cut, [&](const Edge& edge, std::int32_t opposite) {
     const Eigen::Vector3d a = vertex(cut, edge[0]), b = vertex(cut, edge[1]), middle = (a + b) / 2;
@@ -190,6 +189,10 @@ void find_fronts(const InsideBody& inside, double spacing, CutFacets& cut) {
   } else {
     find_front_edges(inside, spacing, cut);
   }
+}
+
+void split_long_rims(double longest, const InsideBody& inside, CutFacets& sheet) {
+  Rims(sheet).split(longest, inside, sheet);
 }
 
 }  // namespace brainshift::solve

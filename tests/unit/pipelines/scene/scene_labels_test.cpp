@@ -173,7 +173,7 @@ TEST_F(SceneLabels, NumbersThatNoTissueListsAreToldAndWarnedOfWithinTheBrain) {
   map.geometry.size = {5, 5, 5};
   map.geometry.spacing.setConstant(10);
   map.voxels.assign(125, 1);
-  map.at(2, 2, 2) = 7;
+  map.at(2, 2, 3) = 7;
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < 5; ++j) {
       map.at(i, j, 0) = 0;
