@@ -11,10 +11,9 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr std::array tried_changes = {6.0,
-                                      2.0};  // mm: a large change, and what an operation does between two measurements
-constexpr double share_of_bound = 0.8;       // that an error of a trial may reach: other loads may be farther off
-constexpr double much_closer = 0.1;          // of the tolerance: what it is held against
+constexpr std::array tried_changes = {6.0, 2.0};  // mm: large, and usual between two measurements
+constexpr double share_of_bound = 0.8;            // that an error of a trial may reach: other loads may be farther off
+constexpr double much_closer = 0.1;               // of the tolerance: what it is held against
 
 /// Every load times a factor, then moved.
 Conditions changed(Conditions load, double factor, const Eigen::RowVector3d& shift) {

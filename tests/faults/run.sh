@@ -63,10 +63,10 @@ ends_well() { # WHAT CODE FOLDER EXPECTED...
 }
 
 "$program" phantom --size 40 --spacing 6 --out head || exit 1
-"$program" segment --quiet --labels head/labels.nii.gz --brain-labels 1 2 3 --edge-length 14 --out head || exit 1
+"$program" segment --quiet --labels head/labels.nii.gz --brain-labels 1 2 3 --edge-length 14 --out surface || exit 1
 cat >head/small.xml <<'SCENE'
 <scene version="1">
-  <image t1="t1.nii.gz" surface="brain.vtp"/>
+  <image t1="t1.nii.gz" surface="../surface/brain.vtp"/>
   <tissues><tissue label="1" material="brain"/></tissues>
   <load><craniotomy file="craniotomy.csv"/></load>
   <landmarks file="landmarks.mrk.json"/>
