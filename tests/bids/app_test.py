@@ -124,6 +124,7 @@ class AppTest(unittest.TestCase):
     def test_what_cannot_be_run_is_said_in_a_sentence(self):
         for words, said in (((self.root / "none", self.out, "group"), "there is no such folder"),
                             ((self.bids, self.out, "group", "--participant-label", "77"), "no participant sub-77"),
+                            ((self.bids, self.out, "group", "--participant-label", "00001"), "level group is of all"),
                             ((self.bids, self.out, "group", "--pick", "T1w"), "SUFFIX:ENTITY-VALUE is wanted"),
                             ((self.bids, self.out, "group", "--brainshift", "/none"), "there is no program /none")):
             done = call("brainshift-bids", *words)
