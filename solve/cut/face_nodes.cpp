@@ -353,9 +353,9 @@ class Prescribed {
       if (near.empty() || std::isnan(values_(p.node, axis))) {
         continue;
       }
-      const Eigen::MatrixX3d apart = positions_(near, Eigen::all).rowwise() - from;
+      const Eigen::MatrixXd apart = positions_(near, Eigen::all).rowwise() - from;
       const Eigen::VectorXd change = values_(near, axis).array() - values_(p.node, axis);
-      Eigen::JacobiSVD<Eigen::MatrixX3d> fit(apart, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      Eigen::JacobiSVD<Eigen::MatrixXd> fit(apart, Eigen::ComputeThinU | Eigen::ComputeThinV);
       fit.setThreshold(0.05);  // across a patch of the surface nothing is known
       values(p.node, axis) += (to.transpose() - from).dot(fit.solve(change));
     }
