@@ -38,7 +38,7 @@ void refuse_before_work(StageId stage, const std::filesystem::path& out) {
   }};
   for (const char* name : main_files[index_of(stage)]) {
     if (std::filesystem::exists(out / name)) {
-      refuse(out / name, "another file of that name lies here already; choose another folder, or move it away");
+      refuse_to_replace(out / name);
     }
   }
 }

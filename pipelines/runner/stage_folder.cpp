@@ -51,6 +51,10 @@ void refuse_strangers(const fs::path& folder, const fs::path& taking_its_place) 
 
 }  // namespace
 
+void refuse_to_replace(const fs::path& file) {
+  refuse(file, "another file of that name lies here already; choose another folder, or move it away");
+}
+
 fs::path place_of(const fs::path& named) {
   if (named.empty()) {
     throw std::invalid_argument("the folder to write to has no name; give one with --out");
@@ -122,7 +126,7 @@ void StageFolder::refuse_others_files() const {
     const fs::path name = entry.path().lexically_relative(partial_), there = place_ / name;
     if (entry.is_regular_file() && fs::exists(there) &&
         (!fs::is_regular_file(there) || sha256_of_file(there) != sha256_of_file(entry.path()))) {
-      refuse(there, "another file of that name lies here already; choose another folder, or move it away");
+      refuse_to_replace(there);
     }
   }
 }

@@ -40,6 +40,9 @@ class StageFolder {
   bool replaced_ = false;
 };
 
+/// Throws std::invalid_argument: a file that lies there may be a patient's.
+[[noreturn]] void refuse_to_replace(const std::filesystem::path& file);
+
 /// The whole path of the folder that a user names, without a slash at its end. Throws std::invalid_argument when it is
 /// empty, or a file.
 std::filesystem::path place_of(const std::filesystem::path& named);

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "segmentation/geometry/points.hpp"
+#include "segmentation/geometry/surface.hpp"
 
 namespace brainshift {
 
@@ -20,6 +20,14 @@ inline std::vector<std::int32_t> first_at_same_place(const Points& points) {
     of_each.push_back(first.try_emplace({x[0], x[1], x[2]}, static_cast<std::int32_t>(of_each.size())).first->second);
   }
   return of_each;
+}
+
+/// Makes triangles of such vertices hang together.
+inline void join_at_same_places(const Points& vertices, Triangles& triangles) {
+  const std::vector<std::int32_t> first = first_at_same_place(vertices);
+  for (std::int32_t& corner : triangles.reshaped()) {
+    corner = first[static_cast<std::size_t>(corner)];
+  }
 }
 
 }  // namespace brainshift

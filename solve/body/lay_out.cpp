@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "segmentation/geometry/branching_edges.hpp"
+#include "segmentation/geometry/nearest_on_segment.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/fluid_force.hpp"
@@ -151,9 +152,7 @@ SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cl
 bool is_near(const Eigen::Vector3d& x, double reach, const Surface& surface,
              const std::vector<std::array<std::int32_t, 2>>& edges) {
   return std::ranges::any_of(edges, [&](const auto& edge) {
-    const Eigen::Vector3d a = surface.vertices.row(edge[0]), along = Eigen::Vector3d(surface.vertices.row(edge[1])) - a;
-    const double share = std::clamp((x - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    return (a + share * along - x).norm() < reach;
+    return (nearest_on_segment(x, surface.vertices.row(edge[0]), surface.vertices.row(edge[1])) - x).norm() < reach;
   });
 }
 

@@ -101,14 +101,6 @@ void append_sheet(const Cut& sheet, double after, double until, CutFacets& out) 
   }
 }
 
-/// Triangles hang together where their corners lie at the same place, in one sheet and from one to the next.
-void join_at_corners(CutFacets& cut) {
-  const std::vector<std::int32_t> first = first_at_same_place(cut.vertices);
-  for (std::int32_t& corner : cut.facets.reshaped()) {
-    corner = first[static_cast<std::size_t>(corner)];
-  }
-}
-
 /// When the tip has come a stride further.
 std::vector<double> path_times(const Cut& path, double stride) {
   std::vector<double> times;
@@ -160,7 +152,7 @@ CutFacets facets_between(std::span<const Cut> cuts, double after, double until) 
     }
   }
   if (!cut.planar) {
-    join_at_corners(cut);
+    join_at_same_places(cut.vertices, cut.facets);
   }
   return cut;
 }

@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "segmentation/geometry/branching_edges.hpp"
+#include "segmentation/geometry/nearest_on_segment.hpp"
 #include "segmentation/geometry/triangle_distance.hpp"
 
 namespace brainshift::solve {
@@ -53,12 +55,9 @@ class Pieces {
  private:
   template <class Facet>
   Eigen::Vector3d nearest_on(const Facet& f, const Eigen::Vector3d& x) const {
-    const Eigen::Vector3d a = vertex(cut_, f[0]), along = vertex(cut_, f[1]) - a;
-    if (!cut_.planar) {
-      return nearest_on_triangle({a, along, vertex(cut_, f[2]) - a}, x).point;
-    }
-    const double squared = along.squaredNorm();
-    return squared > 0 ? Eigen::Vector3d(a + std::clamp((x - a).dot(along) / squared, 0.0, 1.0) * along) : a;
+    const Eigen::Vector3d a = vertex(cut_, f[0]), b = vertex(cut_, f[1]);
+    return cut_.planar ? nearest_on_segment(x, a, b)
+                       : nearest_on_triangle(frame_of({a, b, vertex(cut_, f[2])}), x).point;
   }
 
   const CutFacets& cut_;
@@ -92,12 +91,7 @@ void find_tips(const InsideBody& inside, double spacing, CutFacets& cut) {
 class Rims {
  public:
   explicit Rims(const CutFacets& cut) {
-    std::map<Edge, int> triangles;
-    for (const auto& f : cut.facets.rowwise()) {
-      for (int i = 0; i < 3; ++i) {
-        ++triangles[edge_of(f[i], f[(i + 1) % 3])];
-      }
-    }
+    const std::map<Edge, int> triangles = triangles_at_edges(cut.facets);
     for (Eigen::Index t = 0; t < cut.facets.rows(); ++t) {
       for (int i = 0; i < 3; ++i) {
         const Edge edge = edge_of(cut.facets(t, i), cut.facets(t, (i + 1) % 3));

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "segmentation/geometry/branching_edges.hpp"
+#include "segmentation/geometry/nearest_on_segment.hpp"
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/cut/quarters.hpp"
 
@@ -111,10 +112,8 @@ class CutFaces {
 
   bool clear_of_front(const Eigen::Vector3d& x, double h) const {
     return std::all_of(kept_clear_.begin(), kept_clear_.end(), [&](const Edge& edge) {
-      const Eigen::Vector3d a = cut_.vertices.row(edge[0]), along = Eigen::Vector3d(cut_.vertices.row(edge[1])) - a;
-      const double squared = along.squaredNorm();
-      const double share = squared > 0 ? std::clamp((x - a).dot(along) / squared, 0.0, 1.0) : 0;
-      return (a + share * along - x).norm() > from_front_ * h;
+      const Eigen::Vector3d nearest = nearest_on_segment(x, cut_.vertices.row(edge[0]), cut_.vertices.row(edge[1]));
+      return (nearest - x).norm() > from_front_ * h;
     });
   }
 
@@ -327,57 +326,60 @@ std::int32_t append_node(NodeCloud& cloud, Conditions& conditions, std::int32_t 
   return static_cast<std::int32_t>(row);
 }
 
-/// What is prescribed of nodes, as a linear function about each: a node that moves onto a face takes the value there.
-class Prescribed {
- public:
-  Prescribed(const NodeCloud& cloud, const Conditions& conditions)
-      : positions_(cloud.positions), spacing_(cloud.spacing), values_(conditions.displacement) {}
-
-  /// Adds to the row what the values of the nodes about it, on its side of the face, change by on the way there.
-  void move(const Place& p, const Eigen::Vector3d& to, Points& values) const {
-    if (values_.rows() == 0 || values_.row(p.node).array().isNaN().all()) {
-      return;
-    }
-    const Eigen::RowVector3d from = positions_.row(p.node);
-    const auto side = [&](const Eigen::RowVector3d& x) { return p.normal.dot(x.transpose() - p.x) >= 0; };
-    const double reach = next_on_surface * spacing_[static_cast<std::size_t>(p.node)];
-    std::vector<Eigen::Index> about;
-    for (Eigen::Index a = 0; a < values_.rows(); ++a) {
-      if (a != p.node && (positions_.row(a) - from).norm() < reach && side(positions_.row(a)) == side(from)) {
-        about.push_back(a);
-      }
-    }
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      std::vector<Eigen::Index> near = about;
-      std::erase_if(near, [&](Eigen::Index a) { return std::isnan(values_(a, axis)); });
-      if (near.empty() || std::isnan(values_(p.node, axis))) {
-        continue;
-      }
-      const Eigen::MatrixXd apart = positions_(near, Eigen::all).rowwise() - from;
-      const Eigen::VectorXd change = values_(near, axis).array() - values_(p.node, axis);
-      Eigen::JacobiSVD<Eigen::MatrixXd> fit(apart, Eigen::ComputeThinU | Eigen::ComputeThinV);
-      fit.setThreshold(0.05);  // across a patch of the surface nothing is known
-      values(p.node, axis) += (to.transpose() - from).dot(fit.solve(change));
+/// What a node that moves onto a face gets more of what is prescribed, mm: by a linear function through its value and
+/// those of the nodes about it, on its side of the face. NaN where nothing is prescribed.
+Eigen::RowVector3d more_there(const Place& p, const NodeCloud& cloud, const Points& prescribed) {
+  const Eigen::RowVector3d from = cloud.positions.row(p.node), value = prescribed.row(p.node);
+  Eigen::RowVector3d more = 0 * value;
+  if (value.array().isNaN().all()) {
+    return more;
+  }
+  const auto side = [&](const Eigen::RowVector3d& x) { return p.normal.dot(x.transpose() - p.x) >= 0; };
+  const double reach = next_on_surface * cloud.spacing[static_cast<std::size_t>(p.node)];
+  std::vector<Eigen::Index> about;
+  for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
+    const Eigen::RowVector3d x = cloud.positions.row(a);
+    if (a != p.node && (x - from).norm() < reach && side(x) == side(from)) {
+      about.push_back(a);
     }
   }
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<Eigen::Index> near = about;
+    std::erase_if(near, [&](Eigen::Index a) { return std::isnan(prescribed(a, axis)); });
+    if (near.empty() || std::isnan(value[axis])) {
+      continue;
+    }
+    const Eigen::MatrixXd apart = cloud.positions(near, Eigen::all).rowwise() - from;
+    const Eigen::VectorXd change = prescribed(near, axis).array() - value[axis];
+    Eigen::JacobiSVD<Eigen::MatrixXd> fit(apart, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    fit.setThreshold(0.05);  // across a patch of the surface nothing is known
+    more[axis] = (p.x.transpose() - from).dot(fit.solve(change));
+  }
+  return more;
+}
 
- private:
-  const Points positions_;
-  const std::vector<double> spacing_;
-  const Points values_;
-};
+/// Of all nodes that are split, before any has moved.
+void prescribe_at(const std::vector<Place>& places, const NodeCloud& cloud, Points& prescribed) {
+  const Points before = prescribed;
+  for (const Place& p : places) {
+    if (p.node != no_node) {
+      prescribed.row(p.node) += more_there(p, cloud, before);
+    }
+  }
+}
 
 std::size_t add_at(const std::vector<Place>& places, NodeCloud& cloud, Conditions& conditions,
                    std::vector<FacePair>& pairs) {
   std::size_t split = 0;
-  const Prescribed prescribed(cloud, conditions);
+  if (conditions.displacement.rows() > 0) {
+    prescribe_at(places, cloud, conditions.displacement);
+  }
   for (const Place& p : places) {
     const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;
     FacePair pair{p.node, no_node, p.x, p.normal};
     const bool was_there = p.node != no_node;
     if (was_there) {
       ++split;
-      prescribed.move(p, p.x, conditions.displacement);
       cloud.positions.row(p.node) = p.x + off;
       cloud.on_surface[static_cast<std::size_t>(p.node)] = 1;
     } else {

@@ -13,10 +13,7 @@ namespace brainshift::solve {
 
 Septum read_septum(const std::filesystem::path& file) {
   Septum septum{file.string(), read_surface(file)};
-  const std::vector<std::int32_t> first = first_at_same_place(septum.sheet.vertices);
-  for (std::int32_t& corner : septum.sheet.triangles.reshaped()) {
-    corner = first[static_cast<std::size_t>(corner)];
-  }
+  join_at_same_places(septum.sheet.vertices, septum.sheet.triangles);
   check_septum(septum, false);
   return septum;
 }

@@ -7,32 +7,22 @@
 #include <limits>
 #include <numeric>
 
+#include "segmentation/geometry/joined_nodes.hpp"
+#include "segmentation/geometry/nearest_on_segment.hpp"
+
 namespace brainshift::solve {
 
-namespace {
-
-Eigen::Vector3d nearest_on_edge(const Eigen::Vector3d& x, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const Eigen::Vector3d along = b - a;
-  const double squared = along.squaredNorm();
-  return squared > 0 ? a + std::clamp((x - a).dot(along) / squared, 0.0, 1.0) * along : a;
-}
-
-}  // namespace
-
 std::vector<std::int32_t> pieces_of(const CutFacets& cut) {
-  std::vector<std::int32_t> piece(static_cast<std::size_t>(cut.vertices.rows()));
-  std::iota(piece.begin(), piece.end(), 0);
-  const auto at = [&](std::int32_t v) -> std::int32_t& { return piece[static_cast<std::size_t>(v)]; };
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const auto& f : cut.facets.rowwise()) {
-      const std::int32_t lowest = std::min({at(f[0]), at(f[1]), cut.planar ? at(f[1]) : at(f[2])});
-      for (int i = 0; i < (cut.planar ? 2 : 3); ++i) {
-        changed = changed || at(f[i]) != lowest;
-        at(f[i]) = lowest;
-      }
+  JoinedNodes pieces(static_cast<std::size_t>(cut.vertices.rows()));
+  for (const auto& f : cut.facets.rowwise()) {
+    for (int i = 1; i < (cut.planar ? 2 : 3); ++i) {
+      const auto [low, high] = std::minmax({pieces.root(f[0]), pieces.root(f[i])});
+      pieces.join(low, high);
     }
   }
+  std::vector<std::int32_t> piece(static_cast<std::size_t>(cut.vertices.rows()));
+  std::iota(piece.begin(), piece.end(), 0);
+  std::ranges::transform(piece, piece.begin(), [&](std::int32_t v) { return pieces.root(v); });
   return piece;
 }
 
@@ -75,7 +65,7 @@ bool Visibility::near(const Eigen::Vector3d& x, double reach) const {
     return tree_->squared_distance(x) <= reach * reach;
   }
   return std::any_of(facets_.facets.rowwise().begin(), facets_.facets.rowwise().end(), [&](const auto& f) {
-    return (nearest_on_edge(x, vertex(f[0]), vertex(f[1])) - x).squaredNorm() <= reach * reach;
+    return (nearest_on_segment(x, vertex(f[0]), vertex(f[1])) - x).squaredNorm() <= reach * reach;
   });
 }
 
