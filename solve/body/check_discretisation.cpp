@@ -10,18 +10,12 @@
 #include <vector>
 
 #include "segmentation/geometry/neighbour_distance.hpp"
+#include "segmentation/geometry/quantile.hpp"
 #include "solve/shape/support_search.hpp"
 
 namespace brainshift::solve {
 
 namespace {
-
-/// What this share of the values lies below.
-double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// Nodes in nearly one place have nearly the same shape functions: their difference strains next to nothing, so it
 /// comes to rest late or never.

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/load/near_surface.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "segmentation/geometry/quantile.hpp"
 
 namespace brainshift::solve {
 namespace {
@@ -30,9 +31,7 @@ Distances distances_to(const PointTree& surface, const Points& measured) {
       result.farthest_row = p;
     }
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  result.median = *middle;
+  result.median = median(std::move(distances));
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include "segmentation/geometry/distinct_points.hpp"
 #include "segmentation/geometry/neighbour_distance.hpp"
 #include "segmentation/geometry/point_tree.hpp"
+#include "segmentation/geometry/quantile.hpp"
 #include "solve/load/best_fit_plane.hpp"
 #include "solve/load/convex_hull.hpp"
 #include "solve/load/spread_out.hpp"
@@ -97,10 +98,7 @@ double usual_distance(const Points& points) {
   if (places.rows() < 2) {
     return 0;
   }
-  std::vector<double> distances = nearest_neighbours(places, 1).distance;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return median(nearest_neighbours(places, 1).distance);
 }
 
 CraniotomyLoad rows_of(const CraniotomyLoad& load, const std::vector<Eigen::Index>& rows) {

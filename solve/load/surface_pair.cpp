@@ -2,14 +2,15 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "segmentation/geometry/loose_vertices.hpp"
+#include "segmentation/geometry/quantile.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
@@ -80,10 +81,8 @@ void check_together(const Points& positions, const std::vector<SurfacePlace>& pl
   for (std::size_t v = 0; v < places.size(); ++v) {
     distances.push_back((places[v].position.transpose() - positions.row(static_cast<Eigen::Index>(v))).norm());
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  if (*middle > farthest_median) {
-    throw std::invalid_argument("load: the surfaces before and after are " + std::to_string(*middle) +
+  if (const double usual = median(std::move(distances)); usual > farthest_median) {
+    throw std::invalid_argument("load: the surfaces before and after are " + std::to_string(usual) +
                                 " mm apart (median), farther than a brain shifts; are both in the same frame?");
   }
 }

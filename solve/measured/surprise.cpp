@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "segmentation/geometry/quantile.hpp"
 #include "solve/load/contradictions.hpp"
 #include "solve/measured/gaussian.hpp"
 #include "solve/measured/weight.hpp"
@@ -13,13 +14,6 @@
 namespace brainshift::solve {
 
 namespace {
-
-double median(const Eigen::VectorXd& values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
-}
 
 double biweight(double r) {
   constexpr double c = 5.49;  // of three components; of one it is the usual 4.685
@@ -58,7 +52,7 @@ Trust robust_trust(const Response& response, const Points& displacement, const P
     const Points weighed = sigma.array().colwise() / trust.weight.array().sqrt();
     const MeasuredFit fit = choose_weight(response, displacement, weighed, weight);
     const Eigen::VectorXd off = surprise(response, displacement, sigma, weighed, fit);
-    trust.surprise = off / std::max(1.0, median(off) / usual_surprise);
+    trust.surprise = off / std::max(1.0, median(std::vector(off.begin(), off.end())) / usual_surprise);
     const Eigen::VectorXd next = trust.surprise.unaryExpr([](double r) { return std::max(least_trust, biweight(r)); });
     const double moved = (next - trust.weight).cwiseAbs().maxCoeff();
     trust.weight = next;

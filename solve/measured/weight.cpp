@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "segmentation/geometry/quantile.hpp"
 #include "solve/measured/gaussian.hpp"
 
 namespace brainshift::solve {
@@ -43,10 +44,7 @@ double extent_of(const Points& sites) {
 /// The lower quartile: neither those that are large and tell nothing, as of components that nobody measured, nor a few
 /// that are small may speak for the others.
 double usual_sigma(const Points& sigma) {
-  std::vector<double> values(sigma.data(), sigma.data() + sigma.size());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return quantile(std::vector(sigma.data(), sigma.data() + sigma.size()), 0.25);
 }
 
 /// Whether a motion of the opening cannot be told from the patient's registration, which is found beside it.
