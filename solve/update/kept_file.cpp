@@ -270,6 +270,7 @@ std::optional<KeptRun> read_kept(const fs::path& file, const std::string& key,
     KeptRun run;
     kept_run(reader, run);
     run.origin = {run.fine.parameters, run.prescribed, run.displacement, run.fine.settled.lowest};
+    run.prepared_for = run.prescribed;
     run.options = options;
     run.options.precision = run.fine.body.points.precision();
     read_forces(reader, run.fine.body);

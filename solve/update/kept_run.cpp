@@ -101,6 +101,38 @@ void set_fine_load(const Conditions& load, KeptRun& run) {
   run.ready = true;
 }
 
+/// Nodes of the surface, one a row, that are held in all directions.
+std::vector<std::uint8_t> bonded_nodes(const std::vector<std::uint8_t>& on_surface, const Points& prescribed) {
+  std::vector<std::uint8_t> bonded = on_surface;
+  for (std::size_t a = 0; a < bonded.size(); ++a) {
+    if (prescribed.row(static_cast<Eigen::Index>(a)).array().isNaN().any()) {
+      bonded[a] = 0;
+    }
+  }
+  return bonded;
+}
+
+/// Whether the body's derivatives are those of a run under this load.
+bool is_prepared_for(const Points& prescribed, const KeptRun& run) {
+  return run.options.integration != Integration::consistent ||
+         bonded_nodes(run.on_surface, prescribed) == bonded_nodes(run.on_surface, run.prepared_for);
+}
+
+/// Lays the body out as a run under this load does.
+void prepare_for(const Conditions& load, KeptRun& run, const Progress& progress) {
+  if (!run.made_from) {
+    throw std::invalid_argument("it loads other nodes than the run did, and what the run was made from is not known");
+  }
+  Model model = run.made_from();
+  model.conditions.displacement = load.displacement;
+  model.conditions.measured = load.measured;
+  SolveMeasures measures;
+  run.fine.body = prepare(model, run.options, {}, measures, progress).body;
+  run.prepared_for = load.displacement;
+  run.on_device.reset();
+  run.ready = false;
+}
+
 /// Takes over where a body has come to rest.
 void take(SteppingResult& stepped, KeptBody& kept) {
   kept.body = std::move(stepped.body);
@@ -274,11 +306,13 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
               .displacement = nodal_displacement(stepped.body.nodal_rows, stepped.parameters, stepped.body.original),
               .fine = {},
               .origin = {},
+              .prepared_for = {},
               .responses = {},
               .departures = {},
               .thinned = std::move(thinned)};
   take(stepped, run.fine);
   run.origin = {run.fine.parameters, run.prescribed, run.displacement, run.fine.settled.lowest};
+  run.prepared_for = run.prescribed;
   if (!model.conditions.measured && run.origin.lowest > slow_body) {
     run.responses = responses_of(run.fine, run.prescribed, options, progress);
   }
@@ -309,7 +343,11 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
   const NodalVectors told = first_order(prescribed, from_origin, tells_all, run);
   Course course;
   course.start = told;
-  course.settled = settled_for(load, from_origin, tells_all, run);
+  if (is_prepared_for(prescribed, run)) {
+    course.settled = settled_for(load, from_origin, tells_all, run);
+  } else {
+    prepare_for(load, run, progress);
+  }
   course.bound = run.options.device == Device::cpu ? BoundOf::displacement : BoundOf::parameters;
   if (tells_all) {
     run.departures.add_expected(run.responses, from_origin, course.start);

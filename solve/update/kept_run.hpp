@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -40,11 +41,15 @@ struct KeptRun {
   Points displacement;    ///< (n × 3) mm, at rest
   KeptBody fine;          ///< at rest
   RestState origin;       ///< under the run's own load; responses are of it
+  Points prepared_for;    ///< what was prescribed when the body of `fine` was laid out: rows of derivatives know of it
   double trusted = 0;     ///< mm: a load that differs from the run's by more, or of 0 each, relaxes as a run
   Responses responses;    ///< none where noise leaves springs: of what is prescribed exactly alone
   Departures departures;  ///< from the first order; not kept on disk
   std::optional<ThinnedBody> thinned = {};  ///< of a load with noise, which chooses each load's weight; else absent
-  bool ready = false;                       ///< conditions and contact of `fine` are as an update makes them
+  /// What the run was made from, asked for by a load on other nodes. Not kept on disk: whoever made or read the run
+  /// says it.
+  std::function<Model()> made_from = {};
+  bool ready = false;  ///< conditions and contact of `fine` are as an update makes them
   std::shared_ptr<device::KeptOnDevice> on_device = nullptr;  ///< from the first update on that options.device wants
 };
 
@@ -58,11 +63,13 @@ KeptRun keep(const Model& model, const SolveOptions& options, const Points& disp
              const Progress& progress = {});
 
 /// The answer to another load, from what the responses and the answers so far tell of it; where it loads other nodes or
-/// none are known, from the state of the last load or of the run's own, whichever is nearer. Noise is weighed for each
-/// load anew, as a run does. The kept run is at rest under it afterwards. Stops as solve() does. Of the load's
-/// conditions forces are left aside: they stay the run's. Throws std::invalid_argument where it loads other nodes than
-/// the run did, by more than half, or has noise where the run had none; TooFewNodes where its conditions contradict
-/// each other; the kept run then is as it was. After another throw or a failure it must be read or made again.
+/// none are known, from the state of the last load or of the run's own, whichever is nearer. Where other nodes of the
+/// surface are bonded, derivatives beside them are others, too (boundary_normals.hpp): the body is then laid out anew.
+/// Noise is weighed for each load anew, as a run does. The kept run is at rest under it afterwards. Stops as solve()
+/// does. Of the load's conditions forces are left aside: they stay the run's. Throws std::invalid_argument where it
+/// loads other nodes than the run did, by more than half, or other ones and made_from is not set, or has noise where
+/// the run had none; TooFewNodes where its conditions contradict each other; the kept run then is as it was. After
+/// another throw or a failure it must be read or made again.
 SolveResult update(KeptRun& kept, const Conditions& load, const Progress& progress = {});
 
 /// The largest change of a load, mm at a node, whose answers are as near to rest as they say (KeptRun::trusted); load:

@@ -31,7 +31,9 @@ SolveOptions options() {
 }
 
 KeptRun kept(const Model& model, const SolveOptions& options = kept_run_test::options()) {
-  return keep(model, options, solve(model, options).solution.displacement);
+  KeptRun run = keep(model, options, solve(model, options).solution.displacement);
+  run.made_from = [model] { return model; };
+  return run;
 }
 
 /// Linear, and not to the last: for bodies that take many steps.
@@ -126,6 +128,32 @@ TEST(KeptRun, AnswersALoadOfOtherNodes) {
   EXPECT_LE(distance(update(run, other.conditions.displacement).solution.displacement, expected), 2 * tolerance);
   const SolveResult back = update(run, own.conditions.displacement);
   EXPECT_LE(distance(back.solution.displacement, run.origin.displacement), 2 * tolerance);
+}
+
+/// Derivatives are corrected otherwise beside what is held: beside the part of a patch that a load leaves out, too.
+TEST(KeptRun, AnswersALoadOfAPartOfThePatchAsARunFromTheBeginning) {
+  const Model own = pressed_bar(8);
+  Model other = own;
+  const Points& places = other.cloud.positions;
+  const double middle = places.col(0).mean();
+  for (Eigen::Index a = 0; a < places.rows(); ++a) {
+    if (other.conditions.displacement(a, 2) > 0 && places(a, 0) > middle) {
+      other.conditions.displacement.row(a).setConstant(std::nan(""));
+    }
+  }
+  const SolveResult anew = solve(other, quick());
+  KeptRun run = kept(own, quick());
+  for (const double factor : {1.0, 1.05}) {
+    const SolveResult answer = update(run, factor * other.conditions.displacement);
+    ASSERT_TRUE(answer.measures.converged) << answer.failure;
+    if (factor == 1) {
+      EXPECT_LE(distance(answer.solution.displacement, anew.solution.displacement), 2 * quick().tolerance);
+    }
+  }
+  EXPECT_LE(distance(update(run, own.conditions).solution.displacement, run.origin.displacement),
+            2 * quick().tolerance);
+  run.made_from = nullptr;
+  EXPECT_NE(test::refusal([&] { update(run, other.conditions); }).find("other nodes"), std::string::npos);
 }
 
 TEST(KeptRun, IsAsItWasAfterALoadThatItRefuses) {
