@@ -32,7 +32,12 @@ RigidMotion fit_rigid(const Points& from, const Points& to, const Points& sigma)
 }
 
 CraniotomyLoad registered(const CraniotomyLoad& load, const RigidMotion& motion) {
-  return {load.positions, motion.back(load.positions + load.displacement) - load.positions, load.sigma};
+  CraniotomyLoad turned{load.positions, motion.back(load.positions + load.displacement) - load.positions, load.sigma};
+  if (load.sigma.rows() > 0) {
+    const Eigen::Matrix3d squared_cosines = motion.rotation.cwiseAbs2();
+    turned.sigma = (Points(load.sigma.cwiseAbs2()) * squared_cosines).cwiseSqrt();
+  }
+  return turned;
 }
 
 void write_rigid(const std::filesystem::path& file, const RigidMotion& motion) {

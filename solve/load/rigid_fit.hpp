@@ -26,8 +26,8 @@ struct RigidMotion {
 /// sigma: (m × 3) mm, or no rows: all alike.
 RigidMotion fit_rigid(const Points& from, const Points& to, const Points& sigma);
 
-/// The load in the frame of the image: a place that is measured at y lies at T⁻¹ y there. Of a standard deviation that
-/// differs along the axes the turn is left out.
+/// The load in the frame of the image: a place that is measured at y lies at T⁻¹ y there. Standard deviations are along
+/// the tracker's axes and turn with it, σ'² = diag(Rᵀ σ² R); what then goes together along two axes is left out.
 CraniotomyLoad registered(const CraniotomyLoad& load, const RigidMotion& motion);
 
 /// An ITK text transform (.tfm): takes places of the image to where the tracker sees them. Throws std::runtime_error,

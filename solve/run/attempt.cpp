@@ -60,12 +60,12 @@ namespace {
 std::optional<Points> last_displacement(const Model& model, const Points& positions) {
   const Solution& last = *model.last;
   if (last.positions.rows() == positions.rows() && last.positions == positions) {
-    return as_prescribed(last.displacement, model.conditions);
+    return as_prescribed(last.displacement, model);
   }
   if (model.septum || !last.cut.empty()) {
     return std::nullopt;
   }
-  return as_prescribed(displacement_at(last, positions), model.conditions);
+  return as_prescribed(displacement_at(last, positions), model);
 }
 
 /// û of the last state, cloud's order. Shape functions beside a septum see one side of it alone: there u is near

@@ -132,11 +132,12 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
   return coarse;
 }
 
-Points as_prescribed(Points displacement, const Conditions& conditions, double fraction) {
-  if (conditions.measured) {
+Points as_prescribed(Points displacement, const Model& model) {
+  if (model.conditions.measured) {
     return displacement;  // what was measured gives way
   }
-  const Points& prescribed = conditions.displacement;
+  const Points& prescribed = model.conditions.displacement;
+  const double fraction = model.curve.at(model.curve.duration());
   for (Eigen::Index i = 0; i < prescribed.size(); ++i) {
     if (!std::isnan(prescribed.data()[i])) {
       displacement.data()[i] = fraction * prescribed.data()[i];
@@ -151,7 +152,7 @@ FromCoarse::FromCoarse(const ShapeFunctions& shape, const NodeCloud& coarse, con
       at_all_(shape_at(shape, model.cloud.positions, coarse.positions.rows())) {}
 
 Points FromCoarse::operator()(const Points& displacement) const {
-  return as_prescribed(at_all_ * parameters_from_displacement(at_coarse_, displacement), model_.conditions);
+  return as_prescribed(at_all_ * parameters_from_displacement(at_coarse_, displacement), model_);
 }
 
 namespace {
@@ -168,10 +169,8 @@ std::optional<CoarseSolution> solved_on(const std::vector<std::int32_t>& nodes, 
   if (!result.failure.empty()) {
     return std::nullopt;
   }
-  const double fraction = model.curve.at(model.curve.duration());
-  return CoarseSolution{
-      as_prescribed(displacement_at(result.solution, model.cloud.positions), model.conditions, fraction),
-      result.measures.error_bound, result.measures.steps, wider};
+  return CoarseSolution{as_prescribed(displacement_at(result.solution, model.cloud.positions), model),
+                        result.measures.error_bound, result.measures.steps, wider};
 }
 
 /// Empty as coarse_solution().

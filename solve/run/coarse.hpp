@@ -35,9 +35,9 @@ CoarseBody coarse_body(const std::vector<std::int32_t>& nodes, const Model& mode
 /// A cloud with fewer coarse nodes is not solved on them.
 inline constexpr std::size_t fewest_coarse_nodes = 24;
 
-/// A displacement of the coarse solution at all nodes, with what is prescribed exactly as it is prescribed, or a
-/// fraction of that.
-Points as_prescribed(Points displacement, const Conditions& conditions, double fraction = 1);
+/// A displacement of another solution at all nodes, with what is prescribed exactly as it is at the end of the load's
+/// curve.
+Points as_prescribed(Points displacement, const Model& model);
 
 /// Displacements of the coarse nodes, mm, at all nodes, as as_prescribed() has them: what the two clouds have to do
 /// with each other is found once and kept.

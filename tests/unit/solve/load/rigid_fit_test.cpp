@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -47,6 +48,25 @@ TEST(RigidFit, LeavesTheDisplacementInTheFrameOfTheImage) {
   const CraniotomyLoad load = registered(seen, turned());
   EXPECT_LT((load.displacement - u).norm(), 1e-10);
   EXPECT_EQ(load.positions, places);
+}
+
+/// The tracker's z is the image's y after a quarter turn about x.
+TEST(RigidFit, TurnsDeviationsWithTheDisplacement) {
+  const RigidMotion quarter{
+      .rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()).toRotationMatrix(),
+      .translation = Eigen::Vector3d(3, 2, 1)};
+  const Points places = test::random_points(4, 80);
+  Points sigma = Points::Constant(4, 3, 0.3);
+  sigma.col(2).setConstant(3);
+  const CraniotomyLoad load = registered({places, quarter(places) - places, sigma}, quarter);
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    EXPECT_LT((load.sigma.row(i) - Eigen::RowVector3d(0.3, 3, 0.3)).norm(), 1e-9);
+  }
+  const CraniotomyLoad slanted = registered({places, turned()(places) - places, sigma}, turned());
+  const Eigen::Matrix3d covariance =
+      turned().rotation.transpose() * Eigen::Vector3d(0.09, 0.09, 9).asDiagonal() * turned().rotation;
+  EXPECT_LT((slanted.sigma.row(0).transpose().cwiseAbs2() - covariance.diagonal()).norm(), 1e-9);
+  EXPECT_EQ(registered({places, places, Points(0, 3)}, quarter).sigma.rows(), 0);
 }
 
 TEST(RigidFit, IsWrittenAsAnItkTransform) {
