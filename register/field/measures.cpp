@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "register/field/field_sampler.hpp"
+#include "segmentation/geometry/point_tree.hpp"
 
 namespace brainshift::registration {
 
@@ -69,6 +70,27 @@ void measure_jacobian(const ScalarImage& jacobian, const std::vector<Zone>& zone
   }
 }
 
+/// By every third voxel along each axis. Their displacement is made up from afar.
+std::size_t voxels_without_nodes(const ImageGeometry& g, const std::vector<Zone>& zone, const Solution& solution) {
+  constexpr int every = 3;
+  constexpr double far = 2;  // spacings
+  const PointTree nodes(solution.positions);
+  std::size_t found = 0;
+#pragma omp parallel for schedule(dynamic, 1) reduction(+ : found)
+  for (int k = 0; k < g.size.z(); k += every) {
+    for (int j = 0; j < g.size.y(); j += every) {
+      for (int i = 0; i < g.size.x(); i += every) {
+        if (zone[g.offset(i, j, k)] == Zone::brain) {
+          const Eigen::Vector3d x = g.to_world(Eigen::Vector3d(i, j, k));
+          const auto [node, squared] = nodes.nearest(x.data());
+          found += std::sqrt(squared) > far * solution.spacing[node] ? 1 : 0;
+        }
+      }
+    }
+  }
+  return found * every * every * every;
+}
+
 double fit_error(const VectorImage& forward, const Solution& solution) {
   const FieldSampler sampler(forward);
   double largest = 0;
@@ -95,6 +117,7 @@ RegisterMeasures measure_fields(const VectorImage& forward, const VectorImage& r
     measures.largest_displacement = std::max(measures.largest_displacement, moved);
   }
   measures.fit_error = fit_error(forward, solution);
+  measures.without_nodes = voxels_without_nodes(forward.geometry, zone, solution);
   return measures;
 }
 

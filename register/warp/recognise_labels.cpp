@@ -61,13 +61,16 @@ std::unordered_map<float, std::size_t> count_labels(const ScalarImage& image) {
 }  // namespace
 
 bool looks_like_labels(const ScalarImage& image) {
-  constexpr std::size_t of_a_mask = 8;
+  constexpr std::size_t of_a_mask = 8, of_a_contrast = 3;  // -1, 0 and 1
   // Of sixteen label maps of brains 0.992 at least, also thin cortex at 2 mm and contacts of electrodes; of 8-bit MRI
   // 0.63 at most, of probabilities in per cent 0.81, of a smooth map of 31 levels 0.94.
   constexpr double nearly_all = 0.97;
   const auto counts = count_labels(image);
-  if (counts.size() <= of_a_mask) {
-    return !counts.empty() && !counts.contains(-1);
+  if (counts.empty() || (counts.contains(-1) && counts.size() <= of_a_contrast)) {
+    return false;
+  }
+  if (counts.size() <= of_a_mask && !counts.contains(-1)) {
+    return true;
   }
   const auto rarer = [](const auto& a, const auto& b) { return a.second < b.second; };
   const float background = std::max_element(counts.begin(), counts.end(), rarer)->first;

@@ -219,6 +219,10 @@ ImageHeader read_nifti_header(const fs::path& file) {
   if (bytes.size() < nifti_header_size) {
     refuse(file, "truncated within the header; copy the file again");
   }
+  constexpr std::int32_t second_size = 540;
+  if (number_at<std::int32_t>(bytes, 0) == second_size || number_at<std::int32_t>(bytes, 0, true) == second_size) {
+    refuse(file, "a NIfTI-2 image, which is not read; save it as NIfTI-1");
+  }
   const bool swapped = number_at<std::int32_t>(bytes, 0) != static_cast<std::int32_t>(nifti_header_size);
   const NiftiFields fields{bytes, swapped};
   const std::string_view magic(reinterpret_cast<const char*>(bytes.data()) + 344, 3);

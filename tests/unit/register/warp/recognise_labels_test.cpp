@@ -40,9 +40,11 @@ TEST(RecogniseLabels, NotASliceOfOneVoxel) {
   }
 }
 
-/// -1 of many is a background that cannot be read: refused where it is read, not interpolated.
+/// -1 of more is a background that cannot be read: refused where it is read, not interpolated.
 TEST(RecogniseLabels, WithAFewNegativeOnesIsAContrast) {
   EXPECT_FALSE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) { return x.x() > 3 ? 1 : -1; })));
+  EXPECT_TRUE(looks_like_labels(
+      image(g, [](const Eigen::Vector3d& x) { return x.x() > 3 ? std::floor((x.y() - g.origin.y()) / 20) : -1; })));
   EXPECT_TRUE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) {
     return x.x() > 3 ? 1000 + std::floor(x.y() / 4) + 10 * std::floor(x.z() / 4) : -1;
   })));

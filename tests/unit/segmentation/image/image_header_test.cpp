@@ -179,6 +179,7 @@ TEST(ImageHeader, ANiftiFieldThatCannotBeIsRefused) {
   EXPECT_TRUE(refused(with(46, 32767), {"truncated", "393204 bytes"}));
   EXPECT_TRUE(refused(with(70, 32), {"type 32"}));
   EXPECT_TRUE(refused(with(344, 0), {"no NIfTI-1"}));
+  EXPECT_TRUE(refused(with(0, 540), {"NIfTI-2"}));
   std::string bytes = nifti_bytes();
   put(bytes, 108, not_a_number);
   EXPECT_TRUE(refused(folder.write("a.nii", bytes), {"offset"}));
