@@ -95,6 +95,9 @@ Image<T> image_of(const py::array& voxels, const RowMajor<double>& affine) {
   if (voxels.dtype().kind() == 'c') {
     throw std::invalid_argument("the voxels are complex numbers; give their real part or their size");
   }
+  if (voxels.dtype().kind() == 'V') {
+    throw std::invalid_argument("the voxels are records, as colours are; give one number a voxel");
+  }
   Image<T> image;
   const Eigen::Array3i size(static_cast<int>(voxels.shape(0)), static_cast<int>(voxels.shape(1)),
                             static_cast<int>(voxels.shape(2)));

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "pipelines/checksum/sha256.hpp"
 #include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/warnings.hpp"
@@ -92,6 +93,7 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
     write_nodal_image(out / "uncertainty.nii.gz", input.solution, registration::read_deviations(job.uncertainty));
   }
   StageReport said = report_of(result);
+  said.measures["solution_sha256"] = sha256_of_file(job.solution);
   if (fs::is_directory(job.t1)) {
     const fs::path series = out / "warped_dicom";
     const std::string why =

@@ -100,7 +100,7 @@ Warnings warnings_of_noise(const solve::SolveMeasures& measures) {
     return {};
   }
   return {
-      "the measured points agree " + with_digits(1 / measures.measured->noise_factor) +
+      "the measured points agree at least " + with_digits(1 / measures.measured->noise_factor) +
       " times better with each other than the noise that is given lets expect: the load may be followed too little; "
       "give the noise of one component in mm, as a standard deviation"};
 }

@@ -167,6 +167,7 @@ StageReport report_of(const registration::Registration& result) {
                      {"folded_voxels", m.folded_voxels},
                      {"largest_displacement_mm", m.largest_displacement},
                      {"fit_error_mm", m.fit_error},
+                     {"voxels_without_nodes", m.without_nodes},
                      {"seconds_fields_and_images", m.seconds}};
   return report;
 }

@@ -2,7 +2,7 @@
 #include "pipelines/runner/jobs.hpp"
 
 #include <algorithm>
-#include <set>
+#include <iterator>
 #include <stdexcept>
 
 #include "pipelines/runner/job_files.hpp"
@@ -10,7 +10,6 @@
 #include "pipelines/runner/warnings.hpp"
 #include "segmentation/files/naming.hpp"
 #include "segmentation/files/surface_file.hpp"
-#include "segmentation/image/frame_note.hpp"
 #include "segmentation/septa/septa.hpp"
 #include "segmentation/surface/resection_wall.hpp"
 
@@ -55,15 +54,6 @@ void take_to_grid(std::optional<LabelMap>& map, const fs::path& file, const Imag
   *map = on_grid(*map, grid);
   notes.push_back(file.string() + ": lies on another grid than " + grid_file.string() +
                   "; taken to it, the nearest label at each voxel");
-}
-
-void note_frames(const ImageInputs& image, std::vector<std::string>& notes) {
-  for (const fs::path& file :
-       std::set<fs::path>{image.t1, image.labels, image.brain_mask, image.tumour, image.tumour_mask}) {
-    if (const std::string note = frame_note(file); !note.empty()) {
-      notes.push_back("warning: " + file.string() + ": " + note);
-    }
-  }
 }
 
 /// What a table told of the labels, as the stage's options.
@@ -131,7 +121,9 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
   } else if (input.labels) {
     take_to_grid(input.tumour_mask, tumour, input.labels->geometry, job.image.labels, notes);
   }
-  note_frames(job.image, notes);
+  std::ranges::copy(
+      frame_warnings({job.image.t1, job.image.labels, job.image.brain_mask, job.image.tumour, job.image.tumour_mask}),
+      std::back_inserter(notes));
   if (input.t1 && input.labels) {
     for (const std::string& warning : warnings_of(*input.t1, *input.labels, options.brain_labels)) {
       notes.push_back("warning: " + warning);

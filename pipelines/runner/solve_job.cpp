@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/jobs.hpp"
 
+#include <algorithm>
 #include <iomanip>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -58,6 +60,14 @@ void impose_field(const Load& how, SolveInput& input) {
   solve::Conditions& conditions = input.model.conditions;
   FieldOnSurface found = field_on_surface_nodes(*how.field, how.opening, input.model.cloud);
   input.load = at_known_nodes(input.model.cloud.positions, found.displacement);
+  std::ranges::copy(frame_warnings({how.field->file}), std::back_inserter(input.notes));
+  constexpr double nearly_all = 0.9;
+  if (static_cast<double>(found.known + found.not_found) < nearly_all * static_cast<double>(found.asked)) {
+    input.notes.push_back("warning: " + how.field->file.string() + " says something of " +
+                          std::to_string(found.known + found.not_found) + " of " + std::to_string(found.asked) +
+                          " nodes of the brain's surface: the others lie outside its grid and are left free; is it in "
+                          "the image's frame?");
+  }
   if (found.not_found > 0) {
     input.notes.push_back("warning: " + how.field->file.string() + " takes no place to " +
                           std::to_string(found.not_found) + " of " + std::to_string(found.known + found.not_found) +
@@ -169,6 +179,11 @@ void measure_move(const Solution& last, const Solution& now, StageReport& said) 
       same ? solve::field_difference(now.displacement, last.displacement) : solve::field_difference(now, last);
   said.measures["moved_since_last_mm"] = move.largest;
   said.measures["moved_since_last_95_mm"] = move.percentile_95;
+}
+
+/// The load in the frame of the image, also where the tracker's had to be found.
+solve::CraniotomyLoad in_image(const SolveInput& input) {
+  return input.registration ? solve::registered(*input.load, *input.registration) : *input.load;
 }
 
 }  // namespace
@@ -330,7 +345,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
   report(progress, 0, "reading");
   const SolveInput input = read_input(job);
   if (input.load) {
-    solve::write_craniotomy_csv(out / "load.csv", *input.load);
+    solve::write_craniotomy_csv(out / "load.csv", in_image(input));
   }
   if (input.model.septum) {
     write_surface(out / "septum.vtp", input.model.septum->sheet);
@@ -356,9 +371,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
     said.failure = turn_fault(input.model, result.solution);
   }
   if (input.load) {
-    const solve::CraniotomyLoad load =
-        input.registration ? solve::registered(*input.load, *input.registration) : *input.load;
-    warn(warnings_of(load, input.model, result.solution.displacement), said);
+    warn(warnings_of(in_image(input), input.model, result.solution.displacement), said);
   }
   return said;
 }

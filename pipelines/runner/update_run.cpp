@@ -157,6 +157,7 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
   } else {
     make_kept(job, progress);
   }
+  kept_.made_from = [job] { return read_input(job).model; };
   kept_.options.device = device.value_or(kept_.options.device);
 }
 
@@ -259,6 +260,10 @@ StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const 
     write_covariance(out / "uncertainty.csv", landmarks_, result);
   }
   StageReport said = report_of(result, solve::Dynamics::relaxation);
+  for (const char* of_setup :
+       {"outside_label", "consistency_iterations", "seconds_setup"}) {  // the run's record has it
+    said.measures.erase(of_setup);
+  }
   if (scene_.uncertainty) {
     said.notes.emplace_back(
         "an update draws no samples: what constants that nobody knows add to the uncertainty is that of the run");

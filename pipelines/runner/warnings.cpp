@@ -12,6 +12,7 @@
 #include "segmentation/geometry/collinear.hpp"
 #include "segmentation/geometry/distinct_points.hpp"
 #include "segmentation/geometry/point_tree.hpp"
+#include "segmentation/geometry/quantile.hpp"
 #include "segmentation/labels/label_fit.hpp"
 #include "segmentation/options/values.hpp"
 #include "solve/body/ordered_cloud.hpp"
@@ -34,12 +35,6 @@ constexpr Eigen::Index few_places = 3;  // that a load is measured at
 
 Points surface_of(const NodeCloud& cloud) {
   return cloud.positions(surface_nodes(cloud), Eigen::all);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 std::vector<double> lengths_of(const Points& displacement) {
@@ -403,6 +398,12 @@ Warnings warnings_of(const registration::RegisterMeasures& measures) {
     warnings.push_back("the field departs from the solution by up to " + with_digits(measures.fit_error) +
                        " mm at a node, as its voxels are coarse or it cannot jump at a cut, falx or tentorium: images, "
                        "landmarks and tracts there are off by as much; solution.vtu is not");
+  }
+  constexpr double many = 1e-3;  // of the brain's voxels; where nodes fill it next to none
+  if (static_cast<double>(measures.without_nodes) > many * static_cast<double>(measures.brain_voxels)) {
+    warnings.push_back("about " + std::to_string(measures.without_nodes) +
+                       " voxels of the brain lie over two spacings from every node, where the field is made up from "
+                       "afar; if tissue was taken out there, give register its wall (--wall, --resection)");
   }
   if (measures.landmarks_outside > 0) {
     warnings.push_back(std::to_string(measures.landmarks_outside) +

@@ -5,10 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "pipelines/checksum/sha256.hpp"
 #include "pipelines/runner/artefacts.hpp"
+#include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/read_run_record.hpp"
 #include "pipelines/runner/stage_record.hpp"
 #include "pipelines/runner/warnings.hpp"
+#include "pipelines/scene/scene.hpp"
 #include "register/files/warped_name.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/image/frame_note.hpp"
@@ -132,6 +135,20 @@ void check_both_or_neither_replaced(const fs::path& folder) {
   }
 }
 
+/// The solution that the fields are of, as far as it is known; none where another lies there.
+fs::path solution_of(const fs::path& fields) {
+  const fs::path solution = fields / "../solve/solution.vtu";
+  const std::optional<StageRecord> record = read_stage_record(fields);
+  const std::string known = record ? record->entry.value("/measures/solution_sha256"_json_pointer, "") : "";
+  if (known.empty() || !fs::exists(solution) || sha256_of_file(solution) == known) {
+    return solution;
+  }
+  if (fields.filename() == stage_name(StageId::registration)) {
+    refuse(fields, "its fields are of an earlier solution than the one beside it; register that one first");
+  }
+  return {};
+}
+
 }  // namespace
 
 void refuse_stage_folder(const fs::path& out) {
@@ -157,13 +174,17 @@ std::vector<std::string> warp_files(const WarpJob& job, const fs::path& out) {
   const fs::path folder = fs::is_directory(stage) ? stage : job.run;
   check_up_to_date(folder);
   check_both_or_neither_replaced(folder);
-  registration::RegisterFields fields(folder, job.towards, folder / "../solve/solution.vtu");
+  registration::RegisterFields fields(folder, job.towards, solution_of(folder));
   registration::WarpAnyOptions options = job.options;
+  std::vector<std::string> notes;
   if (!job.like.empty()) {
+    notes = frame_warnings({job.like});
     options.grid = is_image_series(job.like) ? read_image_series(job.like).volumes.front().geometry
                                              : read_image(job.like).geometry;
   }
-  return warp_files(job.files, fields, out, options);
+  const std::vector<std::string> told_of_files = warp_files(job.files, fields, out, options);
+  notes.insert(notes.end(), told_of_files.begin(), told_of_files.end());
+  return notes;
 }
 
 void remove_values_of_earlier(const std::vector<fs::path>& files, const fs::path& made, const fs::path& out) {

@@ -93,6 +93,7 @@ FieldOnSurface field_on_surface_nodes(const FieldLoad& field, const solve::Openi
       ++result.not_found;
     }
   }
+  result.asked = nodes.size();
   result.known = known.size();
   if (known.empty()) {
     refuse(field.file,

@@ -18,6 +18,7 @@ void check_field_load(const FieldLoad& field);
 /// What a field says of a brain's surface.
 struct FieldOnSurface {
   Points displacement;        ///< at the nodes (n × 3), mm; NaN where it says nothing
+  std::size_t asked = 0;      ///< nodes under the opening
   std::size_t known = 0;      ///< nodes with a displacement
   std::size_t not_found = 0;  ///< nodes that the field, which resamples, takes no place to: it folds, or ends there
 };

@@ -82,7 +82,7 @@ std::string classes_of(const sg::LabelVolumes& volumes, const sg::LabelTable& ta
 void note_one_sided(const ImageInputs& image, const sg::LabelVolumes& volumes, std::vector<std::string>& notes) {
   double left = 0, right = 0;
   for (const auto& [number, volume] : volumes) {
-    const int of_cortex = number >= 11000 ? number / 100 % 10 : number / 1000 % 2 == 1 ? 1 : 2;
+    const int of_cortex = number / 1000 % 2 == 1 ? 1 : 2;  // 1000 and 11000 left, 2000 and 12000 right
     const bool cortex = number >= 1000;
     left += number == 2 || number == 3 || (cortex && of_cortex == 1) ? volume : 0;
     right += number == 41 || number == 42 || (cortex && of_cortex == 2) ? volume : 0;

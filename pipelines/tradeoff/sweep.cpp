@@ -145,6 +145,7 @@ class Sweeper {
     }
     Scene scene = parse_scene(scene_, all);
     scene.tradeoff.reset();
+    scene.uncertainty.reset();  // its samples are no cost of the settings
     return scene;
   }
 

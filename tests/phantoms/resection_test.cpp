@@ -37,6 +37,16 @@ TEST(ResectedHead, IsSolvedAndRegistered) {
   const LabelMap warped = read_label_map(folder + "/register/warped_labels.nii.gz");
   EXPECT_EQ(std::ranges::count(warped.voxels, 3), 0) << "tissue is drawn in the cavity";
   EXPECT_GT(std::ranges::count(warped.voxels, 24), 0);
+  const std::string register_again = "brainshift register --solution " + folder + "/solve/solution.vtu --brain " +
+                                     folder + "/segment/brain.vtp --t1 " + (scratch / "head/t1.nii.gz").string() +
+                                     " --labels " + folder + "/segment/labels.nii.gz --out " + folder + "/again";
+  const ProgramResult alone =
+      run_shell(register_again + " --wall " + folder + "/segment/resection.vtp --resection 3 --cavity-label 24");
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  EXPECT_EQ(alone.err.find("over two spacings"), std::string::npos) << alone.err;
+  EXPECT_EQ(read_label_map(folder + "/again/warped_labels.nii.gz").voxels, warped.voxels);
+  const ProgramResult without = run_shell(register_again);
+  EXPECT_NE(without.err.find("over two spacings"), std::string::npos) << without.err;
 }
 
 }  // namespace brainshift::resection_test

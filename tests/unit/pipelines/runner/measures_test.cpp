@@ -111,13 +111,15 @@ TEST(StageMeasures, OfARegistrationCountItsVoxelsAndLandmarks) {
   result.measures.folded_voxels = 8;
   result.measures.largest_displacement = 10.5;
   result.measures.fit_error = 1.25;
+  result.measures.without_nodes = 54;
   result.measures.seconds = 3.5;
   const StageReport report = report_of(result);
   EXPECT_EQ(report.sizes,
             ordered_json::parse(R"({"voxels": 24, "brain_voxels": 6, "moved_voxels": 7, "landmarks": 5})"));
   EXPECT_EQ(report.measures, ordered_json::parse(R"({"inverse_mean_mm": 0.125, "inverse_999_mm": 0.375,
     "inverse_max_mm": 0.625, "not_inverted": 9, "jacobian_min": 0.5, "jacobian_max": 1.5, "field_jacobian_min": 0.25,
-    "folded_voxels": 8, "largest_displacement_mm": 10.5, "fit_error_mm": 1.25, "seconds_fields_and_images": 3.5})"));
+    "folded_voxels": 8, "largest_displacement_mm": 10.5, "fit_error_mm": 1.25, "voxels_without_nodes": 54,
+    "seconds_fields_and_images": 3.5})"));
 }
 
 }  // namespace brainshift::pipelines::measures_test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/warp_files.hpp"
 
+#include "pipelines/checksum/sha256.hpp"
+#include "pipelines/runner/stage_record.hpp"
 #include "segmentation/files/points_file.hpp"
 #include "tests/unit/expect_parts.hpp"
 #include "tests/unit/pipelines/run_folder.hpp"
@@ -116,6 +118,27 @@ TEST_F(WarpFiles, FieldsOfAnEarlierRunAreRefused) {
       fs::remove(folder_ / "out/warped_points.csv");
     }
   }
+}
+
+/// As an update of the same name leaves them.
+TEST_F(WarpFiles, FieldsOfAnEarlierSolutionAreRefused) {
+  const fs::path file = write("points.csv", "# frame: LPS\nx,y,z\n3,-5,8\n"), later = folder_ / "answered";
+  fs::copy(run_->path(), later, fs::copy_options::recursive);
+  fs::create_directory(later / "solve");
+  const auto said = [&](const fs::path& run) {
+    return refusal([&] {
+      warp_files({.run = run, .files = {file}, .like = {}, .towards = Towards::intraop, .options = {.grid = {}}},
+                 folder_ / "out");
+    });
+  };
+  StageReport report;
+  report.measures["solution_sha256"] = sha256_of_text("the first");
+  write_stage_record(later / "register",
+                     {.stage = "register", .stamp = "", .failure = "", .entry = stage_entry(report, 1, 1)});
+  write("answered/solve/solution.vtu", "the second");
+  expect_parts(said(later), {"register", "an earlier solution"});
+  fs::rename(later / "register", later / "own_fields");
+  EXPECT_EQ(said(later / "own_fields"), "") << "whose solution lies elsewhere";
 }
 
 TEST_F(WarpFiles, FilesThatDifferInTheirEndingsAloneGoTogether) {

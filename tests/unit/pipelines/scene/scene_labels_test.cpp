@@ -142,6 +142,16 @@ TEST_F(SceneLabels, AHemisphereThatIsMissingIsTold) {
   expect_parts(notes[1], {"warning", "right hemisphere"});
 }
 
+TEST_F(SceneLabels, AHemisphereOfDestrieuxRegionsThatIsMissingIsTold) {
+  LabelMap map = freesurfer_labels();
+  for (std::uint16_t& label : map.voxels) {
+    label = label == 2 || label == 3 ? 0 : label == 41 || label == 42 ? 12101 : label;
+  }
+  const auto notes = read_labels(image_of(map, "freesurfer"), {.by_class = true, .joined = {}}).notes;
+  ASSERT_FALSE(notes.empty());
+  expect_parts(notes.back(), {"warning", "left hemisphere"});
+}
+
 TEST_F(SceneLabels, AMapWithoutVentriclesIsReadAndSaidSo) {
   LabelMap map = block_labels();
   map.voxels.assign(64, 2);
