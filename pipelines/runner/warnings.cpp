@@ -399,10 +399,10 @@ Warnings warnings_of(const registration::RegisterMeasures& measures) {
                        " mm at a node, as its voxels are coarse or it cannot jump at a cut, falx or tentorium: images, "
                        "landmarks and tracts there are off by as much; solution.vtu is not");
   }
-  constexpr double many = 1e-3;  // of the brain's voxels; where nodes fill it next to none
+  constexpr double many = 2e-4;  // of the brain's voxels; where nodes fill it none
   if (static_cast<double>(measures.without_nodes) > many * static_cast<double>(measures.brain_voxels)) {
     warnings.push_back("about " + std::to_string(measures.without_nodes) +
-                       " voxels of the brain lie over two spacings from every node, where the field is made up from "
+                       " voxels of the brain lie over 1.5 spacings from every node, where the field is made up from "
                        "afar; if tissue was taken out there, give register its wall (--wall, --resection)");
   }
   if (measures.landmarks_outside > 0) {

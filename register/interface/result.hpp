@@ -26,7 +26,7 @@ struct RegisterMeasures {
   double field_jacobian_min = 0;      ///< over all voxels, the faded field outside the brain too
   std::size_t folded_voxels = 0;      ///< where the Jacobian is not positive
   double largest_displacement = 0;    ///< over the voxels, mm
-  std::size_t without_nodes = 0;      ///< of the brain's voxels, about: those over two spacings from every node
+  std::size_t without_nodes = 0;      ///< of the brain's voxels, about: those over 1.5 spacings from every node
   double fit_error = 0;               ///< largest over nodes of |field at the node - solution's displacement|, mm
   double seconds = 0;                 ///< that fields and warped images took
 };

@@ -432,4 +432,15 @@ TEST(Warnings, TellOfAFieldThatFolds) {
   expect_parts(warnings_of(measures).front(), {"768 voxels", "-0.16"});
 }
 
+TEST(Warnings, TellWhereNoNodesAreNear) {
+  registration::RegisterMeasures measures;
+  measures.brain_voxels = 1000000;
+  measures.without_nodes = 8;
+  EXPECT_TRUE(warnings_of(measures).empty()) << "a gap in another program's cloud";
+  measures.without_nodes = 4000;
+  const Warnings warnings = warnings_of(measures);
+  ASSERT_EQ(warnings.size(), 1U);
+  expect_parts(warnings.front(), {"4000 voxels", "--wall"});
+}
+
 }  // namespace brainshift::pipelines::warnings_test

@@ -27,6 +27,7 @@ struct Fields {
     nodes.positions = Points(1, 3);
     nodes.positions.row(0) = centre;
     nodes.displacement = Points::Zero(1, 3);
+    nodes.spacing = {30};
   }
   RegisterMeasures measures() const { return measure_fields(forward, resampling, jacobian, zone, nodes); }
 };
@@ -40,6 +41,22 @@ TEST(Measures, OfABodyAtRestAreNone) {
   EXPECT_EQ(m.fit_error, 0);
   EXPECT_EQ(m.jacobian_min, 1);
   EXPECT_EQ(m.folded_voxels, 0U);
+  EXPECT_EQ(m.without_nodes, 0U);
+}
+
+/// As where tissue was taken out and nobody says so.
+TEST(Measures, VoxelsFarFromEveryNodeAreCounted) {
+  Fields fields;
+  fields.nodes.spacing = {6};
+  std::size_t far = 0;
+  for (int k = 0; k < g.size.z(); ++k) {
+    for (int j = 0; j < g.size.y(); ++j) {
+      for (int i = 0; i < g.size.x(); ++i) {
+        far += (g.to_world(Eigen::Vector3d(i, j, k)) - centre).norm() > 9 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(fields.measures().without_nodes) / static_cast<double>(far), 1, 0.25);
 }
 
 TEST(Measures, InverseErrorIsWhatTheWayThereAndBackLeaves) {

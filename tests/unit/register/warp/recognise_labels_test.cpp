@@ -44,7 +44,7 @@ TEST(RecogniseLabels, NotASliceOfOneVoxel) {
 TEST(RecogniseLabels, WithAFewNegativeOnesIsAContrast) {
   EXPECT_FALSE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) { return x.x() > 3 ? 1 : -1; })));
   EXPECT_TRUE(looks_like_labels(
-      image(g, [](const Eigen::Vector3d& x) { return x.x() > 3 ? std::floor((x.y() - g.origin.y()) / 20) : -1; })));
+      image(g, [](const Eigen::Vector3d& x) { return x.x() > 3 ? std::floor(std::abs(x.y()) / 6) : -1; })));
   EXPECT_TRUE(looks_like_labels(image(g, [](const Eigen::Vector3d& x) {
     return x.x() > 3 ? 1000 + std::floor(x.y() / 4) + 10 * std::floor(x.z() / 4) : -1;
   })));
