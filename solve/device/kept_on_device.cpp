@@ -26,6 +26,11 @@ KeptOnDevice::KeptOnDevice(const Backend* backend) : backend_(backend) {}
 
 KeptOnDevice::~KeptOnDevice() = default;
 
+void KeptOnDevice::forget_body() {
+  single_.reset();
+  twofold_.reset();
+}
+
 std::optional<SteppingResult> KeptOnDevice::relax_if_asked(Body& body, const Course& course,
                                                            const SolveOptions& options, bool cautious,
                                                            const Progress& progress) {
@@ -42,8 +47,7 @@ std::optional<SteppingResult> KeptOnDevice::relax_if_asked(Body& body, const Cou
                  : relax(under_its_load(twofold_, backend, body), body, course, options, cautious, progress);
     } catch (const DeviceFault& fault) {
       fault_ = fault.what();
-      single_.reset();
-      twofold_.reset();
+      forget_body();
       throw;
     }
   });

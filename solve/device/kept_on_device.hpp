@@ -28,6 +28,9 @@ class KeptOnDevice {
   std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,
                                                bool cautious, const Progress& progress);
 
+  /// The next body is another.
+  void forget_body();
+
   /// How the device has failed; empty: it has not.
   const std::string& fault() const { return fault_; }
 

@@ -11,19 +11,16 @@
 #include "solve/body/check_model.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/body/ordered_cloud.hpp"
-#include "solve/body/soft_nodes.hpp"
-#include "solve/boundary/patch_rim.hpp"
 #include "solve/device/backend.hpp"
 #include "solve/device/kept_on_device.hpp"
 #include "solve/dynamics/relaxation.hpp"
-#include "solve/dynamics/relaxation_rules.hpp"
-#include "solve/measured/inner_rows.hpp"
 #include "solve/run/measured.hpp"
 #include "solve/run/measured_covariance.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/step.hpp"
 #include "solve/shape/nodal_displacement.hpp"
 #include "solve/shape/shape_functions.hpp"
+#include "solve/update/other_load.hpp"
 
 namespace brainshift::solve {
 
@@ -40,98 +37,6 @@ constexpr double farther_eigenvalue = 0.0015;  // where other nodes are loaded
 /// in the steps that it is worth, and without any an update is a relaxation as a run's, whose looks are for slow
 /// bodies.
 constexpr double slow_body = 8e-5;
-
-/// Surface nodes of the whole cloud that nothing prescribes.
-std::vector<std::int32_t> free_nodes(const std::vector<std::uint8_t>& on_surface, const Points& prescribed) {
-  std::vector<std::int32_t> nodes;
-  for (std::size_t a = 0; a < on_surface.size(); ++a) {
-    if (on_surface[a] != 0 && !is_loaded(prescribed, static_cast<Eigen::Index>(a))) {
-      nodes.push_back(static_cast<std::int32_t>(a));
-    }
-  }
-  return nodes;
-}
-
-/// As a run from the beginning holds it. ordered: at the body's nodes.
-void hold(const Conditions& ordered, KeptRun& run) {
-  Body& body = run.fine.body;
-  const NodeCloud given{.positions = body.positions, .spacing = body.spacing, .on_surface = run.on_surface};
-  const NodeCloud cloud = subset(given, body.original);
-  PatchRim rim = patch_rim(cloud, ordered.displacement, {});
-  rim.rows = rows_at_rim({cloud.positions, cloud.spacing, run.options.shape, {}, body.node_modulus}, rim);
-  if (ordered.measured) {
-    ShapeRows inner;
-    if (ordered.measured->inner.rows() > 0) {
-      inner = inner_rows({cloud.positions, cloud.spacing, run.options.shape}, ordered.measured->inner);
-    }
-    body.essential = {ordered.displacement, body.nodal_rows, body.original, *ordered.measured, inner, rim};
-  } else {
-    body.essential = {ordered.displacement, body.nodal_rows, body.original, Imposition::exact, rim};
-  }
-}
-
-/// The nodes that nothing prescribes may touch.
-void free_to_touch(const Points& prescribed, KeptRun& run) {
-  Body& body = run.fine.body;
-  std::vector<std::int32_t> ordinal(body.original.size());
-  for (std::size_t a = 0; a < ordinal.size(); ++a) {
-    ordinal[static_cast<std::size_t>(body.original[a])] = static_cast<std::int32_t>(a);
-  }
-  std::vector<std::int32_t> nodes = free_nodes(run.on_surface, prescribed);
-  for (std::int32_t& node : nodes) {
-    node = ordinal[static_cast<std::size_t>(node)];
-  }
-  std::sort(nodes.begin(), nodes.end());
-  const Points ordered = body.positions(body.original, Eigen::all);
-  body.contact.emplace(std::shared_ptr(body.contact->skull()), ordered, nodes, body.nodal_rows);
-}
-
-void set_fine_load(const Conditions& load, KeptRun& run) {
-  Body& body = run.fine.body;
-  const Conditions ordered = subset(load, body.original);
-  if (run.ready && !ordered.measured && body.essential.prescribe(ordered.displacement)) {
-    return;  // at the nodes of the last load: all else depends on these alone
-  }
-  run.ready = false;
-  hold(ordered, run);
-  body.essential.factorise(run.fine.settled.mass, relaxation_alpha);  // throws while the body is still here
-  if (body.contact) {
-    free_to_touch(load.displacement, run);
-  }
-  run.ready = true;
-}
-
-/// Nodes of the surface, one a row, that are held in all directions.
-std::vector<std::uint8_t> bonded_nodes(const std::vector<std::uint8_t>& on_surface, const Points& prescribed) {
-  std::vector<std::uint8_t> bonded = on_surface;
-  for (std::size_t a = 0; a < bonded.size(); ++a) {
-    if (prescribed.row(static_cast<Eigen::Index>(a)).array().isNaN().any()) {
-      bonded[a] = 0;
-    }
-  }
-  return bonded;
-}
-
-/// Whether the body's derivatives are those of a run under this load.
-bool is_prepared_for(const Points& prescribed, const KeptRun& run) {
-  return run.options.integration != Integration::consistent ||
-         bonded_nodes(run.on_surface, prescribed) == bonded_nodes(run.on_surface, run.prepared_for);
-}
-
-/// Lays the body out as a run under this load does.
-void prepare_for(const Conditions& load, KeptRun& run, const Progress& progress) {
-  if (!run.made_from) {
-    throw std::invalid_argument("it loads other nodes than the run did, and what the run was made from is not known");
-  }
-  Model model = run.made_from();
-  model.conditions.displacement = load.displacement;
-  model.conditions.measured = load.measured;
-  SolveMeasures measures;
-  run.fine.body = prepare(model, run.options, {}, measures, progress).body;
-  run.prepared_for = load.displacement;
-  run.on_device.reset();
-  run.ready = false;
-}
 
 /// Takes over where a body has come to rest.
 void take(SteppingResult& stepped, KeptBody& kept) {
@@ -343,16 +248,17 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
   const NodalVectors told = first_order(prescribed, from_origin, tells_all, run);
   Course course;
   course.start = told;
+  if (!is_prepared_for(prescribed, run)) {
+    prepare_for(load, run, progress);
+  }
   if (is_prepared_for(prescribed, run)) {
     course.settled = settled_for(load, from_origin, tells_all, run);
-  } else {
-    prepare_for(load, run, progress);
   }
   course.bound = run.options.device == Device::cpu ? BoundOf::displacement : BoundOf::parameters;
   if (tells_all) {
     run.departures.add_expected(run.responses, from_origin, course.start);
   }
-  set_fine_load(load, run);
+  set_load(load, run);
   SteppingResult stepped = come_to_rest(run, course, progress);
   if (!stepped.failure.empty() && course.settled && std::isfinite(run.trusted)) {  // a trial is to see it fail
     run.fine.body = std::move(stepped.body);
@@ -371,7 +277,7 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
   if (tells_all && result.failure.empty()) {
     run.departures.learn(run.responses, from_origin, told, run.fine.parameters, result.measures.error_bound);
   }
-  run.prescribed = prescribed;
+  run.prescribed = run.prepared_for = prescribed;
   run.displacement = result.solution.displacement;
   return result;
 }
