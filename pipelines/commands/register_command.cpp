@@ -43,6 +43,9 @@ void add_register_command(CLI::App& program, const Settings& settings) {
   CLI::Option* resected = add_scene_option(*command, arguments->scene, "resection", "labels", "--resection");
   wall->needs(resected);
   resected->needs(wall);
+  for (const char* name : {"cavity_label", "cavity_value"}) {
+    add_scene_option(*command, arguments->scene, "register", name)->needs(wall);
+  }
   command->add_option("--landmarks", job.landmarks, "markups to move")->type_name("FILE");
   command->add_option("--warp", job.warp, "another image, surface or file of points to move; again for each")
       ->type_name("FILE")
@@ -52,7 +55,7 @@ void add_register_command(CLI::App& program, const Settings& settings) {
       ->type_name("FILE")
       ->take_all()
       ->allow_extra_args(false);
-  for (const char* name : {"fade", "interpolation", "inverse_tolerance", "cavity_label", "cavity_value", "device"}) {
+  for (const char* name : {"fade", "interpolation", "inverse_tolerance", "device"}) {
     add_scene_option(*command, arguments->scene, "register", name);
   }
   command->add_option("--out", arguments->out, "folder for the artefacts")->required()->type_name("DIR");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/jobs.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "pipelines/checksum/sha256.hpp"
@@ -12,6 +13,7 @@
 #include "register/files/warped_series.hpp"
 #include "segmentation/files/naming.hpp"
 #include "segmentation/files/points_file.hpp"
+#include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "solve/output/solution_file.hpp"
 
@@ -25,6 +27,15 @@ void need_same_grid(const ImageGeometry& t1, const fs::path& t1_file, const std:
     throw std::invalid_argument(other_file.string() +
                                 ": its grid (size, spacing, origin or direction) is not that of " + t1_file.string() +
                                 "; resample it onto that image first");
+  }
+}
+
+/// Of what was taken out.
+void need_labels(const std::vector<std::int32_t>& asked, const std::optional<LabelMap>& labels, const fs::path& file) {
+  for (const std::int32_t label : asked) {
+    if (labels && std::ranges::find(labels->voxels, label) == labels->voxels.end()) {
+      refuse(file, "no voxel has the label " + std::to_string(label) + ", which was resected");
+    }
   }
 }
 
@@ -78,6 +89,7 @@ StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress&
     input.landmarks = solve::read_markup_positions(job.landmarks);
   }
   if (!job.wall.empty()) {
+    need_labels(job.resected, input.labels, job.labels);
     input.cavity = registration::Cavity{read_surface(job.wall), job.resected};
   }
   const fs::path& reference = job.t1.empty() ? job.labels : job.t1;

@@ -66,7 +66,8 @@ void impose_field(const Load& how, SolveInput& input) {
     input.notes.push_back("warning: " + how.field->file.string() + " says something of " +
                           std::to_string(found.known + found.not_found) + " of " + std::to_string(found.asked) +
                           " nodes of the brain's surface: the others lie outside its grid and are left free; is it in "
-                          "the image's frame?");
+                          "the image's frame? If it is of a part of the brain, name the opening that it tells of "
+                          "(where)");
   }
   if (found.not_found > 0) {
     input.notes.push_back("warning: " + how.field->file.string() + " takes no place to " +

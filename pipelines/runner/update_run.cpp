@@ -157,7 +157,10 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
   } else {
     make_kept(job, progress);
   }
-  kept_.made_from = [job] { return read_input(job).model; };
+  kept_.made_from = [job]() mutable {
+    job.load.reset();  // its file may be the one that is measured anew
+    return read_input(job).model;
+  };
   kept_.options.device = device.value_or(kept_.options.device);
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/warp_files.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -136,16 +138,18 @@ void check_both_or_neither_replaced(const fs::path& folder) {
 }
 
 /// The solution that the fields are of, as far as it is known; none where another lies there.
-fs::path solution_of(const fs::path& fields) {
+fs::path solution_of(const fs::path& fields, std::vector<std::string>& notes) {
   const fs::path solution = fields / "../solve/solution.vtu";
   const std::optional<StageRecord> record = read_stage_record(fields);
   const std::string known = record ? record->entry.value("/measures/solution_sha256"_json_pointer, "") : "";
   if (known.empty() || !fs::exists(solution) || sha256_of_file(solution) == known) {
     return solution;
   }
-  if (fields.filename() == stage_name(StageId::registration)) {
+  if (fs::canonical(fields).filename() == stage_name(StageId::registration)) {
     refuse(fields, "its fields are of an earlier solution than the one beside it; register that one first");
   }
+  notes.push_back(fields.string() + ": its fields are of another solution than " + solution.string() +
+                  ", so how far they may be off is not told");
   return {};
 }
 
@@ -174,16 +178,15 @@ std::vector<std::string> warp_files(const WarpJob& job, const fs::path& out) {
   const fs::path folder = fs::is_directory(stage) ? stage : job.run;
   check_up_to_date(folder);
   check_both_or_neither_replaced(folder);
-  registration::RegisterFields fields(folder, job.towards, solution_of(folder));
-  registration::WarpAnyOptions options = job.options;
   std::vector<std::string> notes;
+  registration::RegisterFields fields(folder, job.towards, solution_of(folder, notes));
+  registration::WarpAnyOptions options = job.options;
   if (!job.like.empty()) {
-    notes = frame_warnings({job.like});
+    std::ranges::copy(frame_warnings({job.like}), std::back_inserter(notes));
     options.grid = is_image_series(job.like) ? read_image_series(job.like).volumes.front().geometry
                                              : read_image(job.like).geometry;
   }
-  const std::vector<std::string> told_of_files = warp_files(job.files, fields, out, options);
-  notes.insert(notes.end(), told_of_files.begin(), told_of_files.end());
+  std::ranges::copy(warp_files(job.files, fields, out, options), std::back_inserter(notes));
   return notes;
 }
 

@@ -3,6 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <numbers>
@@ -31,11 +34,30 @@ RigidMotion fit_rigid(const Points& from, const Points& to, const Points& sigma)
   return motion;
 }
 
+namespace {
+
+/// Of each axis of the image the tracker's that it is nearest to, each of them once.
+std::array<int, 3> nearest_axes(const Eigen::Matrix3d& rotation) {
+  std::array<int, 3> axes = {0, 1, 2}, best = axes;
+  double most = 0;
+  do {
+    const double near =
+        std::abs(rotation(axes[0], 0)) + std::abs(rotation(axes[1], 1)) + std::abs(rotation(axes[2], 2));
+    if (near > most) {
+      most = near;
+      best = axes;
+    }
+  } while (std::ranges::next_permutation(axes).found);
+  return best;
+}
+
+}  // namespace
+
 CraniotomyLoad registered(const CraniotomyLoad& load, const RigidMotion& motion) {
   CraniotomyLoad turned{load.positions, motion.back(load.positions + load.displacement) - load.positions, load.sigma};
   if (load.sigma.rows() > 0) {
-    const Eigen::Matrix3d squared_cosines = motion.rotation.cwiseAbs2();
-    turned.sigma = (Points(load.sigma.cwiseAbs2()) * squared_cosines).cwiseSqrt();
+    const std::array<int, 3> axes = nearest_axes(motion.rotation);
+    turned.sigma = load.sigma(Eigen::all, axes);
   }
   return turned;
 }

@@ -27,7 +27,8 @@ struct RigidMotion {
 RigidMotion fit_rigid(const Points& from, const Points& to, const Points& sigma);
 
 /// The load in the frame of the image: a place that is measured at y lies at T⁻¹ y there. Standard deviations are along
-/// the tracker's axes and turn with it, σ'² = diag(Rᵀ σ² R); what then goes together along two axes is left out.
+/// the tracker's axes: each axis of the image takes that of the nearest. Turned as a covariance, one that is large, of
+/// a component that nobody measured, would spoil the others.
 CraniotomyLoad registered(const CraniotomyLoad& load, const RigidMotion& motion);
 
 /// An ITK text transform (.tfm): takes places of the image to where the tracker sees them. Throws std::runtime_error,
