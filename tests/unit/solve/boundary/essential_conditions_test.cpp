@@ -192,6 +192,22 @@ TEST(MeasuredConditions, GiveWayByVarianceTimesForceOverWeight) {
   EXPECT_GT(largest, 0.01);
 }
 
+TEST(MeasuredConditions, OfAPointInsideGiveWayAlongEachAxisByItsOwnDeviation) {
+  MeasuredBox box(800);
+  box.measured.sigma.setConstant(800);
+  box.measured.inner_sigma(0, 1) = 1e-6;
+  EssentialConditions soft(box.prescribed, box.rows, names(box.prescribed), box.measured, box.inner);
+  soft.factorise(box.mass, 3);
+  NodalVectors u = box.random_parameters(3);
+  soft.apply(1, u);
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < box.inner[0].size(); ++k) {
+    moved += box.inner[0].value[k] * at(u, static_cast<std::size_t>(box.inner[0].node[k])).head<3>();
+  }
+  EXPECT_NEAR(moved[1], 3, 1e-4);
+  EXPECT_GT(std::abs(moved[0] - 3), 0.1);
+}
+
 TEST(MeasuredConditions, AddTheirSpringsToTheStiffnessOfAStep) {
   constexpr double alpha = 3, weight = 1e6;
   MeasuredBox box(800);

@@ -88,6 +88,19 @@ TEST(FluidForce, OfAFullRoomActsOnItsWallAlone) {
   EXPECT_LE((carried - 1007e-9 * room * down).norm(), 1e-9 * room) << "its wall carries its weight";
 }
 
+/// Sideways the suction of each layer pulls at the walls: by its height above the level, over the cube's width.
+TEST(FluidForce, OfAFullRoomSucksByTheHeightAboveTheLevelThatPartsIt) {
+  const Cube cube;
+  constexpr double height = 37.3;
+  const NodalVectors force = cube.force(drained_to(height), {{1, {.room = Room::full}}});
+  double virial = 0;
+  for (std::size_t a = 0; a < cube.cloud.size(); ++a) {
+    virial += newton * at(force, a)[0] * cube.cloud.positions(static_cast<Eigen::Index>(a), 0);
+  }
+  const double expected = -1007e-9 * down.norm() * side * side * std::pow(side - height, 2) / 2;
+  EXPECT_NEAR(virial / expected, 1, 2e-3);
+}
+
 TEST(FluidForce, OfATurnedPatientIsWhatTheTissueWeighsInTheFluid) {
   const Cube cube;
   DrainedFluid fluid = drained_to(100);

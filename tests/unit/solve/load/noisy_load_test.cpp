@@ -44,6 +44,12 @@ TEST(NoisyLoad, PrescribesAtTheCortexWhatTheExactLoadDoesAndKeepsPointsInsideApa
   EXPECT_EQ(conditions.measured->inner_displacement, load.displacement.bottomRows(1));
 }
 
+TEST(NoisyLoad, CountsAPointAsInsideByItsDepthBelowTheSurface) {
+  const Points places{{30, 30, side - 7}, {30, 30, side}, {25, 35, side + 6}, {20, 24, side - 8}};
+  const CraniotomyLoad load{places, Points::Zero(4, 3), Points::Constant(4, 3, 0.5)};
+  EXPECT_EQ(inner_points(test::irregular_box(9, side), load), (std::vector<Eigen::Index>{0, 3}));
+}
+
 /// The surface nodes nearest to a deep point lie on several sides of it.
 TEST(NoisyLoad, TakesNoDeepPointForOneOfTheCortex) {
   NodeCloud cloud = test::irregular_box(9, side);
@@ -68,7 +74,7 @@ TEST(NoisyLoad, SharesOfTheCortexAddUpToOneAndGiveBackWhatIsPrescribed) {
   const Eigen::MatrixXd spread = conditions.measured->spread;
   const Points shared = spread * load.displacement.topRows(9);
   for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
-    EXPECT_NEAR(spread.row(a).sum(), conditions.is_prescribed(a) ? 1 : 0, 0.05);
+    EXPECT_NEAR(spread.row(a).sum(), conditions.is_prescribed(a) ? 1 : 0, 1e-12);
     if (conditions.is_prescribed(a)) {
       EXPECT_LT((shared.row(a) - conditions.displacement.row(a)).norm(), 0.1);
     }
@@ -105,17 +111,21 @@ TEST(NoisyLoad, RefusesAPointOutsideTheHeadAndOneWithoutStandardDeviation) {
   EXPECT_NE(refusal([&] { noisy_conditions(cloud, {}); }).find("no displacement is measured"), std::string::npos);
 }
 
-TEST(NoisyField, SharesTheFaultsOfAtMostSoManyNodesAmongAllWithADisplacement) {
-  const NodeCloud cloud = test::irregular_box(16, side);
+/// Of more nodes than may be measured, those of the upper face.
+Points upper_face_sinks(const NodeCloud& cloud) {
   Points displacement = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
-  Eigen::Index known = 0;
   for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
     if (cloud.positions(a, 2) > side - 1e-9) {
       displacement.row(a) << 0, 0, -0.1 * cloud.positions(a, 0);
-      ++known;
     }
   }
-  ASSERT_GT(known, most_measured_points);
+  return displacement;
+}
+
+TEST(NoisyField, SharesTheFaultsOfAtMostSoManyNodesAmongAllWithADisplacement) {
+  const NodeCloud cloud = test::irregular_box(16, side);
+  Points displacement = upper_face_sinks(cloud);
+  ASSERT_GT((!displacement.col(0).array().isNaN()).count(), most_measured_points);
   const Conditions conditions = noisy_field(cloud, displacement, 0.5);
   const Measurement& m = *conditions.measured;
   ASSERT_EQ(m.sigma.rows(), most_measured_points);
@@ -132,6 +142,24 @@ TEST(NoisyField, SharesTheFaultsOfAtMostSoManyNodesAmongAllWithADisplacement) {
   EXPECT_NE(refusal([&] { noisy_field(cloud, displacement, 0); }).find("standard deviation"), std::string::npos);
   displacement.setConstant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_NE(refusal([&] { noisy_field(cloud, displacement, 1); }).find("no node"), std::string::npos);
+}
+
+TEST(NoisyField, SharesAFaultByTheInverseOfTheSquaredDistance) {
+  const NodeCloud cloud = test::irregular_box(16, side);
+  const Measurement m = *noisy_field(cloud, upper_face_sinks(cloud), 0.5).measured;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> spread = m.spread;
+  int shared = 0;
+  for (Eigen::Index a = 0; a < spread.rows(); ++a) {
+    std::vector<double> products;
+    for (decltype(spread)::InnerIterator entry(spread, a); entry && entry.value() < 1; ++entry) {
+      products.push_back(entry.value() * (m.cortex.row(entry.col()) - cloud.positions.row(a)).squaredNorm());
+    }
+    for (const double product : products) {
+      EXPECT_NEAR(product, products.front(), 1e-9 * products.front());
+      ++shared;
+    }
+  }
+  EXPECT_GT(shared, 0);
 }
 
 }  // namespace brainshift::solve::noisy_load_test

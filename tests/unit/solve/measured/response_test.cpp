@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "solve/quadrature/cell_points.hpp"
@@ -60,6 +61,29 @@ TEST(LinearResponse, IsWhatTheSolverAnswersToASmallForce) {
     const Eigen::Vector3d expected = 10 * response.compliance.block<3, 1>(3 * i, 3);  // 10 µN
     EXPECT_LT((moved - expected).norm(), 0.03 * response.compliance(3, 3) * 10) << i;
   }
+}
+
+TEST(StiffBody, HasTheStiffnessOfItsMaterialToEvenStrains) {
+  const Parts box(false);
+  const Material& material = box.model.materials.at(1);
+  const Eigen::MatrixXd stiffness = stiff_body(box.parts, false).stiffness;
+  Eigen::VectorXd stretched = Eigen::VectorXd::Zero(stiffness.rows()), sheared = stretched;
+  for (Eigen::Index a = 0; a < box.parts.cloud.positions.rows(); ++a) {
+    stretched[3 * a + 2] = sheared[3 * a] = box.parts.cloud.positions(a, 2);
+  }
+  const double volume = std::pow(model_side, 3), shear = shear_modulus(material);
+  EXPECT_NEAR(stretched.dot(stiffness * stretched) / volume / (bulk_modulus(material) + 4 * shear / 3), 1, 1e-6);
+  EXPECT_NEAR(sheared.dot(stiffness * sheared) / volume / shear, 1, 1e-6);
+}
+
+TEST(LinearResponse, InASkullHardlyMovesTheSurfaceAlongItsNormal) {
+  Parts box(false);
+  Eigen::Index node = 0;
+  const Eigen::RowVector3d middle_of_face(0, model_side / 2, model_side / 2);
+  (box.parts.cloud.positions.rowwise() - middle_of_face).rowwise().norm().minCoeff(&node);
+  box.at = {static_cast<std::int32_t>(node)};
+  const Eigen::MatrixXd compliance = box.response(true).compliance;
+  EXPECT_LT(compliance(0, 0), 0.1 * compliance(1, 1));
 }
 
 TEST(LinearResponse, OfAFreeBodyMovesItNotAsAWhole) {

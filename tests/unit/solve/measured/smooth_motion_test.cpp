@@ -57,6 +57,13 @@ TEST(SmoothMotion, OfTheOpeningIsFoundWhereThereIsOneAndOnlyThere) {
   EXPECT_LE(found, 1) << "of ten that are rough alone";
 }
 
+TEST(SmoothMotion, OfMaternIsAlikeByHalfOverItsLength) {
+  const Response response = rough_response(Points{{0, 0, 0}, {10, 0, 0}});
+  const Eigen::MatrixXd covariance =
+      smooth_covariance(response, {.length = 10}, Eigen::Matrix3d::Identity(), Alike::matern);
+  EXPECT_NEAR(covariance(0, 3), (1 + std::sqrt(5) + 5.0 / 3) * std::exp(-std::sqrt(5)), 1e-12);
+}
+
 TEST(SmoothMotion, FadesToATenthAtTheRimOfAnOpening) {
   const Response response = opening_response(400);
   const Points& x = response.sites;

@@ -21,6 +21,16 @@ using test_responses::rough_response;
 using test_responses::smooth_response;
 using test_responses::smoothly_drawn;
 
+/// Places of a body that hardly deforms and that nothing holds.
+Response stiff_and_free(const Points& places) {
+  Response response = rough_response(places);
+  response.compliance *= 1e-9;
+  response.rigid = rigid_motions(places, places);
+  response.free = true;
+  response.sites = Points(0, 3);
+  return response;
+}
+
 TEST(Weight, IsFoundFromDisplacementsThatWereDrawnWithIt) {
   std::mt19937 random(1);
   const Points places = test::random_points(40, 100);
@@ -133,6 +143,23 @@ TEST(Weight, CountsTheRigidMotionsThatTheUsualComponentsTell) {
   }
 }
 
+/// Noise of twice what is said, at four points: 3 of what is said and 6 of χ², E (3 + 4 χ²) / (3 + 6) = 3.
+TEST(Weight, CountsNoiseOverTheFreedomThatRigidMotionsLeave) {
+  std::mt19937 random(10);
+  constexpr int draws = 400;
+  constexpr double said = 0.4;
+  const Points sigma = Points::Constant(4, 3, said);
+  const Response response = stiff_and_free(test::random_points(4, 60));
+  double squares = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    const Eigen::VectorXd d = 2 * said * normals(12, random);
+    const MeasuredFit fit = choose_weight(response, Eigen::Map<const Points>(d.data(), 4, 3), sigma, 1e-12);
+    squares += fit.noise_factor * fit.noise_factor / draws;
+    ASSERT_NEAR(fit.motion_deviation[0], fit.noise_factor * said / std::sqrt(4), 0.01 * fit.noise_factor);
+  }
+  EXPECT_NEAR(squares, 3, 0.3);
+}
+
 TEST(Weight, IsRefusedWherePointsOnALineAreAllThatHoldsABody) {
   Points line = Eigen::VectorXd::LinSpaced(8, 0, 50) * Eigen::RowVector3d(0.6, -0.48, 0.64);
   line = ((1000 * line).array().round() / 1000).eval();  // as a file has it
@@ -209,6 +236,31 @@ TEST(Posterior, MeasuresTheRigidMotionOfAFreeBodyAndLeavesThatOfAHeldOneOut) {
     const Points apart = Eigen::Map<const Points>(motion.data(), places.rows(), 3).bottomRows(asked);
     EXPECT_LT((other.mean() - one.mean() - (free ? 1 : 0) * apart).norm(), 1e-6);
   }
+}
+
+TEST(Posterior, OfAStiffFreeBodyIsKnownNoBetterThanItsRigidMotion) {
+  constexpr int known = 5;
+  constexpr double said = 0.4;
+  Points places(known + 1, 3);
+  places.topRows(known) = test::random_points(known, 60);
+  places.row(known) = places.topRows(known).colwise().mean();
+  Response response = stiff_and_free(places);
+  response.rigid = rigid_motions(places, places.topRows(known));
+  MeasuredFit fit;
+  fit.weight = 1e-12;
+  const Posterior posterior(response, Points::Zero(known, 3), Points::Constant(known, 3, said), fit);
+  const Eigen::Matrix3d expected = said * said / known * Eigen::Matrix3d::Identity();
+  EXPECT_LT((posterior.covariance(0, 1) - expected).norm(), 1e-6);
+}
+
+TEST(MeasuredGaussian, HasTheLikelihoodOfTheFreedomThatRigidMotionsLeave) {
+  const Points places = test::random_points(4, 60);
+  const auto log_likelihood = [&](double variance) {
+    return MeasuredGaussian(Eigen::MatrixXd::Zero(12, 12), rigid_motions(places, places), Eigen::VectorXd::Zero(12),
+                            Eigen::VectorXd::Constant(12, variance))
+        .log_likelihood;
+  };
+  EXPECT_NEAR(log_likelihood(4) - log_likelihood(1), -(12 - 6) * std::log(4.0) / 2, 1e-9);
 }
 
 TEST(AsSaid, IsTheMeanOfTheCovarianceAndTheBallAboutItAndSmallerWhereTheAnswerIs) {

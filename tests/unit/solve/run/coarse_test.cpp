@@ -68,6 +68,17 @@ TEST(CoarseDisplacement, IsNearTheSolutionAndAsPrescribedWhereItIs) {
   EXPECT_LT((*coarse - exact).rowwise().norm().maxCoeff(), 1.5) << "of 6 mm";
 }
 
+TEST(CoarseDisplacement, IsAsPrescribedAtTheEndOfTheCurve) {
+  Model model = uniaxial(1.1, 11);
+  model.curve = LoadCurve({0, 0.05}, {0, 0.7}, LoadCurve::Join::smooth);
+  const auto coarse = coarse_displacement(model, {}, {});
+  ASSERT_TRUE(coarse);
+  for (Eigen::Index a = 0; a < coarse->rows(); ++a) {
+    const double prescribed = model.conditions.displacement(a, 2);
+    EXPECT_TRUE(std::isnan(prescribed) || (*coarse)(a, 2) == 0.7 * prescribed) << a;
+  }
+}
+
 TEST(CoarseDisplacement, IsNoneWhereTheCoarseCloudCannotBeSolved) {
   EXPECT_FALSE(coarse_displacement(uniaxial(1.1, 3), {}, {})) << "too few nodes";
   Model unheld = pressed_bar();

@@ -294,6 +294,16 @@ TEST(KeptRun, AnswersOfASlowBodyAsARunDoes) {
   EXPECT_LE(distance(answer.solution.displacement, right), 2 * quick().tolerance);
 }
 
+/// Damped for ten times too quick a motion, answers stop too early.
+TEST(KeptRun, IsTrustedAsFarAsItAnswersHonestly) {
+  const Model model = pressed_bar(8);
+  KeptRun run = kept(model, quick());
+  EXPECT_EQ(run.trusted, 6);
+  run.origin.lowest = 0.01;
+  run.responses = {};
+  EXPECT_EQ(trusted_change(run, model.conditions, {}), 2);
+}
+
 TEST(KeptRun, RefusesASolutionOfAnotherCloud) {
   Model model = measured_box(0.5);
   model.conditions.measured.reset();
