@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "register/field/resampling_field.hpp"
 #include "tests/unit/register/builders.hpp"
 
 namespace brainshift::registration::registration_test {
@@ -82,6 +83,14 @@ TEST_F(RegisterImages, InvertsTheFieldAsFarAsItIsTold) {
   EXPECT_LT(most, 1.1);
 }
 
+TEST_F(RegisterImages, CountsTheVoxelsThatItDidNotInvert) {
+  RegisterOptions options;
+  options.inverse_tolerance = 1e-30;
+  const Registration result = register_images(input, options);
+  EXPECT_GT(result.measures.not_inverted, 0U);
+  EXPECT_EQ(result.measures.not_inverted, resampling_field(result.forward, options.inverse_tolerance).not_inverted);
+}
+
 TEST_F(RegisterImages, DoesWithoutLabelsAndLandmarks) {
   input.labels.reset();
   const Registration result = register_images(input, {});
@@ -111,6 +120,15 @@ TEST_F(RegisterImages, TellsOfLandmarksHowFarOffTheSolutionIsThere) {
   EXPECT_NEAR(error[0], 0.3, 1e-9);
   EXPECT_NEAR(error[1], 0.3, 1e-9);
   EXPECT_TRUE(std::isnan(error[2])) << "no node is near: nobody knows";
+}
+
+TEST_F(RegisterImages, KnowsALandmarksErrorFromWhereItLayBefore) {
+  Eigen::Index node = 0;
+  input.solution.displacement.rowwise().norm().maxCoeff(&node);
+  const Eigen::VectorXd heights = input.solution.positions.col(2).array() + 100;
+  input.solution.estimated_error.assign(heights.begin(), heights.end());
+  input.landmarks = input.solution.positions.row(node);
+  EXPECT_NEAR(register_images(input, {}).landmark_error.at(0), heights[node], 1e-6);
 }
 
 TEST_F(RegisterImages, ReportsProgressThatGrowsToOne) {

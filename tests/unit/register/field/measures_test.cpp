@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/unit/register/builders.hpp"
 
 namespace brainshift::registration::measures_test {
@@ -73,6 +75,16 @@ TEST(Measures, InverseErrorIsWhatTheWayThereAndBackLeaves) {
   EXPECT_NEAR(m.largest_displacement, std::sqrt(5.25), 1e-6);
 }
 
+TEST(Measures, Inverse999IsExceededByOneVoxelInAThousand) {
+  Fields fields;
+  for (const auto& [voxel, error] : {std::pair(10, 9.0F), {20, 8.0F}, {30, 3.0F}, {40, 1.0F}}) {
+    fields.resampling.voxels[static_cast<std::size_t>(voxel)] = {error, 0, 0};
+  }
+  const RegisterMeasures m = fields.measures();
+  ASSERT_EQ(m.brain_voxels, 1079U);
+  EXPECT_NEAR(m.inverse_999, 3, 1e-6) << "two of 1079 are larger";
+}
+
 /// u = s x about the centre has the inverse −s/(1 + s) y; it is looked up where the point has gone.
 TEST(Measures, InverseIsLookedUpAtThePlaceReached) {
   static constexpr double s = -0.2;  // inwards: no place beyond the image
@@ -113,6 +125,7 @@ TEST(Measures, FitErrorIsThatOfTheNodesInTheImage) {
   fields.nodes.positions = Points(3, 3);
   fields.nodes.positions << centre.transpose(), (centre + Eigen::Vector3d(3, 1, 2)).transpose(),
       (centre + Eigen::Vector3d(500, 0, 0)).transpose();
+  fields.nodes.spacing.assign(3, 30);
   fields.nodes.displacement = Points(3, 3);
   fields.nodes.displacement << u.transpose(), (u + Eigen::Vector3d(0, 0.6, 0.8)).transpose(), 99, 99, 99;
   EXPECT_NEAR(fields.measures().fit_error, 1, 1e-6) << "the third node lies outside";

@@ -10,7 +10,8 @@ namespace brainshift::registration::moving_part_test {
 using namespace builders;
 
 TEST(MovingPart, HoldsWhatMovesAndOneVoxelAround) {
-  VectorImage whole = field(grid(), [](const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); });
+  const ImageGeometry turned = grid({28, 25, 24}, {1.6, 1.8, 2.0}, oblique());
+  VectorImage whole = field(turned, [](const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); });
   whole.at(5, 6, 7) = {1, 2, 3};
   whole.at(8, 6, 9) = {0, 0, -1};
   const VectorImage part = moving_part(whole);
