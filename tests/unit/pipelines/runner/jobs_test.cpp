@@ -265,6 +265,25 @@ TEST_F(JobsTest, WithoutALoadTheNodesPrescribeTheirOwn) {
   EXPECT_FALSE(input.load);
 }
 
+TEST_F(JobsTest, TheForcesOfTheNodesFileActBesideALoad) {
+  SolveJob job = solve_job();
+  const NodeCloud cloud = read_node_cloud(job.nodes);
+  solve::Conditions conditions;
+  conditions.force = Points::Zero(cloud.positions.rows(), 3);
+  conditions.force(5, 2) = 1e-3;
+  job.nodes = folder_ / "own.vtu";
+  solve::write_nodes(job.nodes, cloud, conditions);
+  const auto expect_forces = [&] {
+    const Points force = read_input(job).model.conditions.force;
+    ASSERT_EQ(force.rows(), conditions.force.rows());
+    EXPECT_EQ(force, conditions.force);
+  };
+  expect_forces();
+  job.load = field(0);
+  job.load->noise = 0.5;
+  expect_forces();
+}
+
 TEST_F(JobsTest, ASolveWritesTheLoadBesideTheSolution) {
   const StageReport report = run_job(solve_job(), folder_ / ".", {});
   EXPECT_EQ(report.failure, "");

@@ -37,13 +37,14 @@ std::vector<std::int32_t> upper_nodes(const Model& model) {
   return nodes;
 }
 
-/// What a tracker that is turned by 0.05 and off by 4 mm sees of the upper face, which sinks by `depth` in its middle.
-CraniotomyLoad seen_by_tracker(const Model& model, const RigidMotion& tracker, double depth) {
+/// What a tracker that is turned by 0.35 and off by 4 mm sees of the upper face, which sinks by `depth` at `x`.
+CraniotomyLoad seen_by_tracker(const Model& model, const RigidMotion& tracker, double depth,
+                               double x = model_side / 2) {
   CraniotomyLoad load;
   load.positions = model.cloud.positions(upper_nodes(model), Eigen::all);
   Points moved = load.positions;
   for (auto place : moved.rowwise()) {
-    const double away = (place.head<2>().array() - model_side / 2).matrix().norm();
+    const double away = std::hypot(place[0] - x, place[1] - model_side / 2);
     place[2] -= depth * std::exp(-away * away / 200);
   }
   load.displacement = tracker(moved) - load.positions;
@@ -69,7 +70,7 @@ void impose(const CraniotomyLoad& load, Model& model) {
 
 RigidMotion a_tracker() {
   RigidMotion tracker;
-  tracker.rotation = Eigen::AngleAxisd(0.05, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  tracker.rotation = Eigen::AngleAxisd(0.35, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   tracker.translation = {4, -1, 2};
   return tracker;
 }
@@ -86,6 +87,12 @@ TEST(PatientRegistration, FindsHowTheTrackerStandsWhereTheBrainIsAtRest) {
   const PatientRegistration found = patient_registration(load, {}, impose, model);
   EXPECT_LE(found.open, registration_at_rest);
   EXPECT_LT(apart(found.motion, tracker, load.positions), 0.01);
+}
+
+TEST(PatientRegistration, ComesToRestWhereTheBrainSinksOnOneSide) {
+  Model model = held_cube();
+  const CraniotomyLoad load = seen_by_tracker(model, a_tracker(), 8, 10);
+  EXPECT_LE(patient_registration(load, {}, impose, model).open, registration_at_rest);
 }
 
 /// Where the tracker stands does not change what of a load is taken for the brain's own motion.

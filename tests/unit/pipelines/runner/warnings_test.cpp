@@ -150,6 +150,7 @@ TEST(Warnings, OfPointsInsideTheBrainTellThatTheyAreFew) {
   const Points places = opening(40).topRows(3);
   measured.inner = places.replicate(6, 1);
   const Warnings said = warnings_of({measured.inner, measured.inner}, ball(), conditions);
+  ASSERT_FALSE(said.empty());
   EXPECT_TRUE(std::ranges::any_of(said, [](const std::string& text) { return text.find("at 3 places; how") == 21; }))
       << said.front();
   measured.inner = opening(40);
@@ -177,12 +178,15 @@ TEST(Warnings, TellOfStandardDeviationsInMetres) {
   EXPECT_TRUE(warnings_of_sigma(sigma).empty());
   EXPECT_TRUE(warnings_of_sigma(Points(0, 3)).empty());
   sigma.row(4) /= 1000;
+  ASSERT_EQ(warnings_of_sigma(sigma).size(), 1U);
   expect_parts(warnings_of_sigma(sigma).front(), {"of 10 measured points 1 ", "in mm are expected"});
 }
 
 TEST(Warnings, AdviseRobustWeightsWhereTheyGoWithTheLoad) {
   const std::optional<solve::Outlier> wrong = solve::Outlier{{1, 2, 3}, 7};
+  ASSERT_EQ(warnings_of(wrong, true).size(), 1U);
   expect_parts(warnings_of(wrong, true).front(), {"near (1 2 3)", "take it out", "robust=\"yes\""});
+  ASSERT_EQ(warnings_of(wrong, false).size(), 1U);
   EXPECT_EQ(warnings_of(wrong, false).front().find("robust"), std::string::npos);
 }
 
@@ -266,6 +270,7 @@ TEST(Warnings, TellOfABrainThatTurnsInItsSkullWhichIsNoAnswerWhereNothingElseHol
   EXPECT_TRUE(warnings_of(model, turned(30)).empty()) << "no skull";
   model.skull = brainshift::test::sphere({0, 0, 0}, 60, 2);
   EXPECT_TRUE(warnings_of(model, turned(2)).empty());
+  ASSERT_EQ(warnings_of(model, turned(5)).size(), 1U);
   expect_parts(warnings_of(model, turned(5)).front(), {"turned by 5 degrees", "without friction"});
   EXPECT_EQ(turn_fault(model, turned(5)), "");
   expect_parts(turn_fault(model, turned(30)), {"turned by 30 degrees", "give a measured load"});
@@ -278,6 +283,7 @@ TEST(Warnings, TellOfAnErrorThatIsLargeBesideTheAnswer) {
   solution.estimated_error.assign(static_cast<std::size_t>(solution.positions.rows()), 0.5);
   EXPECT_TRUE(warnings_of(solve::Model(), solution).empty());
   solution.estimated_error.assign(solution.estimated_error.size(), 1.5);
+  ASSERT_EQ(warnings_of(solve::Model(), solution).size(), 1U);
   expect_parts(warnings_of(solve::Model(), solution).front(), {"1.5 mm", "more than half", "more nodes"});
 }
 
@@ -302,6 +308,7 @@ TEST(Warnings, TellOfATissueAsSoftAsFluidThatIsNoRoom) {
   model.materials = {{1, {.youngs_modulus = 3000}}, {2, {.youngs_modulus = 10}}};
   EXPECT_TRUE(warnings_of_rooms(model).empty()) << "nothing drains";
   model.fluid.emplace();
+  ASSERT_EQ(warnings_of_rooms(model).size(), 1U);
   expect_parts(warnings_of_rooms(model).front(), {"tissue 2", "room=\"drained\""});
   model.materials[2].room = solve::Room::drained;
   EXPECT_TRUE(warnings_of_rooms(model).empty());
@@ -319,6 +326,7 @@ TEST(Warnings, TellOfPointsThatLieInNoTissueOfTheLabelMap) {
   measures.outside_label = 400;
   EXPECT_TRUE(warnings_of(measures).empty());
   measures.outside_label = 4000;
+  ASSERT_EQ(warnings_of(measures).size(), 1U);
   expect_parts(warnings_of(measures).front(), {"50 %", "material", "frame"});
 }
 
@@ -330,6 +338,7 @@ TEST(Warnings, TellOfPointsThatAgreeFarBetterThanTheirNoise) {
     EXPECT_TRUE(warnings_of(measures).empty()) << fine;
   }
   measures.measured->noise_factor = 0.25;
+  ASSERT_EQ(warnings_of(measures).size(), 1U);
   expect_parts(warnings_of(measures).front(), {"4 times better", "standard deviation"});
 }
 
@@ -340,10 +349,12 @@ TEST(Warnings, TellOfFewPointsInAPressedBody) {
   measures.smallest_jacobian = 0.9;
   EXPECT_TRUE(warnings_of(measures).empty());
   measures.smallest_jacobian = 0.46;
+  ASSERT_EQ(warnings_of(measures).size(), 1U);
   expect_parts(warnings_of(measures).front(), {"only 1.2 integration points a node", "to 0.46"});
   measures.integration_points = 2000;
   EXPECT_TRUE(warnings_of(measures).empty());
   measures.fewest_points = 0.43;
+  ASSERT_EQ(warnings_of(measures).size(), 1U);
   expect_parts(warnings_of(measures).front(), {"about some nodes", "only 0.43 integration points a node"});
 }
 
@@ -366,8 +377,10 @@ TEST(Warnings, TellOfFewerPointsThanNodes) {
 TEST(Warnings, TellOfFewSpacingsAcrossAPatch) {
   solve::SolveMeasures measures = of_many_points();
   measures.thin = {{"the held patch", 3.2}};
+  ASSERT_EQ(warnings_of(measures).size(), 1U);
   expect_parts(warnings_of(measures).front(), {"nothing says how far off", "the held patch (3.2)"});
   measures.estimated_error_95 = 0.3;
+  ASSERT_EQ(warnings_of(measures).size(), 1U);
   expect_parts(warnings_of(measures).front(), {"farther off than is estimated", "the held patch (3.2)"});
 }
 
@@ -429,6 +442,7 @@ TEST(Warnings, TellOfAFieldThatFolds) {
   EXPECT_TRUE(warnings_of(measures).empty());
   measures.folded_voxels = 768;
   measures.field_jacobian_min = -0.16;
+  ASSERT_EQ(warnings_of(measures).size(), 1U);
   expect_parts(warnings_of(measures).front(), {"768 voxels", "-0.16"});
 }
 
