@@ -40,6 +40,22 @@ TEST(BrainZones, GoByTheDistanceFromTheSurface) {
   EXPECT_GT(*std::min_element(std::begin(seen), std::end(seen)), 100) << "every other zone occurs";
 }
 
+TEST(BrainZones, HaveACavityAsFarAsItsWall) {
+  constexpr double taken_out = 12;
+  const ImageGeometry g = grid({40, 36, 34}, {2, 2.2, 2.4}, oblique());
+  const Surface wall = ball(centre, taken_out);
+  const BrainZones zones = brain_zones(ball(centre, radius), g, fade, &wall);
+  int inside = 0;
+  for_each_voxel(g, [&](const Eigen::Vector3d& x, std::size_t v) {
+    const double distance = (x - centre).norm() - taken_out;
+    if (std::abs(distance) > faceted) {
+      ASSERT_EQ(zones.zone[v] == Zone::cavity, distance < 0) << distance << " mm from the wall";
+      inside += distance < 0 ? 1 : 0;
+    }
+  });
+  EXPECT_GT(inside, 100);
+}
+
 TEST(BrainZones, TellTheDistanceAsFarAsTheFieldFades) {
   const BrainZones zones = brain_zones(ball(centre, radius), grid(), fade);
   const Eigen::Vector3d out = Eigen::Vector3d(1, 2, -2) / 3;
