@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/warnings.hpp"
 
-#include "pipelines/runner/measure_warnings.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -11,6 +9,7 @@
 #include <string>
 
 #include "tests/unit/expect_parts.hpp"
+#include "tests/unit/pipelines/runner/expect_one.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 
 namespace brainshift::pipelines::warnings_test {
@@ -58,17 +57,14 @@ Points opening(double radius) {
 TEST(Warnings, TellOfPointsThatLieOffTheSurface) {
   EXPECT_TRUE(of_points(opening(60)).empty());
   EXPECT_TRUE(of_points(opening(63)).empty());
-  ASSERT_EQ(of_points(opening(75)).size(), 1U);
-  expect_parts(of_points(opening(75)).front(), {"15 mm off", "same frame"});
+  expect_one(of_points(opening(75)), {"15 mm off", "same frame"});
 }
 
 TEST(Warnings, TellOfPointsThatAreLostOrDoNotMove) {
   Points both(2 * opening(60).rows(), 3);
   both << opening(60), -opening(60);
-  ASSERT_EQ(of_points(both).size(), 1U);
-  expect_parts(of_points(both).front(), {"50 %", "are lost", "one opening"});
-  ASSERT_EQ(of_points(opening(60), 0).size(), 1U);
-  expect_parts(of_points(opening(60), 0).front(), {"displacements are 0"});
+  expect_one(of_points(both), {"50 %", "are lost", "one opening"});
+  expect_one(of_points(opening(60), 0), {"displacements are 0"});
 }
 
 TEST(Warnings, TellOfPointsThatMoveOutOfTheHeadAsIfASignWereTurned) {
@@ -76,8 +72,7 @@ TEST(Warnings, TellOfPointsThatMoveOutOfTheHeadAsIfASignWereTurned) {
   const auto moved = [&](const Eigen::RowVector3d& u) {
     return warnings_of(solve::CraniotomyLoad{points, u.replicate(points.rows(), 1)}, ball(), prescribed_on_top());
   };
-  ASSERT_EQ(moved({1, 0, 4}).size(), 1U);
-  expect_parts(moved({1, 0, 4}).front(), {"move out of the head, by 3.6 mm", "turn the signs"});
+  expect_one(moved({1, 0, 4}), {"move out of the head, by 3.6 mm", "turn the signs"});
   EXPECT_TRUE(moved({1, 0, -4}).empty());
   EXPECT_TRUE(moved({4, 0, 1}).empty()) << "along the cortex";
   EXPECT_TRUE(moved({0, 0, 0.5}).empty()) << "hardly";
@@ -88,8 +83,7 @@ TEST(Warnings, TellOfPointsThatMoveOutOfTheHeadWhereMostDoNotMove) {
   solve::CraniotomyLoad load{points, Points::Zero(points.rows(), 3), {}};
   load.displacement.col(2).head(4).setConstant(2);
   const Warnings said = warnings_of(load, ball(), prescribed_on_top());
-  ASSERT_EQ(said.size(), 1U);
-  expect_parts(said.front(), {"move out of the head"});
+  expect_one(said, {"move out of the head"});
 }
 
 TEST(Warnings, TellOfNeighboursThatWereTakenForEachOther) {
@@ -104,8 +98,7 @@ TEST(Warnings, TellOfNeighboursThatWereTakenForEachOther) {
   const Eigen::RowVector3d between = points.row(other) - points.row(0);
   load.displacement.row(0) += between * std::max(1.0, 4 / near);
   load.displacement.row(other) -= between * std::max(1.0, 4 / near);
-  ASSERT_EQ(of_load().size(), 1U);
-  expect_parts(of_load().front(), {"mm apart, move by vectors that differ by", "paired as they belong"});
+  expect_one(of_load(), {"mm apart, move by vectors that differ by", "paired as they belong"});
   load.sigma = Points::Constant(points.rows(), 3, 0.5);
   EXPECT_TRUE(of_load().empty()) << "the noise says who is wrong";
 }
@@ -114,8 +107,7 @@ TEST(Warnings, TellOfDisplacementsInMetres) {
   const Points points = opening(60);
   const solve::CraniotomyLoad load{points, Eigen::RowVector3d(0, 0, -0.004).replicate(points.rows(), 1), {}};
   const Warnings said = warnings_of(load, ball(), prescribed_on_top());
-  ASSERT_EQ(said.size(), 1U);
-  expect_parts(said.front(), {"by more than 0.004 mm", "in mm are expected"});
+  expect_one(said, {"by more than 0.004 mm", "in mm are expected"});
 }
 
 TEST(Warnings, TellOfTwoDisplacementsInOnePlaceThatContradictEachOther) {
@@ -125,8 +117,7 @@ TEST(Warnings, TellOfTwoDisplacementsInOnePlaceThatContradictEachOther) {
   const auto of_load = [&] { return warnings_of(load, ball(), prescribed_on_top()); };
   EXPECT_TRUE(of_load().empty()) << "measured twice alike";
   load.displacement.row(1) *= -1;
-  ASSERT_EQ(of_load().size(), 1U);
-  expect_parts(of_load().front(), {"two displacements", "differ by 6.9 mm"});
+  expect_one(of_load(), {"two displacements", "differ by 6.9 mm"});
   load.sigma = Points::Constant(points.rows(), 3, 0.5);
   EXPECT_TRUE(of_load().empty()) << "told as points of a noisy load";
 }
@@ -140,8 +131,7 @@ TEST(Warnings, OfPointsInsideTheBrainTellHowManyCountAsSuch) {
   measured.inner = Points::Zero(1, 3);
   EXPECT_TRUE(warnings_of({cortex, none}, ball(), conditions).empty());
   measured.inner = opening(40).replicate(3, 1);
-  ASSERT_EQ(warnings_of({cortex, none}, ball(), conditions).size(), 1U);
-  expect_parts(warnings_of({cortex, none}, ball(), conditions).front(), {"count as places inside", "same frame"});
+  expect_one(warnings_of({cortex, none}, ball(), conditions), {"count as places inside", "same frame"});
 }
 
 TEST(Warnings, OfPointsInsideTheBrainTellThatTheyAreFew) {
@@ -178,14 +168,12 @@ TEST(Warnings, TellOfStandardDeviationsInMetres) {
   EXPECT_TRUE(warnings_of_sigma(sigma).empty());
   EXPECT_TRUE(warnings_of_sigma(Points(0, 3)).empty());
   sigma.row(4) /= 1000;
-  ASSERT_EQ(warnings_of_sigma(sigma).size(), 1U);
-  expect_parts(warnings_of_sigma(sigma).front(), {"of 10 measured points 1 ", "in mm are expected"});
+  expect_one(warnings_of_sigma(sigma), {"of 10 measured points 1 ", "in mm are expected"});
 }
 
 TEST(Warnings, AdviseRobustWeightsWhereTheyGoWithTheLoad) {
   const std::optional<solve::Outlier> wrong = solve::Outlier{{1, 2, 3}, 7};
-  ASSERT_EQ(warnings_of(wrong, true).size(), 1U);
-  expect_parts(warnings_of(wrong, true).front(), {"near (1 2 3)", "take it out", "robust=\"yes\""});
+  expect_one(warnings_of(wrong, true), {"near (1 2 3)", "take it out", "robust=\"yes\""});
   ASSERT_EQ(warnings_of(wrong, false).size(), 1U);
   EXPECT_EQ(warnings_of(wrong, false).front().find("robust"), std::string::npos);
 }
@@ -200,8 +188,7 @@ TEST(Warnings, TellOfPointsThatAreFewOrOnALine) {
   for (int i = 0; i < 10; ++i) {
     line.row(i) << i - 5, 0, 59.5;
   }
-  ASSERT_EQ(of_points(line).size(), 1U);
-  expect_parts(of_points(line).front(), {"10 places on one line"});
+  expect_one(of_points(line), {"10 places on one line"});
 }
 
 TEST(Warnings, TellOfLabelsWhereTheT1IsBlack) {
@@ -213,8 +200,7 @@ TEST(Warnings, TellOfLabelsWhereTheT1IsBlack) {
   const std::vector<std::uint16_t> brain = {1, 2};
   EXPECT_TRUE(warnings_of(t1, labels, brain).empty());
   std::fill_n(t1.voxels.begin() + 1, 3, 0.0F);
-  ASSERT_EQ(warnings_of(t1, labels, brain).size(), 1U);
-  expect_parts(warnings_of(t1, labels, brain).front(), {"33 %", "one patient"});
+  expect_one(warnings_of(t1, labels, brain), {"33 %", "one patient"});
 }
 
 TEST(Warnings, TellOfLabelsWhoseBoundaryIsNoneInTheT1) {
@@ -237,16 +223,14 @@ TEST(Warnings, TellOfLabelsWhoseBoundaryIsNoneInTheT1) {
   const std::vector<std::uint16_t> brain = {1};
   EXPECT_TRUE(warnings_of(t1, labels, brain).empty());
   const auto warnings = warnings_of(t1, bright({38, 36, 30}).second, brain);
-  ASSERT_EQ(warnings.size(), 1U);
-  expect_parts(warnings.front(), {"boundary of the labelled brain", "4 mm beside it", "one patient"});
+  expect_one(warnings, {"boundary of the labelled brain", "4 mm beside it", "one patient"});
 }
 
 TEST(Warnings, TellOfABodyThatNothingButItsLoadHolds) {
   solve::Model model;
   model.cloud = ball();
   const Points shift = Eigen::RowVector3d(0, 3, 4).replicate(model.cloud.positions.rows(), 1);
-  ASSERT_EQ(warnings_of(model, shift).size(), 1U);
-  expect_parts(warnings_of(model, shift).front(), {"nothing but the load", "more than 5 mm", "<contact/>"});
+  expect_one(warnings_of(model, shift), {"nothing but the load", "more than 5 mm", "<contact/>"});
   model.conditions.displacement = shift;
   EXPECT_TRUE(warnings_of(model, shift).empty()) << "a load all round holds it";
   model.conditions.displacement.bottomRows(2 * shift.rows() / 3).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -270,8 +254,7 @@ TEST(Warnings, TellOfABrainThatTurnsInItsSkullWhichIsNoAnswerWhereNothingElseHol
   EXPECT_TRUE(warnings_of(model, turned(30)).empty()) << "no skull";
   model.skull = brainshift::test::sphere({0, 0, 0}, 60, 2);
   EXPECT_TRUE(warnings_of(model, turned(2)).empty());
-  ASSERT_EQ(warnings_of(model, turned(5)).size(), 1U);
-  expect_parts(warnings_of(model, turned(5)).front(), {"turned by 5 degrees", "without friction"});
+  expect_one(warnings_of(model, turned(5)), {"turned by 5 degrees", "without friction"});
   EXPECT_EQ(turn_fault(model, turned(5)), "");
   expect_parts(turn_fault(model, turned(30)), {"turned by 30 degrees", "give a measured load"});
   model.conditions.displacement = prescribed_on_top();
@@ -283,8 +266,7 @@ TEST(Warnings, TellOfAnErrorThatIsLargeBesideTheAnswer) {
   solution.estimated_error.assign(static_cast<std::size_t>(solution.positions.rows()), 0.5);
   EXPECT_TRUE(warnings_of(solve::Model(), solution).empty());
   solution.estimated_error.assign(solution.estimated_error.size(), 1.5);
-  ASSERT_EQ(warnings_of(solve::Model(), solution).size(), 1U);
-  expect_parts(warnings_of(solve::Model(), solution).front(), {"1.5 mm", "more than half", "more nodes"});
+  expect_one(warnings_of(solve::Model(), solution), {"1.5 mm", "more than half", "more nodes"});
 }
 
 TEST(Warnings, TellOfFluidThatStandsAboveTheBrain) {
@@ -308,133 +290,9 @@ TEST(Warnings, TellOfATissueAsSoftAsFluidThatIsNoRoom) {
   model.materials = {{1, {.youngs_modulus = 3000}}, {2, {.youngs_modulus = 10}}};
   EXPECT_TRUE(warnings_of_rooms(model).empty()) << "nothing drains";
   model.fluid.emplace();
-  ASSERT_EQ(warnings_of_rooms(model).size(), 1U);
-  expect_parts(warnings_of_rooms(model).front(), {"tissue 2", "room=\"drained\""});
+  expect_one(warnings_of_rooms(model), {"tissue 2", "room=\"drained\""});
   model.materials[2].room = solve::Room::drained;
   EXPECT_TRUE(warnings_of_rooms(model).empty());
-}
-
-solve::SolveMeasures of_many_points() {
-  solve::SolveMeasures measures;
-  measures.nodes = 1000;
-  measures.integration_points = 8000;
-  return measures;
-}
-
-TEST(Warnings, TellOfPointsThatLieInNoTissueOfTheLabelMap) {
-  solve::SolveMeasures measures = of_many_points();
-  measures.outside_label = 400;
-  EXPECT_TRUE(warnings_of(measures).empty());
-  measures.outside_label = 4000;
-  ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"50 %", "material", "frame"});
-}
-
-TEST(Warnings, TellOfPointsThatAgreeFarBetterThanTheirNoise) {
-  solve::SolveMeasures measures = of_many_points();
-  measures.measured.emplace();
-  for (const double fine : {0.5, 1.0, 3.0}) {
-    measures.measured->noise_factor = fine;
-    EXPECT_TRUE(warnings_of(measures).empty()) << fine;
-  }
-  measures.measured->noise_factor = 0.25;
-  ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"4 times better", "standard deviation"});
-}
-
-TEST(Warnings, TellOfFewPointsInAPressedBody) {
-  solve::SolveMeasures measures;
-  measures.nodes = 1000;
-  measures.integration_points = 1250;
-  measures.smallest_jacobian = 0.9;
-  EXPECT_TRUE(warnings_of(measures).empty());
-  measures.smallest_jacobian = 0.46;
-  ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"only 1.2 integration points a node", "to 0.46"});
-  measures.integration_points = 2000;
-  EXPECT_TRUE(warnings_of(measures).empty());
-  measures.fewest_points = 0.43;
-  ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"about some nodes", "only 0.43 integration points a node"});
-}
-
-TEST(Warnings, TellOfFewerPointsThanNodes) {
-  solve::SolveMeasures measures;
-  measures.nodes = 343;
-  measures.smallest_jacobian = 0.97;
-  for (const std::size_t points : {224U, 342U}) {
-    measures.integration_points = points;
-    ASSERT_EQ(warnings_of(measures).size(), 1U) << points;
-    expect_parts(warnings_of(measures).front(), {"only " + std::to_string(points) + " integration points for 343"});
-  }
-  measures.region_nodes = 100;
-  EXPECT_TRUE(warnings_of(measures).empty()) << "the points are those of the region";
-  measures.region_nodes = 0;
-  measures.integration_points = 343;
-  EXPECT_TRUE(warnings_of(measures).empty());
-}
-
-TEST(Warnings, TellOfFewSpacingsAcrossAPatch) {
-  solve::SolveMeasures measures = of_many_points();
-  measures.thin = {{"the held patch", 3.2}};
-  ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"nothing says how far off", "the held patch (3.2)"});
-  measures.estimated_error_95 = 0.3;
-  ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"farther off than is estimated", "the held patch (3.2)"});
-}
-
-/// A ventricle nearly always is: no alarm where the rest is estimated.
-TEST(Warnings, OfATissueThatIsFewSpacingsAcrossAreNotesWhereNodesAreMany) {
-  solve::SolveMeasures measures = of_many_points();
-  measures.converged = true;
-  measures.nodes = 400;
-  measures.thin = {{.what = "tissue 2", .spacings = 2.7, .is_tissue = true}};
-  measures.estimated_error_95 = 0.3;
-  EXPECT_EQ(warnings_of(measures).size(), 1U);
-  EXPECT_TRUE(notes_of(measures).empty());
-  measures.nodes = 600;
-  EXPECT_TRUE(warnings_of(measures).empty());
-  ASSERT_EQ(notes_of(measures).size(), 1U);
-  expect_parts(notes_of(measures).front(), {"four", "tissue 2 (2.7)"});
-}
-
-TEST(Warnings, HaveANoteWhereNothingEstimatesTheError) {
-  solve::SolveMeasures measures = of_many_points();
-  measures.converged = true;
-  ASSERT_EQ(notes_of(measures).size(), 1U);
-  expect_parts(notes_of(measures).front(), {"nothing estimates"});
-  measures.estimated_error_95 = 0.3;
-  EXPECT_TRUE(notes_of(measures).empty());
-}
-
-TEST(Warnings, TellOfVolumeUnderHighPressure) {
-  solve::SolveMeasures measures = of_many_points();
-  measures.pressed_share = 0.02;
-  EXPECT_TRUE(warnings_of(measures).empty());
-  measures.pressed_share = 0.41;
-  ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"41 % of a tissue's volume", "6 shear moduli", "change of volume"});
-}
-
-TEST(Warnings, TellOfACavityThatIsPressedFlat) {
-  solve::SolveMeasures measures = of_many_points();
-  measures.resection = solve::ResectionMeasures{.removed_volume = 2000, .wall_nodes = 50};
-  EXPECT_TRUE(warnings_of(measures).empty()) << "it lies open";
-  measures.resection->volume = 200;
-  EXPECT_TRUE(warnings_of(measures).empty());
-  measures.resection->volume = 26;
-  ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"1.3 % are left", "creased more finely than the nodes"});
-}
-
-TEST(Warnings, TellOfPartsThatFewNodesHardlyResolve) {
-  solve::SolveMeasures measures;
-  measures.nodes = 300;
-  measures.integration_points = 800;
-  measures.thin = {{"the moved patch", 2.13}, {"tissue 3", 1.5}};
-  ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"how far off", "the moved patch (2.1), tissue 3 (1.5)", "more nodes"});
 }
 
 TEST(Warnings, TellOfAFieldThatFolds) {
@@ -442,8 +300,7 @@ TEST(Warnings, TellOfAFieldThatFolds) {
   EXPECT_TRUE(warnings_of(measures).empty());
   measures.folded_voxels = 768;
   measures.field_jacobian_min = -0.16;
-  ASSERT_EQ(warnings_of(measures).size(), 1U);
-  expect_parts(warnings_of(measures).front(), {"768 voxels", "-0.16"});
+  expect_one(warnings_of(measures), {"768 voxels", "-0.16"});
 }
 
 TEST(Warnings, TellWhereNoNodesAreNear) {
@@ -453,8 +310,7 @@ TEST(Warnings, TellWhereNoNodesAreNear) {
   EXPECT_TRUE(warnings_of(measures).empty()) << "a gap in another program's cloud";
   measures.without_nodes = 4000;
   const Warnings warnings = warnings_of(measures);
-  ASSERT_EQ(warnings.size(), 1U);
-  expect_parts(warnings.front(), {"4000 voxels", "--wall"});
+  expect_one(warnings, {"4000 voxels", "--wall"});
 }
 
 }  // namespace brainshift::pipelines::warnings_test
