@@ -51,13 +51,7 @@ TEST(Measures, VoxelsFarFromEveryNodeAreCounted) {
   Fields fields;
   fields.nodes.spacing = {6};
   std::size_t far = 0;
-  for (int k = 0; k < g.size.z(); ++k) {
-    for (int j = 0; j < g.size.y(); ++j) {
-      for (int i = 0; i < g.size.x(); ++i) {
-        far += (g.to_world(Eigen::Vector3d(i, j, k)) - centre).norm() > 9 ? 1 : 0;
-      }
-    }
-  }
+  for_each_voxel(g, [&](const Eigen::Vector3d& x, std::size_t) { far += (x - centre).norm() > 9 ? 1 : 0; });
   EXPECT_NEAR(static_cast<double>(fields.measures().without_nodes) / static_cast<double>(far), 1, 0.25);
 }
 

@@ -44,6 +44,13 @@ TEST(Warp, OfALinearImageByAConstantFieldIsTheImageElsewhere) {
   });
 }
 
+TEST(Warp, BringsInZeroFromOutsideTheImage) {
+  const VectorImage back = field(small, [](const Eigen::Vector3d&) { return shift_of(100, 0, 0); });
+  const ScalarImage warped = warp(image(small, texture), back, Interpolation::linear);
+  EXPECT_EQ(std::count(warped.voxels.begin(), warped.voxels.end(), 0.0F),
+            static_cast<std::ptrdiff_t>(warped.voxels.size()));
+}
+
 TEST(Warp, BringsInZeroFromJustOutsideTheImageOnBothSides) {
   const ScalarImage t1 = image(small, texture);
   for (const double x : {-0.9, 0.9}) {  // 0.6 voxels

@@ -143,13 +143,10 @@ TEST(KeptRun, AnswersALoadOfAPartOfThePatchAsARunFromTheBeginning) {
   }
   const SolveResult anew = solve(other, quick());
   KeptRun run = kept(own, quick());
-  for (const double factor : {1.0, 1.05}) {
-    const SolveResult answer = update(run, factor * other.conditions.displacement);
-    ASSERT_TRUE(answer.measures.converged) << answer.failure;
-    if (factor == 1) {
-      EXPECT_LE(distance(answer.solution.displacement, anew.solution.displacement), 2 * quick().tolerance);
-    }
-  }
+  const SolveResult answer = update(run, other.conditions.displacement);
+  ASSERT_TRUE(answer.measures.converged) << answer.failure;
+  EXPECT_LE(distance(answer.solution.displacement, anew.solution.displacement), 2 * quick().tolerance);
+  EXPECT_TRUE(update(run, 1.05 * other.conditions.displacement).measures.converged);
   EXPECT_LE(distance(update(run, own.conditions).solution.displacement, run.origin.displacement),
             2 * quick().tolerance);
   run.made_from = nullptr;
