@@ -82,10 +82,10 @@ std::string classes_of(const sg::LabelVolumes& volumes, const sg::LabelTable& ta
 void note_one_sided(const ImageInputs& image, const sg::LabelVolumes& volumes, std::vector<std::string>& notes) {
   double left = 0, right = 0;
   for (const auto& [number, volume] : volumes) {
-    const int of_cortex = number / 1000 % 2 == 1 ? 1 : 2;  // 1000 and 11000 left, 2000 and 12000 right
-    const bool cortex = number >= 1000;
-    left += number == 2 || number == 3 || (cortex && of_cortex == 1) ? volume : 0;
-    right += number == 41 || number == 42 || (cortex && of_cortex == 2) ? volume : 0;
+    const bool by_region = number >= 1000,
+               odd = number / 1000 % 2 == 1;  // 1000 and 11000 are left, 2000 and 12000 right
+    left += number == 2 || number == 3 || (by_region && odd) ? volume : 0;
+    right += number == 41 || number == 42 || (by_region && !odd) ? volume : 0;
   }
   if (std::min(left, right) < 0.2 * std::max(left, right)) {
     notes.push_back("warning: " + image.labels.string() + ": of the " + (left < right ? "left" : "right") +

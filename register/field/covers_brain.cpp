@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "segmentation/geometry/point_tree.hpp"
+#include "register/field/nearest_node.hpp"
 
 namespace brainshift::registration {
 
@@ -27,9 +27,8 @@ double share_without_nodes(const RegisterInput& input, const BrainZones& zones) 
     if (zones.wall && zones.wall->value(x) < 0) {
       continue;
     }
-    const auto [node, squared] = nodes.nearest(x.data());
     ++seen;
-    without += std::sqrt(squared) > spacings_apart * input.solution.spacing[node] ? 1 : 0;
+    without += spacings_to_node(nodes, input.solution, x) > spacings_apart ? 1 : 0;
   }
   return seen > 0 ? without / seen : 0;
 }

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "register/field/field_sampler.hpp"
-#include "segmentation/geometry/point_tree.hpp"
+#include "register/field/nearest_node.hpp"
 
 namespace brainshift::registration {
 
@@ -82,8 +82,7 @@ std::size_t voxels_without_nodes(const ImageGeometry& g, const std::vector<Zone>
       for (int i = 0; i < g.size.x(); i += every) {
         if (zone[g.offset(i, j, k)] == Zone::brain) {
           const Eigen::Vector3d x = g.to_world(Eigen::Vector3d(i, j, k));
-          const auto [node, squared] = nodes.nearest(x.data());
-          found += std::sqrt(squared) > far * solution.spacing[node] ? 1 : 0;
+          found += spacings_to_node(nodes, solution, x) > far ? 1 : 0;
         }
       }
     }

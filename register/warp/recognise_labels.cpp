@@ -66,7 +66,8 @@ bool looks_like_labels(const ScalarImage& image) {
   // 0.63 at most, of probabilities in per cent 0.81, of a smooth map of 31 levels 0.94.
   constexpr double nearly_all = 0.97;
   const auto counts = count_labels(image);
-  const bool is_contrast = counts.contains(-1) && counts.size() <= counts.count(-1) + counts.count(0) + counts.count(1);
+  const bool is_contrast =
+      counts.contains(-1) && std::ranges::all_of(counts, [](const auto& count) { return count.first <= 1; });
   if (counts.empty() || is_contrast) {
     return false;
   }
