@@ -65,10 +65,11 @@ bool responses_tell(const KeptRun& run, const Conditions& load) {
          (load.displacement.array().isNaN() == run.origin.prescribed.array().isNaN()).all();
 }
 
-/// Masses and damping of an answer's steps; nothing of a slow body, or of a change that is too large to be sure that
-/// what is left open is local. change: of what is prescribed, from the run's own load, mm.
+/// Masses and damping of an answer's steps; nothing of a slow body, of one that was laid out anew, or of a change that
+/// is too large to be sure that what is left open is local. change: of what is prescribed, from the run's own load, mm.
 std::optional<Settled> settled_for(const Conditions& load, const Points& change, bool tells_all, const KeptRun& run) {
-  if (run.origin.lowest <= slow_body || run.trusted <= 0 || change.rowwise().norm().maxCoeff() > run.trusted) {
+  const bool anew = run.prepared_for.rows() == 0;
+  if (anew || run.origin.lowest <= slow_body || run.trusted <= 0 || change.rowwise().norm().maxCoeff() > run.trusted) {
     return std::nullopt;
   }
   Settled settled = run.fine.settled;
@@ -251,9 +252,7 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
   if (!is_prepared_for(prescribed, run)) {
     prepare_for(load, run, progress);
   }
-  if (is_prepared_for(prescribed, run)) {
-    course.settled = settled_for(load, from_origin, tells_all, run);
-  }
+  course.settled = settled_for(load, from_origin, tells_all, run);
   course.bound = run.options.device == Device::cpu ? BoundOf::displacement : BoundOf::parameters;
   if (tells_all) {
     run.departures.add_expected(run.responses, from_origin, course.start);
