@@ -21,28 +21,35 @@ as_root() {
   fi
 }
 
-# The two libraries of the report's view, whose checksums viewer.cmake has. They may fail to come: the report then does
-# not turn.
+# The two libraries of the report's view, whose checksums viewer.cmake has.
+viewer_is_here() {
+  [ -e "$root/build/npm/niivue-niivue-0.69.0.tgz" ] && [ -e "$root/build/npm/uplot-1.6.32.tgz" ]
+}
+
 fetch_viewer() {
   local folder=$root/build/npm packages=(@niivue/niivue@0.69.0 uplot@1.6.32)
-  [ ! -e "$folder/niivue-niivue-0.69.0.tgz" ] || [ ! -e "$folder/uplot-1.6.32.tgz" ] || return 0
   mkdir -p "$folder"
   (cd "$folder" && npm pack --silent --fetch-retries=0 --fetch-timeout=60000 "${packages[@]}") ||
     echo "${packages[*]} cannot be had by npm: the report will not turn."
 }
 
-# The packages of packages.txt, those named, and the head MRI, which may fail to come: a synthetic head takes its place.
+# The packages of packages.txt and those named. What may fail to come: the head MRI, in whose place a synthetic head is
+# taken, and the report's view, or npm, which brings it: the report then does not turn.
 install_packages() {
-  fetch_viewer
-  local needed image
+  local needed wanted=(mricron-data) package
   mapfile -t needed < <(missing_packages $(grep -v '^#' "$root/pipelines/packages.txt") "$@")
-  mapfile -t image < <(missing_packages mricron-data)
-  [ $((${#needed[@]} + ${#image[@]})) -gt 0 ] || return 0
-  echo "Installing: ${needed[*]} ${image[*]}"
-  as_root apt-get update || true # packages may still come from the cache; installing says whether they do
-  local apt=(env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends)
-  [ ${#needed[@]} = 0 ] || as_root "${apt[@]}" "${needed[@]}"
-  [ ${#image[@]} = 0 ] || as_root "${apt[@]}" "${image[@]}" || echo "mricron-data cannot be had."
+  viewer_is_here || command -v npm > /dev/null || wanted+=(npm)
+  mapfile -t wanted < <(missing_packages "${wanted[@]}")
+  if [ $((${#needed[@]} + ${#wanted[@]})) -gt 0 ]; then
+    echo "Installing: ${needed[*]} ${wanted[*]}"
+    as_root apt-get update || true # packages may still come from the cache; installing says whether they do
+    local apt=(env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends)
+    [ ${#needed[@]} = 0 ] || as_root "${apt[@]}" "${needed[@]}"
+    for package in "${wanted[@]}"; do
+      as_root "${apt[@]}" "$package" || echo "$package cannot be had."
+    done
+  fi
+  viewer_is_here || fetch_viewer
 }
 
 # How many processors may be used. nproc alone answers with OMP_NUM_THREADS where that is set.

@@ -42,7 +42,7 @@ using RelaxElsewhere = std::function<std::optional<SteppingResult>(
 /// the lowest active eigenvalue A_0 critically; it is estimated from the increments, A_0 ≈ ΔûᵀΔf/(ΔûᵀMΔû). Masses
 /// follow the tangents of the state reached. The load's curve is run through in steps_of_load(), of a body that may
 /// tear more slowly where it would else not be at rest, and hardly on while a tear runs. Stops when the bound of the
-/// remaining error, ρ/(1 − ρ) |û⁺ − û|∞ with ρ the slower of the measured rate and √β, is below the tolerance.
+/// remaining error, METHOD.md (23) and what follows it there, is below the tolerance.
 /// elsewhere: what may do it in place of this processor.
 SteppingResult relax(Body body, const Course& course, const SolveOptions& options, const Progress& progress,
                      const RelaxElsewhere& elsewhere = {});

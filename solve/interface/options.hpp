@@ -53,7 +53,7 @@ struct SolveOptions {
   Volumetric volumetric = Volumetric::mean_dilatation;
   double nodes_per_patch = 8;  ///< of mean dilatation
   Integration integration = Integration::consistent;
-  double consistency_defect = 1e-5;  ///< what may be left of the largest defect, make_derivatives_consistent()
+  double consistency_defect = 1e-5;  ///< what may be left of the mean Σ w |B_a|, make_derivatives_consistent()
   Imposition imposition = Imposition::exact;
   double integration_tolerance = 0;                   ///< τ of adaptive_points(); 0: points_per_cell in every cell
   int integration_depth = 3;                          ///< of adaptive_points()
@@ -74,8 +74,9 @@ struct SolveOptions {
   double damping = 0;    ///< transient: c of METHOD.md (20), 1/s
   int max_steps = 50000;
   Device device = Device::cpu;  ///< of relaxation, device/README.md
-  double region = 0;       ///< mm; only what a coarse solution moves by more is solved, region.hpp; 0: the whole body
-  int snapshot_every = 0;  ///< steps between displacements kept for steps.pvd, each 20th at the most; 0: none
+  double region = 0;  ///< mm; only what a coarse solution moves by more is solved, region.hpp; 0: the whole body
+  int snapshot_every =
+      0;  ///< steps between displacements kept for steps.pvd, each 20th at the most, in time each 50th; 0: none
 };
 
 }  // namespace brainshift::solve

@@ -15,11 +15,11 @@ namespace brainshift::solve {
 /// A row of history.csv.
 struct HistoryRow {
   int step = 0;
-  double time = 0;                                     ///< relaxation: share of the load's curve, 0 to 1; transient: s
-  double external_work = 0;                            ///< mJ
-  double strain_energy = 0;                            ///< mJ
-  double kinetic_energy = 0;                           ///< mJ, fictitious in dynamic relaxation
-  double dissipated_energy = 0;                        ///< mJ, by the damping and the contact with the skull
+  double time = 0;               ///< relaxation: share of the load's curve, 0 to 1; transient: s
+  double external_work = 0;      ///< mJ
+  double strain_energy = 0;      ///< mJ
+  double kinetic_energy = 0;     ///< mJ, fictitious in dynamic relaxation
+  double dissipated_energy = 0;  ///< mJ, by the damping, by contact with skull and septa, and as masses and cuts change
   Eigen::Vector3d reaction = Eigen::Vector3d::Zero();  ///< N, sum over the nodes whose prescribed displacement is not 0
   double residual = 0;     ///< sum of |f_int - reactions| / sum of |f_int|, or the largest of that at rest so far
   double error_bound = 0;  ///< mm; infinite until it is estimated
@@ -164,9 +164,9 @@ struct SolveMeasures {
   double critical_step = 0;                  ///< transient: as estimated for the undeformed body, s
   int consistency_iterations = 0;            ///< of the correction of the derivatives
   double largest_displacement = 0;           ///< mm
-  double constraint_error = 0;               ///< largest |Σφû − prescribed|, mm
+  double constraint_error = 0;               ///< largest |Σφû − prescribed|, mm, where it is imposed (PatchRim)
   double largest_penetration = 0;            ///< deepest node outside the skull, mm
-  double smallest_jacobian = 0;              ///< least det F over integration points
+  double smallest_jacobian = 0;              ///< least det F over integration points; at most 1
   double largest_stretch = 0;                ///< largest principal stretch
   double compressed_share = 0;               ///< of the volume, pressed so far that its free faces may crease
   double pressed_share = 0;                  ///< of the volume, patches under a pressure above most_pressure

@@ -22,7 +22,7 @@ struct ShapeOptions {
   /// Support radius / local spacing; 0: 1.6 for the linear basis, 2.2 for the quadratic ones; planar 1.8 and 2.4, which
   /// see 10 to 13 and 17 to 22 nodes.
   double dilatation = 0;
-  double penalty = 1e-7;  ///< µ of MMLS, in scaled coordinates
+  double penalty = 1e-7;  ///< κ of MMLS, in scaled coordinates
   bool planar = false;    ///< basis of x and y alone, for clouds with z = 0
 };
 

@@ -76,7 +76,7 @@ class Evaluator {
   double scale_ = 1;
   std::size_t count_ = 0;
   std::vector<Neighbour> neighbours_;                 ///< count_ of them count
-  std::vector<DistanceGradient> distance_gradients_;  ///< one a sight where a cut is near, else none
+  std::vector<DistanceGradient> distance_gradients_;  ///< one a neighbour where a cut is near, else none
   std::vector<ShapeGradient> gradients_;
 };
 

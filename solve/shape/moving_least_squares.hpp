@@ -61,7 +61,7 @@ struct PointLanes {
 struct FitOptions {
   int dimensions;         ///< 3, or 2: looks at x and y alone
   int order;              ///< of the basis, 1 or 2
-  double penalty;         ///< µ of MMLS on the quadratic coefficients, 0 for plain MLS
+  double penalty;         ///< κ of MMLS on the quadratic coefficients, 0 for plain MLS
   bool leave_to_penalty;  ///< accept quadratic terms that only the penalty holds
 };
 
@@ -75,8 +75,8 @@ struct Fit {
   Lane coefficient[most];   ///< M⁻¹ p(x)
 };
 
-/// Sights of the candidates that the places may see, in the candidates' order; out has room for all. Returns how many
-/// there are. scale: of the radii.
+/// Neighbours among the candidates that the places may see, in the candidates' order; out has room for all. Returns how
+/// many there are. scale: of the radii.
 std::size_t find_neighbours(const Candidates& candidates, double scale, const PointLanes& places, Neighbour* out);
 
 /// (Modified) moving least squares at eight points, METHOD.md (2) and (3), in local scaled coordinates ξ = (X_a − x)/r:
@@ -84,8 +84,8 @@ std::size_t find_neighbours(const Candidates& candidates, double scale, const Po
 /// weights and values of the neighbours.
 void fit_shape(std::span<Neighbour> neighbours, const FitOptions& options, Fit& fit);
 
-/// Derivatives of what fit_shape() gave; in the plane those by z are 0. distance_gradients: one a sight, or none where
-/// no cut is near.
+/// Derivatives of what fit_shape() gave; in the plane those by z are 0. distance_gradients: one a neighbour, or none
+/// where no cut is near.
 void differentiate(std::span<const Neighbour> neighbours, std::span<const DistanceGradient> distance_gradients,
                    const FitOptions& options, Derivatives kind, const Fit& fit, ShapeGradient* out);
 

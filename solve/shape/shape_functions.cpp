@@ -146,7 +146,7 @@ ShapeRows empty_rows(const NodeSupports& supports, std::span<const EvaluationPoi
   return rows;
 }
 
-/// gradients: one a sight, or none.
+/// gradients: one a neighbour, or none.
 void fill_rows(std::span<const Neighbour> neighbours, std::span<const ShapeGradient> gradients,
                std::span<const Found> found, ShapeRows& rows) {
   std::array<std::size_t, lanes> next;

@@ -33,9 +33,9 @@ double largest(const Points& displacement) {
 /// More and less of the load, and all of it moved to the side.
 std::vector<Conditions> loads_that_differ(const Conditions& load, double by) {
   const Points given = load.displacement.array().isNaN().select(0, load.displacement.array());
-  const Eigen::RowVector3d mean = given.colwise().sum();
+  const Eigen::RowVector3d sum = given.colwise().sum();
   Eigen::Index across = 0;
-  mean.cwiseAbs().minCoeff(&across);
+  sum.cwiseAbs().minCoeff(&across);
   std::vector<Conditions> loads = {changed(load, 1, by * Eigen::RowVector3d::Unit(across))};
   if (const double most = largest(load.displacement); most > 0) {
     for (const double factor : {1 + by / most, 1 - by / most}) {
