@@ -31,6 +31,16 @@ void check_plane(const Model& model) {
   if (planar && model.skull) {
     throw std::invalid_argument("contact with a skull needs three dimensions; leave it out of a plane problem");
   }
+  const auto leaves_plane = [](const Points& of_nodes) {
+    const auto along = of_nodes.col(2).array();
+    return (!along.isNaN() && along != 0).any();
+  };
+  if (planar &&
+      (model.gravity.z() != 0 || leaves_plane(model.conditions.displacement) || leaves_plane(model.conditions.force))) {
+    throw std::invalid_argument(
+        "gravity, forces and displacements of a plane problem have no z; set theirs to 0, or "
+        "put the problem into the plane of x and y");
+  }
   for (const auto& [label, material] : model.materials) {
     if (model.plane == Plane::stress && !material.prony.empty()) {
       throw std::invalid_argument("the material of label " + std::to_string(label) +

@@ -9,7 +9,9 @@
 
 #include "segmentation/geometry/branching_edges.hpp"
 #include "segmentation/geometry/nearest_on_segment.hpp"
+#include "segmentation/geometry/quantile.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
+#include "solve/body/mass_in_time.hpp"
 #include "solve/boundary/external_force.hpp"
 #include "solve/boundary/fluid_force.hpp"
 #include "solve/force/firmness.hpp"
@@ -31,8 +33,27 @@ void check_supported(const PointBlocks& blocks, const OrderedCloud& cloud) {
   }
 }
 
+/// In time gravity pulls the masses that move, so that a free body falls as one; to rest it is spread by the shape
+/// functions.
+void add_weight(const Model& model, const BodyParts& parts, Dynamics dynamics, NodalVectors& force) {
+  if (dynamics == Dynamics::transient) {
+    constexpr double from_metres = 1000;
+    const std::vector<double> mass = mass_in_time(parts);
+    for (std::size_t a = 0; a < mass.size(); ++a) {
+      at(force, a).head<3>() += from_metres * mass[a] * model.gravity;
+    }
+    return;
+  }
+  constexpr double per_cubic_millimetre = 1e-9;  // kg/m³ m/s² to N/mm³
+  add_body_force(
+      [&](const Eigen::Vector3d&, std::int32_t label) -> Eigen::Vector3d {
+        return per_cubic_millimetre * model.materials.at(label).density * model.gravity;
+      },
+      parts.points, parts.point_rows, force);
+}
+
 /// Forces on the parameters under the full load, µN, without the fluid's; empty when nothing pushes.
-NodalVectors full_force(const Model& model, const BodyParts& parts) {
+NodalVectors full_force(const Model& model, const BodyParts& parts, Dynamics dynamics) {
   const bool gravity = !model.gravity.isZero();
   const Points& at_nodes = parts.cloud.conditions.force;
   if (at_nodes.rows() == 0 && !gravity && !model.body_force && !parts.wall_load) {
@@ -46,12 +67,7 @@ NodalVectors full_force(const Model& model, const BodyParts& parts) {
     add_point_forces(parts.wall_load->forces.force, parts.wall_load->rows, force);
   }
   if (gravity) {
-    constexpr double per_cubic_millimetre = 1e-9;  // kg/m³ m/s² to N/mm³
-    add_body_force(
-        [&](const Eigen::Vector3d&, std::int32_t label) -> Eigen::Vector3d {
-          return per_cubic_millimetre * model.materials.at(label).density * model.gravity;
-        },
-        parts.points, parts.point_rows, force);
+    add_weight(model, parts, dynamics, force);
   }
   if (model.body_force) {
     add_body_force(model.body_force, parts.points, parts.point_rows, force);
@@ -62,7 +78,7 @@ NodalVectors full_force(const Model& model, const BodyParts& parts) {
 }  // namespace
 
 ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamics dynamics) {
-  NodalVectors force = full_force(model, parts);
+  NodalVectors force = full_force(model, parts, dynamics);
   if (!model.fluid) {
     return ExternalForce(std::move(force));
   }
@@ -135,9 +151,14 @@ PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::in
 }
 
 /// Contact pushes nodes back before they are far out, so it is enough to know the distance near the skull; but where a
-/// node starts farther out.
+/// node starts farther out. Of a head it is as fine as any; a smaller body has its nodes nearer to each other.
 SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cloud) {
-  SignedDistanceOptions near;
+  constexpr double of_nodes = 3;  // steps of the grid from node to node, at the least
+  SignedDistanceOptions all;
+  const double finer = std::min(1.0, median(cloud.spacing) / (of_nodes * all.spacing));
+  all.spacing *= finer;
+  all.margin *= finer;
+  SignedDistanceOptions near = all;
   near.far = false;
   near.margin -= 10 * near.spacing;  // whole steps: the samples lie where those of the full field do
   SignedDistance distance(skull, near);
@@ -145,7 +166,7 @@ SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cl
   const bool far_out = std::any_of(nodes.begin(), nodes.end(), [&](std::int32_t a) {
     return distance.value(cloud.positions.row(a)) > near.band() - near.spacing;
   });
-  return far_out ? SignedDistance(skull) : distance;
+  return far_out ? SignedDistance(skull, all) : distance;
 }
 
 /// Whether a place is nearer than that, mm, to one of the edges of a surface.
@@ -206,26 +227,6 @@ std::vector<FacePair> ordered(std::span<const FacePair> pairs, const std::vector
   return result;
 }
 
-/// Row sums of the consistent mass, so that gravity moves all nodes of a free body alike. Those of quadratic functions
-/// may be none or less: a node then gets a tenth of its even share, which sets the step.
-std::vector<double> mass_in_time(const PointBlocks& blocks, const BodyParts& parts) {
-  constexpr double least = 0.1;
-  const MaterialTable& materials = parts.materials;
-  std::vector<double> mass(parts.cloud.size(), 0.0);
-  for (std::size_t i = 0; i < parts.points.size(); ++i) {
-    const double of_point =
-        materials.density[static_cast<std::size_t>(materials.row_of_point[i])] * parts.points.volume[i];
-    const ShapeRow row = parts.point_rows[i];
-    for (std::size_t b = 0; b < row.size(); ++b) {
-      mass[static_cast<std::size_t>(row.node[b])] += of_point * row.value[b];
-    }
-  }
-  const std::vector<double> even = physical_mass(blocks, materials.density);
-  std::transform(mass.begin(), mass.end(), even.begin(), mass.begin(),
-                 [](double m, double share) { return std::max(m, least * share); });
-  return mass;
-}
-
 }  // namespace
 
 Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& parts, LayOutExtras extras) {
@@ -259,7 +260,7 @@ Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& p
       .external = external_force(model, parts, options.dynamics),
   };
   if (in_time) {
-    body.mass = mass_in_time(body.points, parts);
+    body.mass = mass_in_time(parts);
   }
   body.essential.count_as_held(extras.held);
   if (model.skull) {

@@ -23,10 +23,6 @@ std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& 
 /// ‖Σ_b B_b ⊗ B_b / (h_b |B_b|)‖, the largest eigenvalue; share: the h_b.
 double weighted_norm(const Eigen::Matrix3Xd& b, std::span<const double> share);
 
-/// Physical mass (g), each point's shared evenly by the nodes of its support, as Wittek et al., eq. 21, have it. It is
-/// above 0 for any shape functions. density: g/mm³, one a row of the material table.
-std::vector<double> physical_mass(const PointBlocks& points, std::span<const double> density);
-
 /// 2 / sqrt(max D_a/m_a), s.
 double critical_step(std::span<const double> stiffness_bound, std::span<const double> mass);
 

@@ -4,12 +4,33 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "solve/force/point_blocks.hpp"
 
 namespace brainshift::solve {
+
+/// Masses as Wittek et al., eq. 21, have them, g, one a node: each point's shared evenly by the nodes of its support.
+/// density: g/mm³, one a row of the material table.
+inline std::vector<double> chapter_mass(const PointBlocks& points, std::span<const double> density) {
+  std::vector<double> mass(points.nodes(), 0.0);
+  for (const Block& block : points.blocks) {
+    for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
+      const Patch& patch = points.patches[static_cast<std::size_t>(k)];
+      for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
+        const double share = density[static_cast<std::size_t>(patch.material)] *
+                             points.volume[static_cast<std::size_t>(p)] / static_cast<double>(points.support_size(p));
+        for (const std::uint16_t slot : points.slots_of(p)) {
+          mass[static_cast<std::size_t>(points.node_of(block, slot))] += share;
+        }
+      }
+    }
+  }
+  return mass;
+}
 
 /// The critical step as Wittek et al. print it, eq. 25, with (λ + 2µ)/ρ: min over points of 2 / (c_d sqrt(N Σ|B|²)), s.
 /// wave_speed: c_d, mm/s, one a row of the material table; points in double precision. What the solver's own bound is

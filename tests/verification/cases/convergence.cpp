@@ -201,7 +201,7 @@ StepRatios step_ratios(double poisson_ratio, Basis basis, int points_per_cell, d
       points, rows, row, cloud.size(), solve::pressure_patches(points.positions, share, row, nodes_per_patch));
   const solve::PointLaws laws{{solve::elastic_law(material)}};
   const std::vector<double> mass =
-      solve::physical_mass(blocks, std::vector<double>{solve::density_per_cubic_millimetre(material)});
+      solve::chapter_mass(blocks, std::vector<double>{solve::density_per_cubic_millimetre(material)});
   const double exact = 2 / std::sqrt(solve::largest_eigenvalue(blocks, laws, mass, 300));
   solve::ForceScratch scratch(blocks, laws);
   solve::NodalVectors rest(4 * cloud.size(), 0.0), force(rest);

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/pulled_square.hpp"
 #include "tests/unit/solve/specimen.hpp"
 
 namespace brainshift::solve::check_model_test {
@@ -21,6 +23,24 @@ TEST(Diagnosis, RefusesNodesNearlyInOnePlace) {
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("mm apart"), std::string::npos) << error.what();
+  }
+}
+
+TEST(CheckModel, RefusesWhatLeavesThePlane) {
+  const std::function<void(Model&)> faults[] = {[](Model& m) { m.gravity = {0, 0, -9.81}; },
+                                                [](Model& m) { m.conditions.displacement(0, 2) = 1; },
+                                                [](Model& m) {
+                                                  m.conditions.force = Points::Zero(m.cloud.positions.rows(), 3);
+                                                  m.conditions.force(7, 2) = 0.1;
+                                                }};
+  Model within = pulled_square();
+  within.gravity = {0, -9.81, 0};
+  within.conditions.displacement(0, 2) = 0;
+  EXPECT_EQ(test::refusal([&] { check_model(within); }), "");
+  for (const auto& fault : faults) {
+    Model model = pulled_square();
+    fault(model);
+    EXPECT_NE(test::refusal([&] { check_model(model); }).find("have no z"), std::string::npos);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/force/stiffness_bound.hpp"
+#include "tests/unit/solve/chapter_critical_step.hpp"
 #include "tests/unit/solve/specimen.hpp"
 
 namespace brainshift::solve::motion_test {
@@ -37,7 +38,7 @@ struct Marched {
   int sound_steps = 0;
 
   explicit Marched(double of_critical, double pull = 1) {
-    const std::vector<double> mass = physical_mass(box.points, std::vector<double>{1e-3});
+    const std::vector<double> mass = chapter_mass(box.points, std::vector<double>{1e-3});
     Motion motion(pulled_body(box, pull), 0);
     const PointLaws& laws = motion.body.laws;
     motion.weigh(mass);
@@ -100,7 +101,7 @@ TEST(Motion, KeepsTheSwellingOfTheMomentWhenItsBodyChanges) {
       test::irregular_box(4, side), test::box_cells(3, side), {Material{.swelling = 0.3}}, SpecimenOptions{}};
   Motion motion(pulled_body(box, 1), 0);
   const PointLaws laws = motion.body.laws;
-  const std::vector<double> mass = physical_mass(box.points, std::vector<double>{1e-3});
+  const std::vector<double> mass = chapter_mass(box.points, std::vector<double>{1e-3});
   motion.weigh(mass);
   const double h = 0.1 / std::sqrt(largest_eigenvalue(box.points, laws, mass, 300));
   motion.step(laws, mass, h * h, 1, h, 0.5);
