@@ -15,6 +15,8 @@
 #include "segmentation/body/brain_body.hpp"
 #include "segmentation/image/mask.hpp"
 #include "segmentation/interface/check_input.hpp"
+#include "segmentation/labels/label_table.hpp"
+#include "segmentation/options/values.hpp"
 #include "segmentation/surface/checked_surface.hpp"
 #include "segmentation/surface/extract.hpp"
 #include "segmentation/tissue/classify.hpp"
@@ -183,8 +185,13 @@ void make_surfaces(Segmentation& result, const Mask& brain, const std::vector<st
   }
 }
 
-// What closing and filling took in becomes the first of the brain's labels; loose pieces become background. Returns
-// where the former is 1.
+// Of the brain's labels that of the most voxels: the parenchyma, whatever its number.
+std::uint16_t most_common(const LabelMap& labels, const std::vector<std::uint16_t>& of_brain) {
+  const LabelVolumes volumes = label_volumes(labels);
+  return *std::ranges::max_element(of_brain, {}, [&](std::uint16_t label) { return volumes.at(label); });
+}
+
+// What closing and filling took in becomes `filling`; loose pieces become background. Returns where the former is 1.
 LabelMap fit_labels(LabelMap& labels, const Mask& tissue, const Mask& brain, std::uint16_t filling) {
   LabelMap closed{labels.geometry, std::vector<std::uint16_t>(labels.voxels.size())};
   for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
@@ -206,6 +213,18 @@ void note_dropped(Segmentation& result, double loose, std::size_t pieces, double
          << " ml of tissue (" << 100 * loose / all << " %) in " << pieces
          << " piece(s) that hang together with no part of the brain; if they belong to it, join them to it";
     result.notes.push_back(text.str());
+  }
+}
+
+void note_holes(Segmentation& result) {
+  constexpr double worth_saying = 1000;  // mm³
+  const BodyMeasures& body = *result.body;
+  const double filled = body.volume - (body.tissue_volume - body.loose_volume);
+  if (filled > worth_saying) {
+    result.notes.push_back(
+        "holes of " + in_millilitres(filled) +
+        " in the brain, whose labels are of no tissue, count as the tissue about them; name a tissue "
+        "with these labels if they are another");
   }
 }
 
@@ -255,8 +274,10 @@ Segmentation segment_labels(const SegmentInput& input, const SegmentOptions& opt
   const BrainBody body = brain_body(tissue, options.closing.value_or(0));
   note_body(result, body, tissue, options.fluid_label.has_value());
   note_tumour(result, input, body.mask);
-  if (options.closing.value_or(0) > 0) {
-    result.closed = fit_labels(*result.labels, tissue, body.mask, options.brain_labels.front());
+  if (options.closing.value_or(0) == 0) {
+    note_holes(result);
+  } else {
+    result.closed = fit_labels(*result.labels, tissue, body.mask, most_common(*result.labels, options.brain_labels));
   }
   report(progress, 0.4, "surfaces");
   make_surfaces(result, body.mask, options.brain_labels, options, progress);
@@ -309,6 +330,22 @@ Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options
   return result;
 }
 
+// Wrapping fills grooves and long edges cut bumps off: of a surface that loses or gains much.
+void note_volume(Segmentation& result, double given, const CheckedSurface& checked, double edge_length) {
+  constexpr double much = 0.01;
+  const double left = checked.measures.volume + checked.loose_volume;
+  const bool changed = std::abs(left - given) > much * given, repaired = checked.measures.repaired;
+  if (changed || repaired) {
+    result.notes.push_back((changed ? "warning: " : "") +
+                           (repaired ? std::string("the surface is open or cuts itself and was wrapped")
+                                     : "the surface was remeshed to edges of " + write_number(edge_length) + " mm") +
+                           "; it holds " + in_millilitres(left) + ", as it was given " + in_millilitres(given) +
+                           (!changed   ? ""
+                            : repaired ? "; close its holes, or take out what cuts it, first"
+                                       : "; give a shorter edge_length"));
+  }
+}
+
 Segmentation segment_surface(const SegmentInput& input, const SegmentOptions& options) {
   if (input.surface->triangles.rows() > 0) {
     check_across(extent(*input.surface),
@@ -321,6 +358,7 @@ Segmentation segment_surface(const SegmentInput& input, const SegmentOptions& op
   result.measures["brain"] = checked.measures;
   result.measures["skull"] = checked.measures;
   note_dropped(result, checked.loose_volume, checked.loose_pieces, checked.loose_volume + checked.measures.volume);
+  note_volume(result, std::abs(volume(*input.surface)), checked, options.edge_length);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pipelines/checksum/sha256.hpp"
+#include "pipelines/runner/discretise_warnings.hpp"
 #include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/warnings.hpp"
@@ -70,7 +71,11 @@ StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progres
     return discretise::discretise(brain, labels ? &*labels : nullptr, options, progress);
   });
   discretise::write_discretisation(out, result);
-  return report_of(result.measures);
+  StageReport said = report_of(result.measures);
+  if (labels) {
+    warn(warnings_of(brain, *labels, job.options), said);
+  }
+  return said;
 }
 
 StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress& progress) {

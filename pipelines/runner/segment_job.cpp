@@ -22,11 +22,16 @@ std::optional<LabelMap> mask_if(const fs::path& file) {
 }
 
 /// A tumour's map as a mask: of BraTS's numbers the tumour without its oedema.
-std::optional<LabelMap> tumour_if(const fs::path& file) {
+std::optional<LabelMap> tumour_if(const fs::path& file, std::vector<std::string>& notes) {
   auto tumour = labels_if(file);
   if (tumour) {
     const auto volumes = segmentation::label_volumes(*tumour);
     const bool brats = volumes.contains(2) && volumes.contains(1) + volumes.contains(3) + volumes.contains(4) > 0;
+    if (brats) {
+      notes.push_back(file.string() + ": taken for BraTS's numbers, so that 2 (" +
+                      segmentation::in_millilitres(volumes.at(2)) +
+                      ") is oedema and no tumour; if it is a tumour, renumber it");
+    }
     for (std::uint16_t& voxel : tumour->voxels) {
       voxel = voxel != 0 && !(brats && voxel == 2) ? 1 : 0;
     }
@@ -54,6 +59,25 @@ void take_to_grid(std::optional<LabelMap>& map, const fs::path& file, const Imag
   *map = on_grid(*map, grid);
   notes.push_back(file.string() + ": lies on another grid than " + grid_file.string() +
                   "; taken to it, the nearest label at each voxel");
+}
+
+/// The number that a tumour of its own file gets may be another tissue's.
+void note_both_tumours(const LabelMap& labels, const LabelMap& tumour, const fs::path& map, const fs::path& file,
+                       std::vector<std::string>& notes) {
+  constexpr double worth_saying = 0.2;  // of the file's tumour: two hands do not draw the same outline
+  std::size_t both = 0, beside = 0;
+  for (std::size_t i = 0; i < labels.voxels.size(); ++i) {
+    const bool same = labels.voxels[i] == segmentation::default_label::tumour;
+    both += tumour.voxels[i] != 0 ? 1 : 0;
+    beside += same && tumour.voxels[i] == 0 ? 1 : 0;
+  }
+  if (static_cast<double>(beside) > worth_saying * static_cast<double>(both)) {
+    const double voxel = labels.geometry.spacing.prod();
+    notes.push_back("warning: label 3 of " + map.string() + " holds " +
+                    segmentation::in_millilitres(static_cast<double>(beside) * voxel) + " outside the tumour of " +
+                    file.string() + ", of " + segmentation::in_millilitres(static_cast<double>(both) * voxel) +
+                    ", and all of it counts as tumour; if it is another tissue, give it another number");
+  }
 }
 
 /// What a table told of the labels, as the stage's options.
@@ -106,7 +130,7 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
     notes = std::move(read.notes);
   }
   input.brain_mask = mask_if(job.image.brain_mask);
-  input.tumour_mask = job.image.tumour.empty() ? mask_if(job.image.tumour_mask) : tumour_if(job.image.tumour);
+  input.tumour_mask = job.image.tumour.empty() ? mask_if(job.image.tumour_mask) : tumour_if(job.image.tumour, notes);
   if (!job.image.surface.empty()) {
     input.surface = read_surface(job.image.surface);
   }
@@ -120,6 +144,9 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
     take_to_grid(input.tumour_mask, tumour, input.t1->geometry, job.image.t1, notes);
   } else if (input.labels) {
     take_to_grid(input.tumour_mask, tumour, input.labels->geometry, job.image.labels, notes);
+  }
+  if (input.labels && input.tumour_mask) {
+    note_both_tumours(*input.labels, *input.tumour_mask, job.image.labels, tumour, notes);
   }
   std::ranges::copy(
       frame_warnings({job.image.t1, job.image.labels, job.image.brain_mask, job.image.tumour, job.image.tumour_mask}),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -50,6 +51,46 @@ std::uint16_t label_at_index(const LabelMap& labels, const Eigen::Vector3d& inde
   return labels.at(nearest.x(), nearest.y(), nearest.z());
 }
 
+namespace {
+
+/// Halfway between voxels the label that most of them have. Of labels that as many have the lowest and the highest take
+/// turns: always the same side would move the whole map by half a voxel.
+std::uint16_t label_between(const LabelMap& labels, const Eigen::Vector3d& index, bool lowest) {
+  constexpr double halfway = 0.499;
+  std::array<std::uint16_t, 8> votes{};
+  std::size_t count = 1;
+  std::array<Eigen::Array3i, 8> voxels{index.array().round().cast<int>()};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double beyond = index[axis] - voxels[0][axis];
+    if (std::abs(beyond) > halfway) {
+      for (std::size_t k = 0; k < count; ++k) {
+        voxels[count + k] = voxels[k];
+        voxels[count + k][axis] += beyond > 0 ? 1 : -1;
+      }
+      count *= 2;
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool inside = (voxels[k] >= 0).all() && (voxels[k] < labels.geometry.size).all();
+    votes[k] = inside ? labels.at(voxels[k].x(), voxels[k].y(), voxels[k].z()) : std::uint16_t{0};
+  }
+  std::sort(votes.begin(), votes.begin() + static_cast<std::ptrdiff_t>(count));
+  std::uint16_t chosen = votes[0];
+  std::size_t most = 0;
+  for (std::size_t first = 0, last = 0; first < count; first = last) {
+    while (last < count && votes[last] == votes[first]) {
+      ++last;
+    }
+    if (last - first > most || (last - first == most && !lowest)) {
+      most = last - first;
+      chosen = votes[first];
+    }
+  }
+  return chosen;
+}
+
+}  // namespace
+
 LabelMap on_grid(const LabelMap& labels, const ImageGeometry& grid) {
   LabelMap result{grid, std::vector<std::uint16_t>(grid.voxel_count())};
   // World positions along a row differ by one step, and so do the map's indices.
@@ -62,10 +103,7 @@ LabelMap on_grid(const LabelMap& labels, const ImageGeometry& grid) {
     for (int j = 0; j < grid.size.y(); ++j) {
       const Eigen::Vector3d first = at(0, j, k);
       for (int i = 0; i < grid.size.x(); ++i) {
-        const Eigen::Array3i nearest = (first + i * step).array().round().cast<int>();
-        if ((nearest >= 0).all() && (nearest < labels.geometry.size).all()) {
-          result.at(i, j, k) = labels.at(nearest.x(), nearest.y(), nearest.z());
-        }
+        result.at(i, j, k) = label_between(labels, first + i * step, (i + j + k) % 2 == 0);
       }
     }
   }

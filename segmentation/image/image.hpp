@@ -58,7 +58,8 @@ std::uint16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world);
 /// The same at voxel indices, which need not be whole.
 std::uint16_t label_at_index(const LabelMap& labels, const Eigen::Vector3d& index);
 
-/// The labels on another grid: the nearest at each of its voxels, 0 where the map does not reach.
+/// The labels on another grid: the nearest at each of its voxels, 0 where the map does not reach. Where several are as
+/// near, as on a grid half a voxel away, the one that most of them are.
 LabelMap on_grid(const LabelMap& labels, const ImageGeometry& grid);
 
 /// Share of the map's voxels with a label that lie within a grid, 0 to 1; 1 where the map is empty.
@@ -76,7 +77,8 @@ std::optional<double> declared_voxels(const std::filesystem::path& file);
 /// holds a value that is not finite, or (labels) one that is no whole number from 0 to 65535.
 ScalarImage read_image(const std::filesystem::path& file);
 LabelMap read_label_map(const std::filesystem::path& file);
-/// A mask, which may be an image of any numbers, as a stripped T1 is: 1 where it is not 0. Throws as read_image() does.
+/// A mask, which may be an image of any numbers, as a stripped T1 is: 1 where it is not 0. Throws as read_image() does,
+/// and where it holds fractions from 0 to 1 alone, as probabilities are.
 LabelMap read_mask(const std::filesystem::path& file);
 VectorImage read_vector_image(const std::filesystem::path& file);
 

@@ -197,7 +197,12 @@ void read_nifti_geometry(const fs::path& file, const NiftiFields& fields, ImageH
   constexpr int of_length = 7, of_time = 56;  // of the bits of xyzt_units
   check_unit(file, fields.bytes[123] & of_length);
   header.seconds = seconds_of(fields.bytes[123] & of_time);
-  header.spacing = Eigen::Vector3d(fields.step(1), fields.step(2), fields.step(3)).cwiseAbs();
+  header.spacing = Eigen::Vector3d(fields.step(1), fields.step(2), fields.step(3));
+  if (header.spacing.minCoeff() < 0) {
+    refuse(file,
+           "its voxels have a negative size (pixdim), which NIfTI does not allow and programs take for different "
+           "frames; save the image anew, with positive sizes");
+  }
   if (fields.qform_code() > 0) {
     read_qform(file, fields, header);
   }

@@ -241,6 +241,16 @@ LabelMap read_label_map(const fs::path& file) {
 
 LabelMap read_mask(const fs::path& file) {
   const ScalarImage image = read_image(file);
+  const auto [low, high] = std::ranges::minmax_element(image.voxels);
+  if (*low >= 0 && *high <= 1) {
+    const auto part = std::ranges::find_if(image.voxels, [](float value) { return value > 0 && value < 1; });
+    if (part != image.voxels.end()) {
+      refuse(file, voxel_name(image.geometry.size, static_cast<std::size_t>(part - image.voxels.begin())) + " holds " +
+                       write_number(*part) +
+                       "; a mask is 0 outside and no fraction inside: are these probabilities, or was it resampled? "
+                       "Give it with 1 where they are above a half, else 0");
+    }
+  }
   LabelMap mask{image.geometry, std::vector<std::uint16_t>(image.voxels.size())};
   std::transform(image.voxels.begin(), image.voxels.end(), mask.voxels.begin(),
                  [](float value) { return static_cast<std::uint16_t>(value != 0); });

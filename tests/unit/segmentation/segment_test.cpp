@@ -200,6 +200,61 @@ TEST(Segment, WhatClosingTakesInIsParenchymaAndTheFluidBoundsTheSkull) {
   EXPECT_NEAR(radii.mean(), brain_radius + 3, 0.5);
 }
 
+/// Whatever the numbers are, and in whatever order they are named.
+TEST(Segment, WhatClosingTakesInBecomesWhatMostOfTheBrainIs) {
+  Head drawn = head(oblique());
+  const LabelMap groove = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, brain_radius, 0.0), 2.5);
+  for (std::size_t i = 0; i < groove.voxels.size(); ++i) {
+    std::uint16_t& label = drawn.labels.voxels[i];
+    label = label == default_label::ventricles ? 1 : label == default_label::parenchyma ? 2 : label;
+    label = groove.voxels[i] != 0 ? std::uint16_t{0} : label;
+  }
+  for (const std::vector<std::uint16_t>& order : {std::vector<std::uint16_t>{1, 2}, {2, 1}}) {
+    SegmentInput input;
+    input.labels = drawn.labels;
+    SegmentOptions options = two_labels();
+    options.brain_labels = order;
+    options.closing = 6;
+    const Segmentation result = segment(input, options);
+    EXPECT_EQ(label_at(*result.labels, centre + Eigen::Vector3d(0.0, brain_radius - 1.5, 0.0)), 2);
+  }
+}
+
+TEST(Segment, AHoleOfOtherLabelsInTheBrainIsTold) {
+  Head drawn = head(oblique());
+  SegmentInput input;
+  input.labels = drawn.labels;
+  EXPECT_TRUE(segment(input, two_labels()).notes.empty());
+  const LabelMap hole = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, 24.0, 0.0), 7.0);
+  for (std::size_t i = 0; i < hole.voxels.size(); ++i) {
+    input.labels->voxels[i] = hole.voxels[i] != 0 ? std::uint16_t{9} : input.labels->voxels[i];
+  }
+  const Segmentation result = segment(input, two_labels());
+  ASSERT_EQ(result.notes.size(), 1U);
+  EXPECT_NE(result.notes.front().find("holes of 1.4 ml"), std::string::npos) << result.notes.front();
+}
+
+TEST(Segment, ASurfaceThatIsWrappedOrRemeshedToAnotherVolumeIsWarnedOf) {
+  const Head drawn = head(oblique());
+  SegmentInput of_labels;
+  of_labels.labels = drawn.labels;
+  SegmentInput input;
+  input.surface = segment(of_labels, two_labels()).brain;
+  SegmentOptions options;
+  EXPECT_TRUE(segment(input, options).notes.empty());
+  options.edge_length = 30;
+  const Segmentation coarse = segment(input, options);
+  ASSERT_EQ(coarse.notes.size(), 1U);
+  EXPECT_NE(coarse.notes.front().find("warning: the surface was remeshed to edges of 30 mm"), std::string::npos)
+      << coarse.notes.front();
+  input.surface->triangles.conservativeResize(input.surface->triangles.rows() - 1, 3);
+  options.edge_length = 5;
+  const Segmentation wrapped = segment(input, options);
+  ASSERT_EQ(wrapped.notes.size(), 1U);
+  EXPECT_NE(wrapped.notes.front().find("is open or cuts itself and was wrapped; it holds"), std::string::npos)
+      << wrapped.notes.front();
+}
+
 TEST(Segment, WithoutFluidTheLabelsAroundTheBrainBoundTheSkullWhereTheyCan) {
   for (const auto& [gap, radius, said] : {std::tuple(3.0, brain_radius + 3, "reach to the labels around"),
                                           {20.0, brain_radius, "own surface is taken"}}) {

@@ -144,11 +144,50 @@ TEST_F(JobsTest, AMaskMayBeAnImageAndATumourAMapOfBrats) {
   SegmentJob job;
   job.image.t1 = job.image.brain_mask = folder_ / "t1.nii.gz";
   job.image.tumour = folder_ / "tumour.nii.gz";
-  run_job(job, folder_ / "out", {});
+  const StageReport said = run_job(job, folder_ / "out", {});
+  EXPECT_TRUE(std::ranges::any_of(said.notes, [](const std::string& note) {
+    return note.find("tumour.nii.gz: taken for BraTS's numbers, so that 2 (12.2 ml) is oedema") != std::string::npos;
+  }));
   const LabelMap labels = read_label_map(folder_ / "out/labels.nii.gz");
   EXPECT_EQ(labels.at(6, 10, 10), 3);
   EXPECT_NE(labels.at(10, 10, 10), 3);
   EXPECT_EQ(labels.at(1, 1, 1), 0);
+}
+
+TEST_F(JobsTest, AMaskOfProbabilitiesIsRefused) {
+  ScalarImage part = image();
+  std::ranges::transform(part.voxels, part.voxels.begin(), [](float value) { return value / 6; });
+  write_image(folder_ / "part.nii.gz", part);
+  write_image(folder_ / "t1.nii.gz", image());
+  SegmentJob job;
+  job.image.t1 = folder_ / "t1.nii.gz";
+  job.image.brain_mask = folder_ / "part.nii.gz";
+  expect_parts(refusal([&] { run_job(job, folder_ / "out", {}); }), {"part.nii.gz", "probabilities", "above a half"});
+}
+
+/// The tumour of a file gets the number 3, which a map may use for another tissue.
+TEST_F(JobsTest, ATumourOfItsOwnFileBesideItsNumberInTheMapIsWarnedOf) {
+  LabelMap labels = block(4, 1, 0), tumour = block(8, 1, 0);
+  SegmentJob job;
+  job.image.labels = folder_ / "labels.nii.gz";
+  job.image.tumour = folder_ / "tumour.nii.gz";
+  job.options.brain_labels = {1, 3};
+  write_image(job.image.tumour, tumour);
+  const auto notes = [&] {
+    write_image(job.image.labels, labels);
+    return run_job(job, folder_ / "out", {}).notes;
+  };
+  EXPECT_TRUE(notes().empty());
+  labels.at(5, 5, 5) = 3;
+  EXPECT_TRUE(notes().empty()) << "as another hand may have drawn it";
+  for (int i = 4; i < 16; ++i) {
+    for (int j = 4; j < 8; ++j) {
+      labels.at(i, j, 5) = 3;
+    }
+  }
+  const std::vector<std::string> said = notes();
+  ASSERT_EQ(said.size(), 1U);
+  expect_parts(said.front(), {"warning: label 3 of", "labels.nii.gz", "0.8 ml", "1.0 ml", "another number"});
 }
 
 TEST_F(JobsTest, ADiscretisationIsFinerWhereTheLoadIs) {

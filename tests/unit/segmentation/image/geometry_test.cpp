@@ -74,6 +74,50 @@ TEST(Geometry, LabelsOnAnotherGridAreTheNearest) {
   EXPECT_EQ(on_grid(labels, fine).voxels, labels.voxels);
 }
 
+/// As of FreeSurfer's map of 256 voxels and an image of 181: the grids are half a voxel apart along each axis.
+TEST(Geometry, LabelsHalfwayBetweenVoxelsKeepTheirPlaceAndVolume) {
+  const Eigen::Vector3d middle(1.2, -2.4, 0.7);
+  for (const double coarser : {1.0, 2.0}) {
+    const auto fine = grid_around({1, 2, 3}, 60, Eigen::Vector3d::Ones(), oblique());
+    const auto other = grid_around({1, 2, 3}, static_cast<int>(60 / coarser) + (coarser == 1 ? 1 : 0),
+                                   Eigen::Vector3d::Constant(coarser), oblique());
+    const LabelMap labels = ball(fine, middle, 20), taken = on_grid(labels, other);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double count = 0, before = 0;
+    for (int k = 0; k < other.size.z(); ++k) {
+      for (int j = 0; j < other.size.y(); ++j) {
+        for (int i = 0; i < other.size.x(); ++i) {
+          sum += taken.at(i, j, k) * other.to_world(Eigen::Vector3d(i, j, k));
+          count += taken.at(i, j, k);
+        }
+      }
+    }
+    for (const std::uint16_t label : labels.voxels) {
+      before += label;
+    }
+    EXPECT_LE((sum / count - middle).norm(), 0.03) << coarser;
+    EXPECT_NEAR(count * std::pow(coarser, 3), before, 0.005 * before) << coarser;
+  }
+}
+
+TEST(Geometry, ASheetOneVoxelThickStaysWholeHalfwayBetweenVoxels) {
+  const auto fine = grid_around({0, 0, 0}, 10, Eigen::Vector3d::Ones(), Eigen::Matrix3d::Identity());
+  auto other = fine;
+  other.origin.x() += 0.5;
+  LabelMap labels{fine, std::vector<std::uint16_t>(fine.voxel_count(), 1)};
+  for (int k = 0; k < 10; ++k) {
+    for (int j = 0; j < 10; ++j) {
+      labels.at(5, j, k) = 4;
+    }
+  }
+  const LabelMap taken = on_grid(labels, other);
+  for (int k = 0; k < 10; ++k) {
+    for (int j = 0; j < 10; ++j) {
+      EXPECT_EQ((taken.at(4, j, k) == 4 ? 1 : 0) + (taken.at(5, j, k) == 4 ? 1 : 0), 1) << j << ' ' << k;
+    }
+  }
+}
+
 TEST(Geometry, TheShareWithinAGridCountsVoxelsWithALabel) {
   const auto grid = grid_around({0, 0, 0}, 40, Eigen::Vector3d::Ones(), Eigen::Matrix3d::Identity());
   const auto half = grid_around({20, 0, 0}, 40, Eigen::Vector3d::Ones(), Eigen::Matrix3d::Identity());

@@ -111,6 +111,15 @@ TEST(ImageHeader, ANiftiFormThatIsShearedOrOfAnotherVoxelIsRefused) {
   EXPECT_TRUE(refused(folder.write("a.nii", slightly), {"size of a voxel"}));
 }
 
+TEST(ImageHeader, ANiftiWithVoxelsOfANegativeSizeIsRefused) {
+  const ScratchFolder folder;
+  for (const std::size_t place : {80U, 84U, 88U}) {
+    std::string bytes = nifti_bytes();
+    put<float>(bytes, place, -2);
+    EXPECT_TRUE(refused(folder.write("a.nii", bytes), {"a.nii", "negative size", "pixdim"})) << place;
+  }
+}
+
 TEST(ImageHeader, ANiftisUnitOfTimeIsTold) {
   const ScratchFolder folder;
   for (const auto& [unit, seconds] : {std::pair('\x0a', 1.0), {'\x12', 1e-3}, {'\x1a', 1e-6}, {'\x02', 1.0}}) {
