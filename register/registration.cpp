@@ -123,7 +123,7 @@ Registration register_images(const RegisterInput& input, const RegisterOptions& 
   PointMover mover(result.forward);
   result.landmarks = move_points(mover, input.landmarks);
   if (!input.solution.estimated_error.empty()) {
-    result.landmark_error = estimated_error_at(input.solution, false, input.landmarks);
+    result.landmark_error = estimated_error_at(input.solution, input.landmarks);
   }
   report(progress, 0.9, "measuring the fields");
   result.jacobian = jacobian(result.forward);

@@ -81,11 +81,7 @@ Points pick_apart(const Surface& surface, const std::vector<Sample>& samples, do
       }
     }
   }
-  Points nodes(static_cast<Eigen::Index>(picked.size()), 3);
-  for (std::size_t i = 0; i < picked.size(); ++i) {
-    nodes.row(static_cast<Eigen::Index>(i)) = picked[i];
-  }
-  return nodes;
+  return as_points(picked);
 }
 
 /// One sweep: each node to the weighted mean of the samples nearest to it (not yet back on the surface).

@@ -32,14 +32,6 @@ std::uint16_t neighbour(const LabelMap& labels, Eigen::Array3i voxel, int axis, 
   return inside ? labels.at(voxel.x(), voxel.y(), voxel.z()) : std::uint16_t{0};
 }
 
-Points to_points(const std::vector<Eigen::Vector3d>& list) {
-  Points points(static_cast<Eigen::Index>(list.size()), 3);
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    points.row(static_cast<Eigen::Index>(i)) = list[i];
-  }
-  return points;
-}
-
 Eigen::Vector3d centre(const LabelMap& labels, const Eigen::Array3i& voxel) {
   return labels.geometry.to_world(voxel.cast<double>().matrix());
 }
@@ -82,7 +74,7 @@ TissueLookup::TissueLookup(const LabelMap* labels, std::span<const std::int32_t>
         "the label map has no voxel with a brain label; check the labels of the brain's "
         "tissues.");
   }
-  rim_ = std::make_shared<const Rim>(to_points(centres), std::move(rim_labels));
+  rim_ = std::make_shared<const Rim>(as_points(centres), std::move(rim_labels));
 }
 
 bool TissueLookup::in_brain(const Eigen::Vector3d& world) const {
@@ -104,7 +96,7 @@ Points label_voxels(const LabelMap& labels, std::int32_t label) {
       centres.push_back(centre(labels, voxel));
     }
   });
-  return to_points(centres);
+  return as_points(centres);
 }
 
 Points tissue_boundary(const LabelMap& labels, std::span<const std::int32_t> brain_labels,
@@ -121,7 +113,7 @@ Points tissue_boundary(const LabelMap& labels, std::span<const std::int32_t> bra
       }
     }
   });
-  return to_points(faces);
+  return as_points(faces);
 }
 
 }  // namespace brainshift::discretise

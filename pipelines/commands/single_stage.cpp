@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
-#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/runner/stage_record.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/progress/stopwatch.hpp"
 
 namespace brainshift::pipelines {
 
@@ -70,14 +70,11 @@ void run_single_stage(StageId stage, const std::filesystem::path& out, const Set
   console.started(stage);
   StageFolder folder(out, *settings.interruption);
   reset_peak_memory();
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch time;
   const StageReport report =
       work(folder.path(), [&](double fraction, std::string_view what) { console.progress(stage, fraction, what); });
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_stage_record(folder.path(), {.stage = std::string(stage_name(stage)),
-                                     .stamp = "",
-                                     .failure = report.failure,
-                                     .entry = stage_entry(report, seconds, peak_memory_mb())});
+  const double seconds = time.seconds();
+  write_stage_record(folder.path(), record_of(stage, "", report, seconds));
   if (!earlier) {
     folder.refuse_others_files();
   }

@@ -10,6 +10,7 @@
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/check_tissues.hpp"
 #include "pipelines/scene/scene_table.hpp"
+#include "segmentation/options/values.hpp"
 #include "solve/material/named_materials.hpp"
 
 namespace brainshift::pipelines {
@@ -119,14 +120,6 @@ solve::Plane plane_of(const std::string& name) {
   return name.empty() ? solve::Plane::none : name == "strain" ? solve::Plane::strain : solve::Plane::stress;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
-
 std::optional<Load> load_of(const SolveArguments& arguments) {
   Load load = arguments.scene.load.value_or(Load{});
   if (!arguments.craniotomy.empty()) {
@@ -180,7 +173,7 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
       ->add_option("--material", arguments->materials,
                    "of one label; again for each. 1:3000,0.49 or with a density, 1000 kg/m3 if absent; a name from the "
                    "literature, 1:brain_ogden (" +
-                       listed(solve::material_names()) +
+                       with_commas(solve::material_names()) +
                        "); or attributes of a scene's <tissue>, also behind these: "
                        "'1:law=ogden,ogden=842,-4.7,poisson_ratio=0.49,prony=0.45,0.5;0.365,50', in quotes for the "
                        "semicolon's sake")

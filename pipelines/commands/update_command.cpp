@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <chrono>
 #include <memory>
 #include <optional>
 
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/console.hpp"
 #include "pipelines/runner/own_folder.hpp"
-#include "pipelines/runner/peak_memory.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/runner/stage_record.hpp"
 #include "pipelines/runner/update_run.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/progress/stopwatch.hpp"
 
 namespace brainshift::pipelines {
 namespace {
@@ -34,26 +33,21 @@ fs::path out_of(const UpdateArguments& arguments) {
 }
 
 /// Answers the load into a folder that appears when it is whole.
-StageReport answer(UpdatedRun& run, const fs::path& load, const fs::path& out,
-                   std::chrono::steady_clock::time_point begin, Interruption& interruption, const Progress& progress) {
+StageReport answer(UpdatedRun& run, const fs::path& load, const fs::path& out, const Stopwatch& time,
+                   Interruption& interruption, const Progress& progress) {
   StageFolder folder(out, interruption);
   const StageReport report = run.answer(load, folder.path(), progress);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_stage_record(folder.path(), {.stage = std::string(stage_name(StageId::solve)),
-                                     .stamp = "",
-                                     .failure = report.failure,
-                                     .entry = stage_entry(report, seconds, peak_memory_mb())});
+  write_stage_record(folder.path(), record_of(StageId::solve, "", report, time.seconds()));
   folder.replace();
   return report;
 }
 
 /// The same; a fault leaves no empty folder above it.
-StageReport answer_or_nothing(UpdatedRun& run, const fs::path& load, const fs::path& out,
-                              std::chrono::steady_clock::time_point begin, Interruption& interruption,
-                              const Progress& progress) {
+StageReport answer_or_nothing(UpdatedRun& run, const fs::path& load, const fs::path& out, const Stopwatch& time,
+                              Interruption& interruption, const Progress& progress) {
   const bool was_there = fs::exists(out.parent_path());
   try {
-    return answer(run, load, out, begin, interruption, progress);
+    return answer(run, load, out, time, interruption, progress);
   } catch (...) {
     std::error_code ignored;
     if (!was_there) {
@@ -68,7 +62,7 @@ void update(const UpdateArguments& arguments, const Settings& settings) {
   const Progress progress = [&](double fraction, std::string_view what) {
     console.progress(StageId::solve, fraction, what);
   };
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch time;
   if (arguments.load.empty()) {
     if (const UpdatedRun prepared(arguments.run, *settings.interruption, progress); !prepared.not_kept().empty()) {
       throw std::runtime_error(prepared.not_kept());
@@ -80,8 +74,8 @@ void update(const UpdateArguments& arguments, const Settings& settings) {
   UpdatedRun run(arguments.run, *settings.interruption, progress, arguments.device);
   refuse_foreign_folder(out);
   refuse_foreign_folder(old_of(out));
-  const StageReport report = answer_or_nothing(run, arguments.load, out, begin, *settings.interruption, progress);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const StageReport report = answer_or_nothing(run, arguments.load, out, time, *settings.interruption, progress);
+  const double seconds = time.seconds();
   for (const std::string& note : report.notes) {
     console.note(StageId::solve, note);
   }

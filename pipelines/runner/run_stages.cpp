@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/run_stages.hpp"
 
-#include <chrono>
-
 #include "pipelines/runner/artefacts.hpp"
 #include "pipelines/runner/enough_memory.hpp"
 #include "pipelines/runner/folder_lock.hpp"
@@ -14,6 +12,8 @@
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/runner/stage_record.hpp"
 #include "pipelines/show/show_scripts.hpp"
+#include "segmentation/options/values.hpp"
+#include "segmentation/progress/stopwatch.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -89,30 +89,19 @@ bool take_over(const StagePlan& plan, const std::string& plan_stamp, const fs::p
   return !refused;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : ", ") + name;
-  }
-  return text;
-}
-
 StageRecord make_stage(const StagePlan& plan, const fs::path& folder, InputStates& states, Interruption& interruption,
                        const Progress& progress) {
   refuse_foreign_folder(folder);
   refuse_foreign_folder(old_of(folder));
   StageFolder unfinished(folder, interruption);
   reset_peak_memory();
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch time;
   const StageReport report = plan.work(unfinished.path(), progress);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  const double seconds = time.seconds();
   for (const InputFile& input : plan.inputs) {
     states.check_unchanged(input.path);
   }
-  const StageRecord record{.stage = std::string(stage_name(plan.stage)),
-                           .stamp = stamp(plan, states),
-                           .failure = report.failure,
-                           .entry = stage_entry(report, seconds.count(), peak_memory_mb())};
+  const StageRecord record = record_of(plan.stage, stamp(plan, states), report, seconds);
   write_stage_record(unfinished.path(), record);
   unfinished.replace();
   return record;
@@ -140,7 +129,7 @@ nlohmann::ordered_json entry_of(const Kept& kept) {
     if (!entry.contains("notes") || !entry["notes"].is_array()) {
       entry["notes"] = nlohmann::ordered_json::array();
     }
-    entry["notes"].push_back("warning: not as this stage made it: " + listed(kept.edited) +
+    entry["notes"].push_back("warning: not as this stage made it: " + with_commas(kept.edited) +
                              "; the stage's figures and checks are of what it made");
   }
   return entry;
@@ -210,7 +199,7 @@ RunOutcome run_stages(const Scene& scene, const RunOptions& options, const fs::p
     const std::optional<Kept> old = options.force && !taken ? std::nullopt : kept(plan, plan_stamp, out / name);
     if (old) {
       outcome.record["stages"][name] = entry_of(*old);
-      tally.tell(RunEvent::Kind::kept, stage, 0, listed(old->edited));
+      tally.tell(RunEvent::Kind::kept, stage, 0, with_commas(old->edited));
       tally.tell_notes(stage, old->record.entry);
     } else {
       if (!memory_is_enough) {

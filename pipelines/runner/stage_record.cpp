@@ -6,6 +6,7 @@
 
 #include "pipelines/runner/artefacts.hpp"
 #include "pipelines/runner/json_text.hpp"
+#include "pipelines/runner/peak_memory.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 
 namespace brainshift::pipelines {
@@ -17,10 +18,10 @@ double rounded(double value) {
 
 }  // namespace
 
-nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, double peak_memory_mb) {
+StageRecord record_of(StageId stage, const std::string& stamp, const StageReport& report, double seconds) {
   nlohmann::ordered_json entry = {{"status", report.failure.empty() ? "done" : "failed"},
                                   {"seconds", rounded(seconds)},
-                                  {"peak_memory_mb", rounded(peak_memory_mb)},
+                                  {"peak_memory_mb", rounded(peak_memory_mb())},
                                   {"sizes", report.sizes},
                                   {"measures", report.measures}};
   if (!report.notes.empty()) {
@@ -29,7 +30,7 @@ nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, do
   if (!report.failure.empty()) {
     entry["failure"] = report.failure;
   }
-  return entry;
+  return {.stage = std::string(stage_name(stage)), .stamp = stamp, .failure = report.failure, .entry = entry};
 }
 
 void write_stage_record(const std::filesystem::path& folder, const StageRecord& record) {

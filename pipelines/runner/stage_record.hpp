@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pipelines/runner/stage_report.hpp"
+#include "pipelines/scene/scene.hpp"
 
 namespace brainshift::pipelines {
 
@@ -20,8 +21,8 @@ struct StageRecord {
   nlohmann::ordered_json artefacts = nlohmann::ordered_json::object();  ///< when it was read: artefacts_in the folder
 };
 
-/// What the stage did, as run.json's entry.
-nlohmann::ordered_json stage_entry(const StageReport& report, double seconds, double peak_memory_mb);
+/// What the stage did in so many seconds, with the largest memory of this process since reset_peak_memory().
+StageRecord record_of(StageId stage, const std::string& stamp, const StageReport& report, double seconds);
 
 /// With the artefacts that lie in the folder then.
 void write_stage_record(const std::filesystem::path& folder, const StageRecord& record);

@@ -11,10 +11,10 @@ namespace brainshift::pipelines {
 namespace {
 
 template <class T>
-std::string help_lines(const OptionTable<T>& options, const std::string& indent) {
+std::string help_lines(const OptionTable<T>& options) {
   std::string text;
   for (const auto& option : options) {
-    text += indent + option.name + ": " + option.help + " [" + option.allowed +
+    text += "       " + option.name + ": " + option.help + " [" + option.allowed +
             (option.unit.empty() ? "" : ", " + option.unit) + "]" + (option.required ? " (required)" : "") + "\n";
   }
   return text;
@@ -41,15 +41,13 @@ std::string optional_part(const Element& element, const Scene& scene) {
   if (dot != std::string::npos) {
     example = "<" + element.path.substr(0, dot) + ">" + example + "</" + element.path.substr(0, dot) + ">";
   }
-  return comment("Not built unless named. " + element.help,
-                 help_lines(element.options, "       ") + "       " + example + "\n");
+  return comment("Not built unless named. " + element.help, help_lines(element.options) + "       " + example + "\n");
 }
 
 std::string cuts_part(const Element& cuts, const Scene& scene) {
-  return comment("Not built unless named. " + cuts.help, help_lines(cuts.options, "       ") + "       Each cut:\n" +
-                                                             help_lines(cut_options(), "       ") + "       <cuts" +
-                                                             attributes(cuts.options, scene) + "><cut" +
-                                                             attributes(cut_options(), CutFile{}) + "/></cuts>\n");
+  return comment("Not built unless named. " + cuts.help,
+                 help_lines(cuts.options) + "       Each cut:\n" + help_lines(cut_options()) + "       <cuts" +
+                     attributes(cuts.options, scene) + "><cut" + attributes(cut_options(), CutFile{}) + "/></cuts>\n");
 }
 
 std::string tissues_part() {
@@ -62,7 +60,7 @@ std::string tissues_part() {
   });
   const std::string example = "<tissues><tissue" + attributes(constants, tissue) + "/></tissues>";
   return comment("The brain's tissues: one element a label.",
-                 help_lines(tissue_options(), "       ") + "       " + example +
+                 help_lines(tissue_options()) + "       " + example +
                      "\n       or <tissues><tissue label=\"1\" material=\"brain_viscoelastic\"/></tissues>\n"
                      "       or <tissues><tissue labels=\"2 3 10-13\" material=\"brain\"/></tissues>\n"
                      "       or <tissues><tissue class=\"ventricles\" youngs_modulus=\"20\"/></tissues>\n");
@@ -96,7 +94,7 @@ std::string default_scene() {
       continue;
     }
     const bool stage = is_stage(element.path);
-    text += comment(element.help, help_lines(element.options, "       "));
+    text += comment(element.help, help_lines(element.options));
     text += "  <" + (stage ? "stage name=\"" + element.path + "\"" : element.path) +
             attributes(element.options, everything) + "/>\n";
     if (element.path == "image") {

@@ -27,7 +27,7 @@ void write_brain(const fs::path& file, const Solution& solution, Surface brain, 
   vtu::add_array(arrays, "displacement", {u.data(), static_cast<std::size_t>(u.size())}, 3);
   vtu::add_array(arrays, "displacement_mm", {length.data(), static_cast<std::size_t>(length.size())});
   if (!solution.estimated_error.empty()) {
-    vtu::add_array(arrays, "estimated_error_mm", registration::estimated_error_at(solution, false, brain.vertices));
+    vtu::add_array(arrays, "estimated_error_mm", registration::estimated_error_at(solution, brain.vertices));
   }
   arrays.SetActiveScalars("displacement_mm");
   vtkNew<vtkStringArray> space;  // 3D Slicer's note

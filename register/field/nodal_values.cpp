@@ -93,9 +93,9 @@ ScalarImage nodal_values_on(const Solution& solution, const std::vector<double>&
   return {grid, std::vector<float>(at_voxels.begin(), at_voxels.end())};
 }
 
-std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points) {
+std::vector<double> estimated_error_at(const Solution& solution, const Points& points) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const Eigen::VectorXd values = nodal_values_at(solution, as_vector(solution.estimated_error), moved, points, unknown);
+  const Eigen::VectorXd values = nodal_values_at(solution, as_vector(solution.estimated_error), false, points, unknown);
   return {values.begin(), values.end()};
 }
 

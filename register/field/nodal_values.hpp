@@ -26,8 +26,9 @@ Eigen::MatrixXd nodal_values_at(const Solution& solution, const Eigen::MatrixXd&
 ScalarImage nodal_values_on(const Solution& solution, const std::vector<double>& values, bool moved,
                             const ImageGeometry& grid);
 
-/// The same of the solution's estimated error, mm, at points; NaN outside. The solution must have an estimate.
-std::vector<double> estimated_error_at(const Solution& solution, bool moved, const Points& points);
+/// The same of the solution's estimated error, mm, at points of the preop brain; NaN outside. The solution must have an
+/// estimate.
+std::vector<double> estimated_error_at(const Solution& solution, const Points& points);
 
 /// A grid around the nodes of the preop or, with `moved`, the intraop brain: voxels of 4 mm along the axes of LPS.
 ImageGeometry grid_around_nodes(const Solution& solution, bool moved);

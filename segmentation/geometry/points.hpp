@@ -18,4 +18,12 @@ inline Points as_points(std::span<const Eigen::RowVector3d> places) {
   return points;
 }
 
+inline Points as_points(std::span<const Eigen::Vector3d> places) {
+  Points points(static_cast<Eigen::Index>(places.size()), 3);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    points.row(static_cast<Eigen::Index>(i)) = places[i];
+  }
+  return points;
+}
+
 }  // namespace brainshift

@@ -29,6 +29,12 @@ struct Triangle {
 /// The t-th triangle of a surface.
 Triangle triangle(const Surface& surface, Eigen::Index t);
 
+/// With its inside out.
+inline Surface turned_over(Surface surface) {
+  surface.triangles.col(1).swap(surface.triangles.col(2));
+  return surface;
+}
+
 /// Normals at the vertices, (n × 3), each the sum of its triangles' area vectors, mm²: not of unit length.
 Points vertex_normals(const Surface& surface);
 

@@ -24,6 +24,14 @@ std::vector<std::string> split_words(std::string_view text) {
   return words;
 }
 
+std::string with_commas(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  return text;
+}
+
 std::optional<std::vector<std::uint16_t>> read_ranges(std::string_view text) {
   std::vector<std::uint16_t> labels;
   for (const std::string& word : split_words(text)) {

@@ -51,6 +51,9 @@ std::string write_number(T value) {
 /// Words separated by blanks or commas.
 std::vector<std::string> split_words(std::string_view text);
 
+/// "a, b, c".
+std::string with_commas(const std::vector<std::string>& words);
+
 /// Numbers separated by blanks or commas; empty on failure.
 template <class T>
 std::optional<std::vector<T>> read_numbers(std::string_view text) {

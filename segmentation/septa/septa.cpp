@@ -181,11 +181,7 @@ Surface faces_between(const Parts& parts, const Mask& joined) {
     triangles.push_back({c[0], c[1], c[2]});
     triangles.push_back({c[0], c[2], c[3]});
   });
-  Surface sheet{Points(static_cast<Eigen::Index>(vertices.size()), 3),
-                Triangles(static_cast<Eigen::Index>(triangles.size()), 3)};
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    sheet.vertices.row(static_cast<Eigen::Index>(i)) = vertices[i];
-  }
+  Surface sheet{as_points(vertices), Triangles(static_cast<Eigen::Index>(triangles.size()), 3)};
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     sheet.triangles.row(static_cast<Eigen::Index>(t)) << triangles[t][0], triangles[t][1], triangles[t][2];
   }

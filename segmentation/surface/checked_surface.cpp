@@ -9,11 +9,6 @@
 namespace brainshift::segmentation {
 namespace {
 
-Surface turned(Surface surface) {
-  surface.triangles.col(1).swap(surface.triangles.col(2));
-  return surface;
-}
-
 // A wrap that slips in through a hole, or lies around an open sheet, is a shell as thin as the wrap's offset.
 bool is_body(const Surface& surface, double opening) {
   return 2.0 * volume(surface) > 0.5 * opening * area(surface);
@@ -49,7 +44,7 @@ CheckedSurface checked_surface(const Surface& surface, double edge_length) {
   }
   SurfaceMeasures given = measure(surface);
   const bool inside_out = given.closed && !given.self_intersecting && given.volume < 0;
-  const Surface outward = inside_out ? turned(surface) : surface;
+  const Surface outward = inside_out ? turned_over(surface) : surface;
   CheckedSurface result;
   if (inside_out || given.is_sound()) {
     result.surface = remeshed(outward, edge_length);

@@ -81,7 +81,7 @@ Surface iso_surface(const Mask& mask, double sigma) {
     vertex = field.geometry.to_world(index).transpose();
   }
   if (volume(surface) < 0) {
-    surface.triangles.col(1).swap(surface.triangles.col(2));
+    surface = turned_over(std::move(surface));
   }
   return surface;
 }

@@ -40,11 +40,7 @@ Points centres_of(const Mask& mask) {
       list.push_back(centre);
     }
   });
-  Points centres(static_cast<Eigen::Index>(list.size()), 3);
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    centres.row(static_cast<Eigen::Index>(i)) = list[i];
-  }
-  return centres;
+  return as_points(list);
 }
 
 double distance(const PointTree& tree, const Eigen::Vector3d& x) {

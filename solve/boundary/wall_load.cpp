@@ -59,13 +59,7 @@ PlacedForces forces_on_wall(const Surface& wall, double longest,
       forces.emplace_back(newton * pressure(x) * area);
     });
   }
-  PlacedForces result{Points(static_cast<Eigen::Index>(places.size()), 3),
-                      Points(static_cast<Eigen::Index>(places.size()), 3)};
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    result.places.row(static_cast<Eigen::Index>(i)) = places[i];
-    result.force.row(static_cast<Eigen::Index>(i)) = forces[i];
-  }
-  return result;
+  return {as_points(places), as_points(forces)};
 }
 
 }  // namespace brainshift::solve

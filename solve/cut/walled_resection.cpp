@@ -88,11 +88,6 @@ Surface triangles_where(const Surface& surface, const Scanlines& body, bool insi
   return part;
 }
 
-Surface turned_over(Surface surface) {
-  surface.triangles.col(1).swap(surface.triangles.col(2));
-  return surface;
-}
-
 double volume_of(const BackgroundCells& cells) {
   const IntegrationPoints points = integration_points(cells, 1, nullptr, {});
   return std::accumulate(points.volume.begin(), points.volume.end(), 0.0);

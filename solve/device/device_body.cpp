@@ -248,20 +248,8 @@ void DeviceBody<Scalar>::put_skull(const SignedDistance& skull) {
 template <class Scalar>
 void DeviceBody<Scalar>::put_contact(const Contact& contact) {
   TouchingNodes& c = view_.contact;
-  const CompressedRows rows = rows_of(contact.nodes());
-  put_rows(rows, memory_, c);
-  std::vector<double> column_sum(nodes(), 0.0), position;
-  for (std::size_t k = 0; k < rows.node.size(); ++k) {
-    column_sum[static_cast<std::size_t>(rows.node[k])] += std::abs(rows.shape[k]);
-  }
-  for (Eigen::Index i = 0; i < contact.nodes().positions().rows(); ++i) {
-    const Eigen::Vector3d at = contact.nodes().positions().row(i);
-    position.insert(position.end(), at.begin(), at.end());
-  }
+  put_nodes(contact, nodes(), memory_, c);
   const std::size_t count = contact.nodes().size();
-  c.position = memory_.put(position);
-  c.allowed = memory_.put(std::vector<double>(contact.allowed().begin(), contact.allowed().end()));
-  c.column_sum = memory_.put(column_sum);
   c.inverse_row_sum = memory_.template room<double>(count);
   c.push = memory_.template room<double>(3 * count);
   c.pushed = memory_.template room<double>(4 * nodes());

@@ -36,11 +36,8 @@ BRAINSHIFT_ON_DEVICE double tangent_at(const View<Scalar>& v, const Cluster& c, 
   const Deformation d(room.gradient(p));
   const double seen = seen_at(v, c, room, point);
   return v.volume[point] * visit(v.law[v.material[point]], [&](const auto& law) {
-           auto alone = law;  // as its patch leaves it to the point
            const double dilatation = law.dilatation(d);
-           alone.bulk_modulus = point_modulus(law, dilatation);
-           const double tangent = largest_tangent(alone, d.gradient, point_pressure(law, seen, dilatation));
-           return std::max(tangent, 2 * law.shear_modulus);
+           return shape_tangent(law, d.gradient, point_pressure(law, seen, dilatation), dilatation);
          });
 }
 

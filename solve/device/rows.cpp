@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/device/rows.hpp"
 
+#include <cmath>
+
 namespace brainshift::solve::device {
 
 CompressedRows rows_of(const EssentialConditions::RowMatrix& matrix) {
@@ -42,6 +44,19 @@ void put_rows(const CompressedRows& rows, Memory& memory, SparseRows& to) {
   to.moved_begin = memory.put(moved.begin);
   to.moved_row = memory.put(moved.row);
   to.moved_shape = memory.put(moved.shape);
+}
+
+void put_nodes(const Contact& contact, std::size_t nodes, Memory& memory, NodesInSkull& to) {
+  const CompressedRows rows = rows_of(contact.nodes());
+  put_rows(rows, memory, to);
+  std::vector<double> column_sum(nodes, 0.0);
+  for (std::size_t k = 0; k < rows.node.size(); ++k) {
+    column_sum[static_cast<std::size_t>(rows.node[k])] += std::abs(rows.shape[k]);
+  }
+  const Points& position = contact.nodes().positions();
+  to.position = memory.put(std::vector<double>(position.data(), position.data() + position.size()));
+  to.allowed = memory.put(std::vector<double>(contact.allowed().begin(), contact.allowed().end()));
+  to.column_sum = memory.put(column_sum);
 }
 
 }  // namespace brainshift::solve::device

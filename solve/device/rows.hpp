@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "solve/boundary/contact.hpp"
 #include "solve/boundary/essential_conditions.hpp"
 #include "solve/boundary/pushed_nodes.hpp"
 #include "solve/device/clusters.hpp"
@@ -18,5 +19,8 @@ std::vector<double> entries_of(const Eigen::SparseMatrix<double>& matrix);
 
 /// Copies rows and what by_node() makes of them to a device.
 void put_rows(const CompressedRows& rows, Memory& memory, SparseRows& to);
+
+/// Copies a contact's nodes but not its skull. nodes: of the body.
+void put_nodes(const Contact& contact, std::size_t nodes, Memory& memory, NodesInSkull& to);
 
 }  // namespace brainshift::solve::device

@@ -63,14 +63,18 @@ struct SparseRows {
 };
 
 /// Surface nodes within a skull: Contact.
-struct TouchingNodes : SparseRows {
+struct NodesInSkull : SparseRows {
   const double* position;    ///< undeformed, mm, 3 a row
   const double* allowed;     ///< mm
   const double* column_sum;  ///< Σ |V|, one a node of the body
-  double* inverse_row_sum;   ///< D⁻¹
-  double* push;              ///< D⁻¹ δ, 3 a row
-  double* pushed;            ///< Vᵀ push of the last step, 4 a node of the body
   DistanceGrid skull;
+};
+
+/// The same with what pushes them.
+struct TouchingNodes : NodesInSkull {
+  double* inverse_row_sum;  ///< D⁻¹
+  double* push;             ///< D⁻¹ δ, 3 a row
+  double* pushed;           ///< Vᵀ push of the last step, 4 a node of the body
 };
 
 /// Essential conditions of a component: EssentialConditions::Component.

@@ -160,10 +160,7 @@ void find_tangents(const LawOfEach& law, const Chosen& asked, std::span<const Ei
     }
     std::visit(
         [&](const auto& one) {
-          auto alone = one;  // as its patch leaves it to the point
-          alone.bulk_modulus = point_modulus(one, dilatation.of[m]);
-          const double most = largest_tangent(alone, gradients[m], pressure.of[m]);
-          tangent.of[m] = volume * std::max(most, 2 * one.shear_modulus);
+          tangent.of[m] = volume * shape_tangent(one, gradients[m], pressure.of[m], dilatation.of[m]);
           const Eigen::Matrix3d of_member = volume * one.dilatation_slope(Deformation(gradients[m]));
           for (Eigen::Index k = 0; k < 9; ++k) {
             slope.entry[k][m] = of_member.data()[k];

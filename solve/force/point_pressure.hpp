@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -66,6 +67,16 @@ BRAINSHIFT_ON_DEVICE double point_modulus(const ElasticLaw& law, double dilatati
   const double jacobian = dilatation - law.least_dilatation, depth = depth_in_barrier(law, dilatation);
   const double barrier = depth < 0 ? 2 * law.shear_modulus * (1 - depth) / (jacobian * jacobian) : 0;
   return unprojected_modulus(law) + barrier;
+}
+
+/// The largest tangent of the change of shape, as the patch leaves it to the point under this pressure, Pa.
+template <class ElasticLaw>
+BRAINSHIFT_ON_DEVICE double shape_tangent(const ElasticLaw& law, const Eigen::Matrix3d& gradient, double pressure,
+                                          double dilatation) {
+  ElasticLaw alone = law;
+  alone.bulk_modulus = point_modulus(law, dilatation);
+  const double tangent = largest_tangent(alone, gradient, pressure);
+  return std::max(tangent, 2 * law.shear_modulus);
 }
 
 /// The lesser, or NaN where one is.

@@ -46,20 +46,17 @@ struct BlockSums {
 template <class ElasticLaw>
 void add_shape_bound(const PointBlocks& points, const Patch& patch, const ElasticLaw& law, double growth,
                      std::span<const Eigen::Matrix3d> gradients, BlockSums& sums) {
-  ElasticLaw alone = law;  // as its patch leaves it to the point
   const Eigen::Vector4d dilatations = projected_dilatation(points, patch, law, gradients);
   for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
     const Eigen::Matrix3d& gradient = gradients[static_cast<std::size_t>(p - patch.first_point)];
     const double dilatation = law.dilatation(Deformation(gradient));
-    alone.bulk_modulus = point_modulus(law, dilatation);
-    const double tangent =
-        largest_tangent(alone, gradient, point_pressure(law, dilatations.dot(points.modes_of(p)), dilatation));
+    const double pressure = point_pressure(law, dilatations.dot(points.modes_of(p)), dilatation);
     const auto b = derivatives(points, p);
     const std::vector<double> reach = column_norms(b);
     const std::span<const std::uint16_t> slots = points.slots_of(p);
     const std::span<const double> share = sums.shares.of(slots, reach);
     const double scale = growth * points.volume[static_cast<std::size_t>(p)] *
-                         std::max(tangent, 2 * law.shear_modulus) * weighted_norm(b, share);
+                         shape_tangent(law, gradient, pressure, dilatation) * weighted_norm(b, share);
     for (std::size_t a = 0; a < slots.size(); ++a) {
       sums.bound[slots[a]] += scale * share[a] * reach[a];
     }
@@ -140,23 +137,6 @@ std::vector<double> stiffness_bound(const PointBlocks& points, const PointLaws& 
     }
   });
   return sum_at_nodes(points, slot_bound);
-}
-
-std::vector<double> physical_mass(const PointBlocks& points, std::span<const double> density) {
-  std::vector<double> slot_mass(points.slots(), 0.0);
-  for (const Block& block : points.blocks) {
-    for (std::int32_t k = block.first_patch; k < block.last_patch; ++k) {
-      const Patch& patch = points.patches[static_cast<std::size_t>(k)];
-      for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
-        const double share = density[static_cast<std::size_t>(patch.material)] *
-                             points.volume[static_cast<std::size_t>(p)] / static_cast<double>(points.support_size(p));
-        for (const std::uint16_t slot : points.slots_of(p)) {
-          slot_mass[static_cast<std::size_t>(block.first_slot) + slot] += share;
-        }
-      }
-    }
-  }
-  return sum_at_nodes(points, slot_mass);
 }
 
 double critical_step(std::span<const double> stiffness_bound, std::span<const double> mass) {

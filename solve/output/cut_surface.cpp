@@ -36,20 +36,12 @@ class Sampling {
     }
   }
 
-  Points places() const { return rows(place_); }
-  Points ways_above() const { return rows(above_); }
+  Points places() const { return as_points(place_); }
+  Points ways_above() const { return as_points(above_); }
   const std::vector<Triple>& parts() const { return parts_; }
 
  private:
   using Step = std::array<int, 2>;  ///< along a facet's first and second edge
-
-  static Points rows(const std::vector<Eigen::Vector3d>& list) {
-    Points points(static_cast<Eigen::Index>(list.size()), 3);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      points.row(static_cast<Eigen::Index>(i)) = list[i];
-    }
-    return points;
-  }
 
   double spacing_at(const Eigen::Vector3d& x) const { return spacing_[tree_.nearest(x.data()).first]; }
 

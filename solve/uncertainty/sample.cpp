@@ -5,10 +5,8 @@
 #include "solve/ensemble/each.hpp"
 #include "solve/interface/unfit_parts.hpp"
 #include "solve/measured/weight.hpp"
-#include "solve/run/coarse.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/together.hpp"
-#include "solve/run/whole_body.hpp"
 
 namespace brainshift::solve {
 
@@ -16,30 +14,12 @@ void check_sampled(const Model& model, const SolveOptions& options) {
   refuse_unfit("<uncertainty> does not go", beyond_rest(model, options), "leave the one or the other out");
 }
 
-namespace {
-
-SolveOptions options_of_sample(const Model& model, const SolveOptions& given) {
-  check_sampled(model, given);
-  SolveOptions options = completed(given, model);
-  options.snapshot_every = 0;
-  return options;
-}
-
-}  // namespace
-
-std::optional<Points> sampled_displacement(const Model& model, const SolveOptions& given) {
-  const SolveOptions options = options_of_sample(model, given);
-  if (model.cloud.size() > most_sampled_nodes) {
-    return coarse_displacement(model, options, {});
-  }
-  const SolveResult result = solve_whole_body(model, options, {});
-  return result.failure.empty() ? std::optional(result.solution.displacement) : std::nullopt;
-}
-
 std::vector<std::optional<Points>> sampled_displacements(const Model& model, const SolveOptions& given,
                                                          std::span<const Constants> constants,
                                                          const Progress& progress) {
-  const SolveOptions options = options_of_sample(model, given);
+  check_sampled(model, given);
+  SolveOptions options = completed(given, model);
+  options.snapshot_every = 0;
   return model.cloud.size() > most_sampled_nodes ? coarse_displacements(model, options, constants, progress)
                                                  : whole_displacements(model, options, constants, progress);
 }

@@ -15,14 +15,10 @@ namespace brainshift::solve {
 /// nearly the same (README.md).
 inline constexpr std::size_t most_sampled_nodes = 2000;
 
-/// The displacement of a model at its nodes, (n × 3) mm, solved on the cloud or, of a larger one, on an eighth of its
-/// nodes, for differences between such solutions. What was measured with noise must name its weight. Absent where the
-/// model cannot be solved. Throws std::invalid_argument with a part that samples do not go with: motion in time, a
-/// region, cuts, tears, a septum, a resection, a plane problem.
-std::optional<Points> sampled_displacement(const Model& model, const SolveOptions& options);
-
-/// sampled_displacement() of a model with each of these constants, to rounding, solved together; absent where that
-/// is. The same for any number of threads; a sample does not depend on which others are asked for.
+/// The displacement of a model with each of these constants at its nodes, (n × 3) mm, solved together on the cloud or,
+/// of a larger one, on an eighth of its nodes, for differences between such solutions. What was measured with noise
+/// must name its weight. Absent where the model cannot be solved so. The same for any number of threads; to rounding a
+/// sample does not depend on which others are asked for. Throws as check_sampled().
 std::vector<std::optional<Points>> sampled_displacements(const Model& model, const SolveOptions& options,
                                                          std::span<const Constants> constants,
                                                          const Progress& progress = {});
@@ -31,7 +27,8 @@ std::vector<std::optional<Points>> sampled_displacements(const Model& model, con
 /// that it takes to prepare the body for them.
 std::size_t samples_at_once(const SolveOptions& options);
 
-/// Throws as sampled_displacement() does.
+/// Throws std::invalid_argument with a part that samples do not go with: motion in time, a region, cuts, tears, a
+/// septum, a resection, a plane problem.
 void check_sampled(const Model& model, const SolveOptions& options);
 
 /// The mean of (u − u₀)(u − u₀)ᵀ over samples u of one quantity, about the answer u₀ that is given, (n × 6) mm²: xx,

@@ -150,19 +150,8 @@ void DeviceEnsemble<Scalar>::put_motion(bool with_forces) {
 template <class Scalar>
 void DeviceEnsemble<Scalar>::put_contact(const Contact& contact) {
   ContactOfEach& c = view_.contact;
-  const CompressedRows rows = rows_of(contact.nodes());
-  put_rows(rows, memory_, c);
-  std::vector<double> column_sum(nodes(), 0.0), position;
-  for (std::size_t k = 0; k < rows.node.size(); ++k) {
-    column_sum[static_cast<std::size_t>(rows.node[k])] += std::abs(rows.shape[k]);
-  }
-  for (const auto& at : contact.nodes().positions().rowwise()) {
-    position.insert(position.end(), at.begin(), at.end());
-  }
+  put_nodes(contact, nodes(), memory_, c);
   const std::size_t count = contact.nodes().size();
-  c.position = memory_.put(position);
-  c.allowed = memory_.put(std::vector<double>(contact.allowed().begin(), contact.allowed().end()));
-  c.column_sum = memory_.put(column_sum);
   c.inverse_row_sum = memory_.template room<double>(count * most_members);
   c.touching = memory_.template room<Members>(count);
   c.push = memory_.template room<double>(3 * count * most_members);

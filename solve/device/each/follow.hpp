@@ -72,11 +72,8 @@ BRAINSHIFT_ON_DEVICE double tangent_at(const ViewOfEach<Scalar>& v, std::int32_t
                                        int member, double seen) {
   const Deformation d = deformation_at(v, point, member);
   return v.volume[point] * ask_law(v, material, member, [&](const auto& law) {
-           auto alone = law;  // as its patch leaves it to the point
            const double dilatation = law.dilatation(d);
-           alone.bulk_modulus = point_modulus(law, dilatation);
-           const double tangent = largest_tangent(alone, d.gradient, point_pressure(law, seen, dilatation));
-           return std::max(tangent, 2 * law.shear_modulus);
+           return shape_tangent(law, d.gradient, point_pressure(law, seen, dilatation), dilatation);
          });
 }
 

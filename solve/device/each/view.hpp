@@ -33,15 +33,11 @@ struct PatchOfPieces {
   std::int32_t first_piece, pieces, material;
 };
 
-/// Surface nodes within a skull: Contact.
-struct ContactOfEach : SparseRows {
-  const double* position;    ///< undeformed, mm, 3 a row
-  const double* allowed;     ///< mm
-  const double* column_sum;  ///< Σ |V|, one a node of the body
-  double* inverse_row_sum;   ///< D⁻¹, [row][member]
-  Members* touching;         ///< one a row: those that are pushed there
-  double* push;              ///< D⁻¹ δ, [row][x, y, z][member], of those that are
-  DistanceGrid skull;
+/// Surface nodes within a skull, and what pushes them.
+struct ContactOfEach : NodesInSkull {
+  double* inverse_row_sum;  ///< D⁻¹, [row][member]
+  Members* touching;        ///< one a row: those that are pushed there
+  double* push;             ///< D⁻¹ δ, [row][x, y, z][member], of those that are
 };
 
 /// Essential conditions of a component: EssentialConditions::Component.

@@ -133,8 +133,7 @@ TEST_F(WarpFiles, FieldsOfAnEarlierSolutionAreRefused) {
   };
   StageReport report;
   report.measures["solution_sha256"] = sha256_of_text("the first");
-  write_stage_record(later / "register",
-                     {.stage = "register", .stamp = "", .failure = "", .entry = stage_entry(report, 1, 1)});
+  write_stage_record(later / "register", record_of(StageId::registration, "", report, 1));
   write("answered/solve/solution.vtu", "the second");
   for (const fs::path& run : {later, later / "register", later / "register/", later / "register/."}) {
     expect_parts(said(run), {"register", "an earlier solution"});

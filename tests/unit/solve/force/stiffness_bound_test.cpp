@@ -80,7 +80,7 @@ TEST_P(CriticalStep, IsNeverAboveTheExactOneAndNotFarBelow) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     Specimen body = make_specimen(cells, basis, {material}, seed);
     body.force(body.rest());
-    const std::vector<double> mass = physical_mass(body.points, density);
+    const std::vector<double> mass = chapter_mass(body.points, density);
     EXPECT_NEAR(std::accumulate(mass.begin(), mass.end(), 0.0), 1e-3 * side * side * (cells == Cells::plane ? 1 : side),
                 1e-9 * side * side * side);
     const double exact = 2 / std::sqrt(largest_eigenvalue(body.points, body.laws, mass, 150));

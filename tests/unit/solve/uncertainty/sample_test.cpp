@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "solve/uncertainty/draw.hpp"
 #include "tests/unit/scratch_folder.hpp"
@@ -13,28 +14,29 @@ namespace brainshift::solve::sample_test {
 
 using test::refusal;
 
-TEST(SampledDisplacement, NarrowsAsThePoissonsRatioSays) {
+TEST(SampledDisplacements, NarrowsAsThePoissonsRatioSays) {
   SolveOptions options;
   options.shape.basis = Basis::linear;
   options.tolerance = 0.002;
   for (const double ratio : {0.3, 0.4}) {
     Model model = uniaxial(1.1);
     model.materials[1].poisson_ratio = ratio;
-    const auto moved = sampled_displacement(model, options);
+    const auto moved =
+        sampled_displacements(model, options, std::vector{Constants{.materials = model.materials}}).front();
     ASSERT_TRUE(moved);
     const double narrower = 1 - uniaxial_answer(model.materials[1], 1.1).second;
     EXPECT_NEAR(-moved->col(0).minCoeff() / model_side, narrower, 0.02 * narrower);
   }
 }
 
-TEST(SampledDisplacement, IsRefusedWithWhatSamplesDoNotGoWith) {
+TEST(SampledDisplacements, IsRefusedWithWhatSamplesDoNotGoWith) {
   SolveOptions options;
   options.dynamics = Dynamics::transient;
-  EXPECT_NE(refusal([&] { sampled_displacement(uniaxial(1.1, 4), options); }).find("motion in time"),
+  EXPECT_NE(refusal([&] { sampled_displacements(uniaxial(1.1, 4), options, {}); }).find("motion in time"),
             std::string::npos);
   Model resected = uniaxial(1.1, 4);
   resected.resection.emplace();
-  EXPECT_NE(refusal([&] { sampled_displacement(resected, {}); }).find("a resection"), std::string::npos);
+  EXPECT_NE(refusal([&] { sampled_displacements(resected, {}, {}); }).find("a resection"), std::string::npos);
 }
 
 TEST(SpreadAbout, IsTheMeanProductOfTheDifferences) {
