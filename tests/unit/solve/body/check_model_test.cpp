@@ -27,7 +27,9 @@ TEST(Diagnosis, RefusesNodesNearlyInOnePlace) {
 }
 
 TEST(CheckModel, RefusesWhatLeavesThePlane) {
-  const std::function<void(Model&)> faults[] = {[](Model& m) { m.gravity = {0, 0, -9.81}; },
+  const std::function<void(Model&)> faults[] = {[](Model& m) {
+                                                  m.gravity = {0, 0, -9.81};
+                                                },
                                                 [](Model& m) { m.conditions.displacement(0, 2) = 1; },
                                                 [](Model& m) {
                                                   m.conditions.force = Points::Zero(m.cloud.positions.rows(), 3);
