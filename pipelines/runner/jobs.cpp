@@ -8,7 +8,7 @@
 #include "pipelines/runner/discretise_warnings.hpp"
 #include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/measures.hpp"
-#include "pipelines/runner/warnings.hpp"
+#include "pipelines/runner/register_warnings.hpp"
 #include "pipelines/runner/warp_files.hpp"
 #include "pipelines/show/shown_fields.hpp"
 #include "register/files/warped_series.hpp"

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "pipelines/runner/image_warnings.hpp"
 #include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/measures.hpp"
-#include "pipelines/runner/warnings.hpp"
 #include "segmentation/files/naming.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/septa/septa.hpp"

@@ -8,12 +8,13 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "pipelines/runner/answer_warnings.hpp"
 #include "pipelines/runner/impose.hpp"
 #include "pipelines/runner/job_files.hpp"
+#include "pipelines/runner/load_warnings.hpp"
 #include "pipelines/runner/measure_warnings.hpp"
 #include "pipelines/runner/measures.hpp"
 #include "pipelines/runner/patient_registration.hpp"
-#include "pipelines/runner/warnings.hpp"
 #include "pipelines/scene/field_load.hpp"
 #include "segmentation/files/naming.hpp"
 #include "segmentation/files/refuse.hpp"
@@ -364,7 +365,7 @@ StageReport run_job(const SolveJob& job, const fs::path& out, const Progress& gi
   write_measured(job, input, result, out, said);
   add_uncertainty(job, input, result, out, said, part_of(given, solving_share, 1));
   warn(warnings_of(result.measures), said);
-  warn(warnings_of_weight(input.model), said);
+  warn(warnings_of_gravity(input.model), said);
   warn(warnings_of_rooms(input.model), said);
   warn(warnings_of_levels(input.model), said);
   warn(warnings_of(input.model, result.solution), said);
