@@ -52,6 +52,82 @@ StageReport report_of(const discretise::DiscretiseMeasures& m) {
   return report;
 }
 
+namespace {
+
+/// What every solve has.
+nlohmann::ordered_json json_of(const solve::SolveMeasures& m) {
+  return {{"converged", m.converged},
+          {"error_bound_mm", m.error_bound},
+          {"mean_support", m.mean_support},
+          {"grown_supports", m.grown_supports},
+          {"outside_label", m.outside_label},
+          {"precision", m.single_precision ? "single" : "double"},
+          {"consistency_iterations", m.consistency_iterations},
+          {"critical_step_s", m.critical_step},
+          {"largest_displacement_mm", m.largest_displacement},
+          {"constraint_error_mm", m.constraint_error},
+          {"largest_penetration_mm", m.largest_penetration},
+          {"smallest_jacobian", m.smallest_jacobian},
+          {"largest_stretch", m.largest_stretch},
+          {"compressed_share", m.compressed_share},
+          {"pressed_share", m.pressed_share},
+          {"seconds_setup", m.seconds_setup},
+          {"seconds_stepping", m.seconds_stepping}};
+}
+
+/// Of a load with noise: beside what every solve has, under no name of its own.
+void add_fit(const solve::MeasuredFit& fit, nlohmann::ordered_json& measures) {
+  measures["weight_mJ"] = fit.weight;
+  measures["noise_factor"] = fit.noise_factor;
+  if (const solve::SmoothMotion& smooth = fit.smooth; smooth.length > 0) {
+    measures["smooth_motion"] = {{"length_mm", smooth.length},
+                                 {"along_mm", smooth.along},
+                                 {"across_mm", smooth.across},
+                                 {"fades", smooth.fades}};
+  }
+  for (const solve::WeightRow& row : fit.weights) {
+    measures["weights"].push_back({{"weight_mJ", row.weight},
+                                   {"misfit", row.misfit},
+                                   {"energy_mJ", row.energy},
+                                   {"log_likelihood", row.log_likelihood}});
+  }
+}
+
+nlohmann::ordered_json json_of(const solve::CutMeasures& cut) {
+  nlohmann::ordered_json json = {{"split_nodes", cut.split_nodes}, {"added_nodes", cut.added_nodes},
+                                 {"advances", cut.advances},       {"touched_supports", cut.touched_supports},
+                                 {"extent", cut.extent},           {"seconds", cut.seconds}};
+  if (cut.faces) {
+    json["touching_nodes"] = cut.faces->touching_nodes;
+    json["largest_overlap_mm"] = cut.faces->largest_overlap;
+  }
+  return json;
+}
+
+nlohmann::ordered_json json_of(const solve::SeptumMeasures& septum) {
+  return {{"area_mm2", septum.area},
+          {"face_nodes", septum.face_nodes},
+          {"touching_nodes", septum.touching_nodes},
+          {"largest_penetration_mm", septum.largest_penetration}};
+}
+
+nlohmann::ordered_json json_of(const solve::ResectionMeasures& resection) {
+  nlohmann::ordered_json json = {{"removed_nodes", resection.removed_nodes},
+                                 {"removed_volume_mm3", resection.removed_volume}};
+  if (resection.wall_nodes > 0) {
+    json["wall_nodes"] = resection.wall_nodes;
+    json["wall_area_mm2"] = resection.wall_area;
+    json["touching_nodes"] = resection.touch.touching_nodes;
+    json["largest_overlap_mm"] = resection.touch.largest_overlap;
+    if (resection.volume) {
+      json["cavity_volume_mm3"] = *resection.volume;
+    }
+  }
+  return json;
+}
+
+}  // namespace
+
 StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics) {
   const solve::SolveMeasures& m = result.measures;
   StageReport report;
@@ -63,38 +139,9 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
                   {"loaded_nodes", m.loaded_nodes},
                   {"contact_nodes", m.contact_nodes},
                   {"steps", m.steps}};
-  report.measures = {{"converged", m.converged},
-                     {"error_bound_mm", m.error_bound},
-                     {"mean_support", m.mean_support},
-                     {"grown_supports", m.grown_supports},
-                     {"outside_label", m.outside_label},
-                     {"precision", m.single_precision ? "single" : "double"},
-                     {"consistency_iterations", m.consistency_iterations},
-                     {"critical_step_s", m.critical_step},
-                     {"largest_displacement_mm", m.largest_displacement},
-                     {"constraint_error_mm", m.constraint_error},
-                     {"largest_penetration_mm", m.largest_penetration},
-                     {"smallest_jacobian", m.smallest_jacobian},
-                     {"largest_stretch", m.largest_stretch},
-                     {"compressed_share", m.compressed_share},
-                     {"pressed_share", m.pressed_share},
-                     {"seconds_setup", m.seconds_setup},
-                     {"seconds_stepping", m.seconds_stepping}};
+  report.measures = json_of(m);
   if (m.measured) {
-    report.measures["weight_mJ"] = m.measured->weight;
-    report.measures["noise_factor"] = m.measured->noise_factor;
-    if (const solve::SmoothMotion& smooth = m.measured->smooth; smooth.length > 0) {
-      report.measures["smooth_motion"] = {{"length_mm", smooth.length},
-                                          {"along_mm", smooth.along},
-                                          {"across_mm", smooth.across},
-                                          {"fades", smooth.fades}};
-    }
-    for (const solve::WeightRow& row : m.measured->weights) {
-      report.measures["weights"].push_back({{"weight_mJ", row.weight},
-                                            {"misfit", row.misfit},
-                                            {"energy_mJ", row.energy},
-                                            {"log_likelihood", row.log_likelihood}});
-    }
+    add_fit(*m.measured, report.measures);
   }
   if (std::isfinite(m.fewest_points)) {
     report.measures["fewest_points_a_node"] = m.fewest_points;
@@ -114,33 +161,13 @@ StageReport report_of(const solve::SolveResult& result, solve::Dynamics dynamics
     report.measures["seconds_coarse"] = m.seconds_coarse;
   }
   if (m.cut) {
-    report.measures["cut"] = {{"split_nodes", m.cut->split_nodes}, {"added_nodes", m.cut->added_nodes},
-                              {"advances", m.cut->advances},       {"touched_supports", m.cut->touched_supports},
-                              {"extent", m.cut->extent},           {"seconds", m.cut->seconds}};
-    if (m.cut->faces) {
-      report.measures["cut"]["touching_nodes"] = m.cut->faces->touching_nodes;
-      report.measures["cut"]["largest_overlap_mm"] = m.cut->faces->largest_overlap;
-    }
+    report.measures["cut"] = json_of(*m.cut);
   }
   if (m.septum) {
-    report.measures["septum"] = {{"area_mm2", m.septum->area},
-                                 {"face_nodes", m.septum->face_nodes},
-                                 {"touching_nodes", m.septum->touching_nodes},
-                                 {"largest_penetration_mm", m.septum->largest_penetration}};
+    report.measures["septum"] = json_of(*m.septum);
   }
   if (m.resection) {
-    report.measures["resection"] = {{"removed_nodes", m.resection->removed_nodes},
-                                    {"removed_volume_mm3", m.resection->removed_volume}};
-    if (m.resection->wall_nodes > 0) {
-      auto& wall = report.measures["resection"];
-      wall["wall_nodes"] = m.resection->wall_nodes;
-      wall["wall_area_mm2"] = m.resection->wall_area;
-      wall["touching_nodes"] = m.resection->touch.touching_nodes;
-      wall["largest_overlap_mm"] = m.resection->touch.largest_overlap;
-      if (m.resection->volume) {
-        wall["cavity_volume_mm3"] = *m.resection->volume;
-      }
-    }
+    report.measures["resection"] = json_of(*m.resection);
   }
   report.measures.erase(dynamics == solve::Dynamics::transient ? "error_bound_mm" : "critical_step_s");
   return report;
