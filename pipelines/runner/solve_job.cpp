@@ -269,6 +269,35 @@ void check_labels(const SolveJob& job, const solve::Model& model) {
   }
 }
 
+/// Reads a load that is no field into the input and imposes it, after an unknown registration was found. Throws
+/// std::invalid_argument, naming the load's files, where it cannot be imposed.
+void read_measured_load(const SolveJob& job, SolveInput& input) {
+  const Load& how = *job.load;
+  solve::Model& model = input.model;
+  input.load = read_load(how, job.surface);
+  note_far_centre(how, input.load->positions, input.notes);
+  solve::CraniotomyLoad& load = *input.load;
+  if (load.paired_by_order) {
+    input.notes.push_back(load_files(how) + " share no label: their points were paired by their order");
+  }
+  add_noise(how, load);
+  naming(load_files(how), [&] {
+    const solve::CraniotomyLoad taken = looked_through(load, model.cloud, how, input.notes);
+    if (!how.registration_unknown) {
+      impose(taken, how, model);
+      return;
+    }
+    need_noise(taken);
+    const PatientRegistration found = patient_registration(
+        taken, job.options, [&](const auto& l, solve::Model& m) { impose(l, how, m); }, model);
+    input.registration = found.motion;
+    if (found.open > registration_at_rest) {
+      input.notes.push_back("warning: the registration has not come to rest: it would still move by " +
+                            solve::rounded(found.open, 2) + " mm; measure more points, best inside the brain, too");
+    }
+  });
+}
+
 SolveInput read_input(const SolveJob& job) {
   SolveInput input;
   solve::Model& model = input.model;
@@ -307,28 +336,7 @@ SolveInput read_input(const SolveJob& job) {
   if (job.load && job.load->field) {
     impose_field(*job.load, input);
   } else if (job.load) {
-    input.load = read_load(*job.load, job.surface);
-    note_far_centre(*job.load, input.load->positions, input.notes);
-    solve::CraniotomyLoad& load = *input.load;
-    if (load.paired_by_order) {
-      input.notes.push_back(load_files(*job.load) + " share no label: their points were paired by their order");
-    }
-    add_noise(*job.load, load);
-    naming(load_files(*job.load), [&] {
-      const solve::CraniotomyLoad taken = looked_through(load, model.cloud, *job.load, input.notes);
-      if (!job.load->registration_unknown) {
-        impose(taken, *job.load, model);
-        return;
-      }
-      need_noise(taken);
-      const PatientRegistration found = patient_registration(
-          taken, job.options, [&](const auto& l, solve::Model& m) { impose(l, *job.load, m); }, model);
-      input.registration = found.motion;
-      if (found.open > registration_at_rest) {
-        input.notes.push_back("warning: the registration has not come to rest: it would still move by " +
-                              solve::rounded(found.open, 2) + " mm; measure more points, best inside the brain, too");
-      }
-    });
+    read_measured_load(job, input);
   }
   if (job.load && job.load->robust) {
     warn(warnings_of(naming(load_files(*job.load),
