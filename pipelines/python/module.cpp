@@ -285,12 +285,9 @@ std::vector<std::string> warp_files(const std::filesystem::path& run, const std:
   return notes;
 }
 
-}  // namespace
-
-PYBIND11_MODULE(_core, m) {
+/// The stages on arrays.
+void add_stages(py::module_& m) {
   const auto none = py::none();
-  add_images(m);
-  add_results(m);
   m.def("segment", &segment, py::arg("labels") = none, py::arg("t1") = none, py::arg("brain_mask") = none,
         py::arg("surface") = none, py::arg("brain_labels") = none, py::arg("skull_label") = none,
         py::arg("progress") = none,
@@ -322,6 +319,10 @@ PYBIND11_MODULE(_core, m) {
         ("A Solution to fields on the t1's grid and warped images. landmarks: (n, 3) preop, mm, LPS." +
          options_help(registration::register_options(), registration::RegisterOptions{}))
             .c_str());
+}
+
+/// Places and images moved by a field.
+void add_warps(py::module_& m) {
   m.def(
       "warp_points",
       [](const VectorImage& forward, const RowMajor<double>& points) {
@@ -344,6 +345,10 @@ PYBIND11_MODULE(_core, m) {
   m.def(
       "warp", [](const LabelMap& labels, const VectorImage& field) { return registration::warp(labels, field); },
       py::arg("labels"), py::arg("resampling"), py::call_guard<Free>());
+}
+
+/// What reads and writes folders.
+void add_runs(py::module_& m) {
   m.def("run", &run, py::arg("scene"), py::arg("out"), py::arg("until"), py::arg("force"), py::arg("preset"),
         py::arg("set"), py::arg("progress"));
   m.def(
@@ -367,6 +372,16 @@ PYBIND11_MODULE(_core, m) {
       ("Writes a synthetic head with its load and its scene.xml into a folder." +
        options_help(pipelines::phantom_options(), pipelines::PhantomOptions{}))
           .c_str());
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m) {
+  add_images(m);
+  add_results(m);
+  add_stages(m);
+  add_warps(m);
+  add_runs(m);
   m.def(
       "set_threads",
       [](int threads) {
