@@ -9,7 +9,7 @@
 #include "pipelines/scene/check_parts.hpp"
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/check_tissues.hpp"
-#include "pipelines/scene/scene_table.hpp"
+#include "pipelines/scene/tissue_table.hpp"
 #include "segmentation/options/values.hpp"
 #include "solve/material/named_materials.hpp"
 

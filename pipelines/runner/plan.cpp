@@ -12,7 +12,7 @@
 #include "pipelines/scene/check_parts.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/field_load.hpp"
-#include "pipelines/scene/scene_table.hpp"
+#include "pipelines/scene/tissue_table.hpp"
 #include "solve/material/material.hpp"
 
 namespace brainshift::pipelines {

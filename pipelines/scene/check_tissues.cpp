@@ -8,7 +8,7 @@
 
 #include "pipelines/scene/scene_fault.hpp"
 #include "pipelines/scene/scene_labels.hpp"
-#include "pipelines/scene/scene_table.hpp"
+#include "pipelines/scene/tissue_table.hpp"
 #include "segmentation/labels/label_table.hpp"
 #include "solve/material/check_material.hpp"
 

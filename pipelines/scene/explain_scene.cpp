@@ -9,6 +9,7 @@
 #include "pipelines/scene/run_size.hpp"
 #include "pipelines/scene/scene_table.hpp"
 #include "pipelines/scene/stage_memory.hpp"
+#include "pipelines/scene/tissue_table.hpp"
 #include "solve/shape/node_supports.hpp"
 #include "solve/shape/shape_functions.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "pipelines/scene/read_sequence.hpp"
 #include "pipelines/scene/scene_table.hpp"
+#include "pipelines/scene/tissue_table.hpp"
 
 namespace brainshift::pipelines {
 namespace {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/scene/scene_table.hpp"
+#include "pipelines/scene/tissue_table.hpp"
 #include "segmentation/files/whole_path.hpp"
 
 namespace brainshift::pipelines {

@@ -26,11 +26,6 @@ struct Element {
 /// come from here.
 const std::vector<Element>& scene_elements();
 
-/// The options of a <tissue> inside <tissues>; paths "tissues.LABEL.NAME".
-const OptionTable<Tissue>& tissue_options();
-/// Whether an option of a tissue says which tissue it is.
-bool names_tissue(const std::string& option);
-
 /// The options of a <cut> inside <cuts>; paths "cuts.NUMBER.NAME", counted from 1.
 const OptionTable<CutFile>& cut_options();
 

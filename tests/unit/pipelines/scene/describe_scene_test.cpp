@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipelines/scene/scene_table.hpp"
+#include "pipelines/scene/tissue_table.hpp"
 #include "tests/unit/pipelines/scene_file.hpp"
 
 namespace brainshift::pipelines::describe_scene_test {

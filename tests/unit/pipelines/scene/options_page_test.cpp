@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "pipelines/scene/scene_table.hpp"
+#include "pipelines/scene/tissue_table.hpp"
 
 namespace brainshift::pipelines::options_page_test {
 

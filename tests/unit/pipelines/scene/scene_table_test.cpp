@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "pipelines/scene/tissue_table.hpp"
 #include "solve/material/named_materials.hpp"
 
 namespace brainshift::pipelines::scene_table_test {
