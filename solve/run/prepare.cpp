@@ -236,6 +236,20 @@ PatchRim rim_of(const Model& model, const SolveOptions& options, std::shared_ptr
   return rim;
 }
 
+/// Of the derivatives at the integration points. whole: the body is no region, whose wall is unknown. Returns how many
+/// iterations that took.
+int make_consistent(const Model& model, const SolveOptions& options, const std::optional<CutBody>& cut, bool whole,
+                    BodyParts& parts) {
+  std::optional<SurfaceNormals> normals;
+  if (whole) {
+    normals = boundary_normals(known_boundary(model), cut ? cut->facets() : CutFacets(), parts.cloud, parts.nodal_rows);
+  }
+  return make_derivatives_consistent(parts.cloud.positions, surface_nodes(parts.cloud), parts.nodal_rows,
+                                     parts.points.volume, options.consistency_defect, parts.point_rows, {},
+                                     normals ? &*normals : nullptr)
+      .iterations;
+}
+
 }  // namespace
 
 SolveOptions completed(SolveOptions options, const Model& model) {
@@ -289,15 +303,7 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   measure_sizes(parts, placed.capped, measures);
   measures.single_precision = options.precision == Precision::single_precision;
   if (options.integration == Integration::consistent) {
-    std::optional<SurfaceNormals> normals;
-    if (pinned.empty()) {  // else the wall of the region is unknown
-      normals =
-          boundary_normals(known_boundary(model), cut ? cut->facets() : CutFacets(), parts.cloud, parts.nodal_rows);
-    }
-    const ConsistencyMeasures done = make_derivatives_consistent(
-        parts.cloud.positions, surface_nodes(parts.cloud), parts.nodal_rows, parts.points.volume,
-        options.consistency_defect, parts.point_rows, {}, normals ? &*normals : nullptr);
-    measures.consistency_iterations = done.iterations;
+    measures.consistency_iterations = make_consistent(model, options, cut, pinned.empty(), parts);
   }
   parts.patches = patches_of(model, options, parts, visibility.get());
   LayOutExtras extras{.cut = {}, .faces = {}, .held = held, .skull = {}};
