@@ -15,7 +15,6 @@
 // The run kept in memory, as `brainshift live` does, and so many loads by chance as tests/benchmark/live.py has them:
 // from a load's file to the nodes' displacements, on both.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -30,6 +29,7 @@
 #include "pipelines/runner/jobs.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/scene/parse_scene.hpp"
+#include "segmentation/progress/stopwatch.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/device/device_body.hpp"
 #include "solve/device/kept_on_device.hpp"
@@ -53,18 +53,14 @@ using namespace brainshift;
 using namespace brainshift::solve;
 using bench::Problem;
 
-double seconds_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 /// The median time of a call, s.
 template <class Call>
 double median_seconds(int repeats, const Call& call) {
   std::vector<double> seconds;
   for (int i = 0; i < repeats; ++i) {
-    const double begin = seconds_now();
+    const Stopwatch watch;
     call();
-    seconds.push_back(seconds_now() - begin);
+    seconds.push_back(watch.seconds());
   }
   std::nth_element(seconds.begin(), seconds.begin() + repeats / 2, seconds.end());
   return seconds[static_cast<std::size_t>(repeats / 2)];
@@ -236,9 +232,9 @@ double seconds_to_rest(const device::Backend& backend, const Body& body, const C
     Body copy = body;
     device::DeviceBody<Scalar> on(backend, body);
     on.record();  // all of it is there
-    const double begin = seconds_now();
+    const Stopwatch watch;
     result = device::relax(on, copy, course, options, false, {}).result;
-    seconds.push_back(seconds_now() - begin);
+    seconds.push_back(watch.seconds());
     std::printf("  %.2f ms\n", 1e3 * seconds.back());
   }
   std::nth_element(seconds.begin(), seconds.begin() + repeats / 2, seconds.end());
@@ -324,25 +320,25 @@ struct AnswerTimes {
 };
 
 void answer(KeptRun& run, const std::filesystem::path& file, const OpeningOptions& opening, AnswerTimes& times) {
-  const double begin = seconds_now();
+  const Stopwatch watch;
   const CraniotomyLoad load = read_craniotomy_csv(file);
-  const double read = seconds_now();
+  const double read = watch.seconds();
   const NodeCloud cloud{
       .positions = run.fine.body.positions, .spacing = run.fine.body.spacing, .on_surface = run.on_surface};
   const Points prescribed = prescribed_on_surface_nodes(cloud, load, opening);
-  const double there = seconds_now();
+  const double there = watch.seconds();
   double first = 0, last = 0;
   const SolveResult result = update(run, prescribed, [&](double, std::string_view) {
-    last = seconds_now();
+    last = watch.seconds();
     first = first > 0 ? first : last;
   });
-  const double end = seconds_now();
+  const double end = watch.seconds();
   if (!result.failure.empty()) {
     throw std::runtime_error(result.failure);
   }
   constexpr double ms = 1e3;
-  times.whole.push_back(ms * (end - begin));
-  times.file.push_back(ms * (read - begin));
+  times.whole.push_back(ms * end);
+  times.file.push_back(ms * read);
   times.nodes.push_back(ms * (there - read));
   times.to_first_look.push_back(ms * (first - there));
   times.steps.push_back(ms * (last - first));
@@ -355,9 +351,9 @@ void time_updates(const device::Backend& backend, const std::filesystem::path& s
                   int count) {
   const Problem problem = bench::problem_of_run(scene, run);
   const OpeningOptions opening = pipelines::solve_job(pipelines::parse_scene(scene), run).load->opening;
-  const double begin = seconds_now();
+  const Stopwatch watch;
   KeptRun here = keep(problem.model, problem.options, read_solution(run / "solve" / "solution.vtu").displacement);
-  std::printf("kept in %.1f s: %zu nodes, %zu waves\n", seconds_now() - begin, here.fine.body.nodes(),
+  std::printf("kept in %.1f s: %zu nodes, %zu waves\n", watch.seconds(), here.fine.body.nodes(),
               here.responses.count());
   here.options.device = Device::cpu;
   KeptRun there = here;

@@ -7,7 +7,6 @@
 // A brain of an ellipsoid in an image of 1 mm voxels sinks under an opening and waves a little. `--alone` first: on one
 // thread of the processor in place of a GPU.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +20,7 @@
 #include "register/field/forward_field.hpp"
 #include "register/field/resampling_field.hpp"
 #include "register/warp/warp.hpp"
+#include "segmentation/progress/stopwatch.hpp"
 #include "solve/output/solution_file.hpp"
 #include "tests/unit/register/builders.hpp"
 
@@ -32,15 +32,11 @@ using namespace brainshift::registration;
 constexpr double fade = 20, tolerance = 0.01;
 const Eigen::Vector3d half_axes(66, 82, 60);  // mm
 
-double seconds_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 template <class Call>
 double seconds_of(const Call& call) {
-  const double begin = seconds_now();
+  const Stopwatch watch;
   call();
-  return seconds_now() - begin;
+  return watch.seconds();
 }
 
 double median(std::vector<double> values) {
@@ -151,28 +147,28 @@ Result on_device(const device::Backend& backend, const Problem& problem, int rep
   std::vector<double> forward, inverse, images, all, with_transfers;
   Result result;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    const double begin = seconds_now();
+    const Stopwatch watch;
     device::FieldsOnDevice on(backend, input.solution, parameters, zones, input.t1.geometry, fade, tolerance);
     on.take(input.t1);
     on.take(*input.labels);
     on.wait();
-    const double there = seconds_now();
+    const double there = watch.seconds();
     on.find_forward(shape);
     on.wait();
-    const double with_forward = seconds_now();
+    const double with_forward = watch.seconds();
     on.find_resampling();
     on.wait();
-    const double with_inverse = seconds_now();
+    const double with_inverse = watch.seconds();
     on.warp_image();
     on.warp_labels();
     on.wait();
-    const double end = seconds_now();
+    const double end = watch.seconds();
     result = {on.forward(), on.resampling(), on.warped(), on.warped_labels()};
     forward.push_back(with_forward - there);
     inverse.push_back(with_inverse - with_forward);
     images.push_back(end - with_inverse);
     all.push_back(end - there);
-    with_transfers.push_back(seconds_now() - begin);
+    with_transfers.push_back(watch.seconds());
     if (repeat == 0) {
       std::printf("%d voxels at the second try\n", on.grown());
     }

@@ -10,12 +10,12 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <string>
 
+#include "segmentation/progress/stopwatch.hpp"
 #include "solve/body/lay_out.hpp"
 #include "solve/device/each/device_ensemble.hpp"
 #include "solve/device/each/relax_together.hpp"
@@ -36,10 +36,6 @@ using namespace brainshift;
 using namespace brainshift::solve;
 using bench::Problem;
 using Displacements = std::vector<std::optional<Points>>;
-
-double seconds_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 double processor_seconds() {
   rusage used;
@@ -131,11 +127,11 @@ Loaded loaded(const Problem& problem, int count, bool thinned) {
 /// Of the first members, what each part of their way takes, with its launch, µs.
 template <class Scalar>
 void time_parts(const device::Backend& backend, const Loaded& of) {
-  const double start = seconds_now();
+  const Stopwatch setting_up;
   device::DeviceEnsemble<Scalar> on(backend, of.body, true);
   device::RecordOfEach record;
   on.read(record);
-  std::printf("  set-up %.1f ms, %.0f MB\n", 1e3 * (seconds_now() - start), 1e-6 * static_cast<double>(on.bytes()));
+  std::printf("  set-up %.1f ms, %.0f MB\n", 1e3 * setting_up.seconds(), 1e-6 * static_cast<double>(on.bytes()));
   const std::span<const Member> some =
       std::span(of.loads).first(std::min<std::size_t>(of.loads.size(), device::most_members));
   device::OrderOfEach order;
@@ -152,12 +148,12 @@ void time_parts(const device::Backend& backend, const Loaded& of) {
     call();
     on.read(record);
     constexpr int repeats = 5;
-    const double begin = seconds_now();
+    const Stopwatch watch;
     for (int i = 0; i < repeats; ++i) {
       call();
       on.read(record);
     }
-    std::printf("  %s %.1f us\n", what, 1e6 * (seconds_now() - begin) / (repeats * each));
+    std::printf("  %s %.1f us\n", what, 1e6 * watch.seconds() / (repeats * each));
   };
   const auto perform = [&](device::TaskOfEach task) { return [&, task] { on.perform(task, order); }; };
   time("load", 1, [&] { on.load(some); });
@@ -196,9 +192,9 @@ int steps_of(const std::vector<MemberResult>& results, std::size_t together) {
 /// Sixteen of them by the processor, to hold them against.
 void compare(const Loaded& of, const LoadCurve& curve, const std::vector<MemberResult>& on_gpu) {
   const std::span<const Member> some = std::span(of.loads).first(std::min(of.loads.size(), members));
-  const double begin = seconds_now();
+  const Stopwatch watch;
   const std::vector<MemberResult> expected = relax_together(of.body, some, curve, of.options, {});
-  std::printf("the processor: %zu in %.2f s\n", some.size(), seconds_now() - begin);
+  std::printf("the processor: %zu in %.2f s\n", some.size(), watch.seconds());
   double apart = 0, spread = 0;
   for (std::size_t m = 0; m < some.size(); ++m) {
     if (expected[m].end != on_gpu[m].end || expected[m].steps != on_gpu[m].steps) {
@@ -215,10 +211,10 @@ void compare(const Loaded& of, const LoadCurve& curve, const std::vector<MemberR
 }
 
 void time_device(const device::Backend& backend, const Problem& problem, int count, bool thinned) {
-  double begin = seconds_now();
+  Stopwatch watch;
   const Loaded of = loaded(problem, count, thinned);
   std::printf("%zu nodes, %zu points; prepared, with %d loads, in %.2f s\n", of.body.nodes(), of.body.points.points(),
-              count, seconds_now() - begin);
+              count, watch.seconds());
   if (of.body.points.precision() == Precision::single_precision) {
     time_parts<float>(backend, of);
   } else {
@@ -226,9 +222,9 @@ void time_device(const device::Backend& backend, const Problem& problem, int cou
   }
   std::vector<MemberResult> results;
   for (int repeat = 0; repeat < 3; ++repeat) {
-    begin = seconds_now();
+    watch = {};
     results = device::relax_together(backend, of.body, of.loads, problem.model.curve, of.options, {});
-    const double seconds = seconds_now() - begin;
+    const double seconds = watch.seconds();
     const auto rest = std::count_if(results.begin(), results.end(),
                                     [](const MemberResult& r) { return r.end == MemberResult::End::rest; });
     const int steps = steps_of(results, device::most_members);
@@ -240,10 +236,10 @@ void time_device(const device::Backend& backend, const Problem& problem, int cou
   for (const Device where : {Device::cuda, Device::cpu}) {
     options.device = where;
     const int these = where == Device::cuda ? count : static_cast<int>(members);
-    begin = seconds_now();
+    watch = {};
     together({.model = problem.model, .options = options}, drawn(problem, these), thinned);
     std::printf("from a model to displacements, %s: %d in %.2f s\n", where == Device::cuda ? "GPU" : "processor", these,
-                seconds_now() - begin);
+                watch.seconds());
   }
 }
 
@@ -270,7 +266,8 @@ int main(int argc, char** argv) {
     return 0;
   }
   std::ofstream("/proc/self/clear_refs") << "5";
-  const double start = seconds_now(), used = processor_seconds();
+  const Stopwatch watch;
+  const double used = processor_seconds();
   std::size_t solved = 0;
   if (what == "one") {
     solved = alone(problem, drawn(problem, 1)[0], thinned) ? 1 : 0;
@@ -279,7 +276,7 @@ int main(int argc, char** argv) {
       solved += displacement ? 1 : 0;
     }
   }
-  std::printf("%s: %zu solved, %.2f s, %.2f s of processor, at most %.0f MB\n", what.c_str(), solved,
-              seconds_now() - start, processor_seconds() - used, peak_megabytes());
+  std::printf("%s: %zu solved, %.2f s, %.2f s of processor, at most %.0f MB\n", what.c_str(), solved, watch.seconds(),
+              processor_seconds() - used, peak_megabytes());
   return 0;
 }

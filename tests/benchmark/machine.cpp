@@ -7,12 +7,13 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include "segmentation/progress/stopwatch.hpp"
 
 namespace {
 
@@ -28,10 +29,6 @@ template <class T>
 using Vector [[gnu::vector_size(register_bytes)]] = T;
 using Floats [[gnu::vector_size(register_bytes), gnu::aligned(4)]] = float;
 constexpr std::size_t floats = register_bytes / sizeof(float);
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Kept, so that no loop is left out.
 thread_local volatile double sink;
@@ -57,11 +54,11 @@ float sum(const float* from, std::size_t count) {
 template <class Work>
 double best_rate(int threads, double seconds, double amount, const Work& work) {
   double best = 0;
-  for (const double end = now() + seconds; now() < end;) {
-    const double start = now();
+  for (const brainshift::Stopwatch all; all.seconds() < seconds;) {
+    const brainshift::Stopwatch watch;
 #pragma omp parallel num_threads(threads)
     work(omp_get_thread_num());
-    best = std::max(best, threads * amount / (now() - start));
+    best = std::max(best, threads * amount / watch.seconds());
   }
   return 1e-9 * best;
 }

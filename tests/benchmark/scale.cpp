@@ -7,7 +7,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "segmentation/progress/stopwatch.hpp"
 #include "solve/dynamics/motion.hpp"
 #include "solve/force/internal_force.hpp"
 #include "solve/quadrature/cell_points.hpp"
@@ -30,10 +30,6 @@ namespace {
 
 using namespace brainshift;
 using namespace brainshift::solve;
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Named figures in the order in which they were measured: a row of the CSV.
 using Row = std::vector<std::pair<std::string, double>>;
@@ -57,9 +53,9 @@ void forget_peak() {
 template <class Part>
 auto measured(Row& row, const std::string& name, const Part& part) {
   forget_peak();
-  const double start = now();
+  const Stopwatch watch;
   auto result = part();
-  row.emplace_back(name + "_s", now() - start);
+  row.emplace_back(name + "_s", watch.seconds());
   row.emplace_back(name + "_peak_bytes", process_bytes("VmHWM"));
   return result;
 }
@@ -71,9 +67,9 @@ double force_seconds(const Prepared& prepared) {
   ForceScratch scratch(prepared.body.points, prepared.body.laws);
   double least = 1e9;
   for (int i = 0; i < 7; ++i) {
-    const double start = now();
+    const Stopwatch watch;
     internal_force(prepared.body.points, prepared.body.laws, parameters, scratch, force);
-    least = std::min(least, now() - start);
+    least = std::min(least, watch.seconds());
   }
   return least;
 }
@@ -83,9 +79,10 @@ double step_seconds(const bench::Problem& problem, Prepared prepared) {
   SolveOptions options = problem.options;
   options.max_steps = 60;
   std::vector<std::pair<int, double>> reports;
+  const Stopwatch watch;
   step_to_end(problem.model, options, std::move(prepared), {}, {}, [&](double, std::string_view what) {
     if (what.starts_with("step ")) {
-      reports.emplace_back(std::atoi(std::string(what).c_str() + 5), now());
+      reports.emplace_back(std::atoi(std::string(what).c_str() + 5), watch.seconds());
     }
   });
   std::vector<double> seconds;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/extremes/row.hpp"
 
-#include <chrono>
 #include <cstdio>
 #include <stdexcept>
+
+#include "segmentation/progress/stopwatch.hpp"
 
 namespace brainshift::extremes {
 
@@ -74,7 +75,7 @@ std::string seconds_of(const Row& row) {
 
 Ending run(const solve::Model& model, const solve::SolveOptions& options) {
   Ending ending;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   try {
     ending.result = solve::solve(model, options);
     ending.says = ending.result.failure;
@@ -83,7 +84,7 @@ Ending run(const solve::Model& model, const solve::SolveOptions& options) {
     ending.says = refusal.what();
     ending.exit = 2;
   }
-  ending.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  ending.seconds = watch.seconds();
   std::fprintf(stderr, "  %zu nodes, %d steps, exit %d, %.1f s\n", model.cloud.size(), ending.result.measures.steps,
                ending.exit, ending.seconds);
   return ending;

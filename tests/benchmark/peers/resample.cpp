@@ -5,7 +5,6 @@
 //   resample convert IN OUT image|field     into another format
 //   resample warp IMAGE FIELD OUT TIMES     linear; prints the least seconds of the resampling
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -13,14 +12,11 @@
 
 #include "register/registration.hpp"
 #include "register/warp/warp.hpp"
+#include "segmentation/progress/stopwatch.hpp"
 
 namespace {
 
 using namespace brainshift;
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 void convert(const std::vector<std::string>& words) {
   if (words[3] == "field") {
@@ -36,9 +32,9 @@ void warp_image(const std::vector<std::string>& words) {
   ScalarImage warped;
   double least = 1e9;
   for (int i = 0; i < std::max(1, std::stoi(words[4])); ++i) {
-    const double start = now();
+    const Stopwatch watch;
     warped = registration::warp(image, field, registration::Interpolation::linear);
-    least = std::min(least, now() - start);
+    least = std::min(least, watch.seconds());
   }
   write_image(words[3], warped);
   std::printf("%.4f\n", least);
