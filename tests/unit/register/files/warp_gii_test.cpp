@@ -7,18 +7,14 @@
 #include <sstream>
 
 #include "tests/unit/expect_parts.hpp"
-#include "tests/unit/register/builders.hpp"
-#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/register/shifted.hpp"
 
 namespace brainshift::registration::warp_gii_test {
 
 using namespace builders;
 using test::expect_parts;
 
-const Eigen::Vector3d shift(1.5, -2, 3);  // LPS
-
-/// A folder and a field that shifts all in its image by (1.5, -2, 3) mm, LPS.
-class WarpGii : public ::testing::Test {
+class WarpGii : public Shifted {
  protected:
   std::string warped(const std::string& text) {
     warp_gii(folder_.write("lh.pial.surf.gii", text), mover_, folder_ / "warped_lh.pial.surf.gii");
@@ -27,10 +23,6 @@ class WarpGii : public ::testing::Test {
   std::string refused(const std::string& text) {
     return test::refusal([&] { warped(text); });
   }
-
-  test::ScratchFolder folder_;
-  VectorImage field_ = field(grid({12, 12, 12}, {4, 4, 4}, oblique()), [](const Eigen::Vector3d&) { return shift; });
-  PointMover mover_{field_};
 };
 
 std::string array(const std::string& intent, const std::string& type, const std::string& size,

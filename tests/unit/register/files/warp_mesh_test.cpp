@@ -6,16 +6,13 @@
 #include <cstring>
 
 #include "register/files/byte_order.hpp"
-#include "tests/unit/register/builders.hpp"
-#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/register/shifted.hpp"
 
 namespace brainshift::registration::warp_mesh_test {
 
 using namespace builders;
 
-const Eigen::Vector3d shift(1.5, -2, 3);
-
-class WarpMesh : public ::testing::Test {
+class WarpMesh : public Shifted {
  protected:
   std::string warped(const std::string& name, const std::string& text) {
     const auto warp = name.ends_with(".obj") ? warp_obj : warp_ply;
@@ -27,10 +24,6 @@ class WarpMesh : public ::testing::Test {
     EXPECT_FALSE(std::filesystem::exists(folder_ / ("warped_" + name))) << said;
     return said;
   }
-
-  test::ScratchFolder folder_;
-  VectorImage field_ = field(grid({12, 12, 12}, {4, 4, 4}, oblique()), [](const Eigen::Vector3d&) { return shift; });
-  PointMover mover_{field_};
 };
 
 std::string ply(const std::string& format, const std::string& number, const std::string& data) {

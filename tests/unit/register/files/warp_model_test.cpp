@@ -8,17 +8,13 @@
 #include <vtkStringArray.h>
 
 #include "segmentation/files/model_file.hpp"
-#include "tests/unit/register/builders.hpp"
-#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/register/shifted.hpp"
 
 namespace brainshift::registration::warp_model_test {
 
 using namespace builders;
 
-const Eigen::Vector3d shift(1.5, -2, 3);
-
-/// A folder and a field that shifts all in its image by (1.5, -2, 3) mm.
-class WarpModel : public ::testing::Test {
+class WarpModel : public Shifted {
  protected:
   vtkSmartPointer<vtkPointSet> warped(const std::string& name, const std::string& text) {
     warp_model(folder_.write(name, text), mover_, folder_ / ("warped_" + name));
@@ -27,10 +23,6 @@ class WarpModel : public ::testing::Test {
   std::string refused(const std::string& name, const std::string& text) {
     return test::refusal([&] { warp_model(folder_.write(name, text), mover_, folder_ / ("warped_" + name)); });
   }
-
-  test::ScratchFolder folder_;
-  VectorImage field_ = field(grid({12, 12, 12}, {4, 4, 4}, oblique()), [](const Eigen::Vector3d&) { return shift; });
-  PointMover mover_{field_};
 };
 
 /// A tract of three points and a single point, with arrays on points, lines and the whole.

@@ -6,14 +6,12 @@
 
 #include "register/files/byte_order.hpp"
 #include "register/files/warp_tracts.hpp"
-#include "tests/unit/register/builders.hpp"
-#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/register/shifted.hpp"
 
 namespace brainshift::registration::warp_tck_test {
 
 using namespace builders;
 
-const Eigen::Vector3d shift(1.5, -2, 3);
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -42,7 +40,7 @@ std::string header(const std::string& datatype, const std::string& file = ". 128
   return text;
 }
 
-class WarpTck : public ::testing::Test {
+class WarpTck : public Shifted {
  protected:
   std::string warped(const std::string& text) {
     warp_tck(folder_.write("in.tck", text), mover_, folder_ / "out.tck");
@@ -54,10 +52,6 @@ class WarpTck : public ::testing::Test {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.tck")) << said;
     return said;
   }
-
-  test::ScratchFolder folder_;
-  VectorImage field_ = field(grid({12, 12, 12}, {4, 4, 4}, oblique()), [](const Eigen::Vector3d&) { return shift; });
-  PointMover mover_{field_};
 };
 
 TEST_F(WarpTck, MovesPointsOfEveryKindOfNumberAndKeepsAllElseByteForByte) {

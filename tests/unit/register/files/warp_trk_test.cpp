@@ -6,14 +6,11 @@
 #include "register/files/byte_order.hpp"
 #include "register/files/trk_header.hpp"
 #include "register/files/warp_tracts.hpp"
-#include "tests/unit/register/builders.hpp"
-#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/register/shifted.hpp"
 
 namespace brainshift::registration::warp_trk_test {
 
 using namespace builders;
-
-const Eigen::Vector3d shift(1.5, -2, 3);
 
 /// A file of TrackVis in one order of bytes.
 struct Trk {
@@ -69,7 +66,7 @@ std::string tract(bool swapped, const Eigen::Vector3f& u) {
   return trk.bytes;
 }
 
-class WarpTrk : public ::testing::Test {
+class WarpTrk : public Shifted {
  protected:
   std::string warped(const std::string& text) {
     warp_trk(folder_.write("in.trk", text), mover_, folder_ / "out.trk");
@@ -81,10 +78,6 @@ class WarpTrk : public ::testing::Test {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.trk")) << said;
     return said;
   }
-
-  test::ScratchFolder folder_;
-  VectorImage field_ = field(grid({12, 12, 12}, {4, 4, 4}, oblique()), [](const Eigen::Vector3d&) { return shift; });
-  PointMover mover_{field_};
 };
 
 TEST_F(WarpTrk, MovesPointsAndKeepsHeaderScalarsAndPropertiesByteForByte) {
