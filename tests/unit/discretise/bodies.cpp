@@ -83,4 +83,11 @@ LabelMap ball_labels(const Eigen::Vector3d& centre, double inner, double outer) 
   return labels;
 }
 
+discretise::Discretisation with_nodes(const Surface& surface, std::size_t nodes, CellKind kind) {
+  discretise::DiscretiseOptions options;
+  options.nodes = nodes;
+  options.cells = kind;
+  return discretise::discretise(surface, nullptr, options);
+}
+
 }  // namespace brainshift::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "discretise/discretise.hpp"
 #include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/image.hpp"
 
@@ -15,5 +16,8 @@ Surface bumpy_brain();
 /// Labels in an oblique, left-handed frame of 1 mm voxels around `centre`: tissue 3 within `inner` of it, 1 within
 /// `outer`, else 0.
 LabelMap ball_labels(const Eigen::Vector3d& centre, double inner, double outer);
+
+/// A surface filled with about so many nodes, all of one tissue.
+discretise::Discretisation with_nodes(const Surface& surface, std::size_t nodes, CellKind kind = CellKind::hexahedron);
 
 }  // namespace brainshift::test

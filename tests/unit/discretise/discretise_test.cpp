@@ -22,14 +22,8 @@ using test::ball_labels;
 using test::box;
 using test::bumpy_brain;
 using test::refusal;
+using test::with_nodes;
 const Eigen::Vector3d centre(30, -210, 55);
-
-Discretisation with_nodes(const Surface& surface, std::size_t nodes, CellKind kind = CellKind::hexahedron) {
-  DiscretiseOptions options;
-  options.nodes = nodes;
-  options.cells = kind;
-  return discretise(surface, nullptr, options);
-}
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

@@ -16,14 +16,8 @@ using test::ball;
 using test::box;
 using test::bumpy_brain;
 using test::Inside;
+using test::with_nodes;
 const Eigen::Vector3d centre(30, -210, 55);
-
-Discretisation with_nodes(const Surface& surface, std::size_t nodes, CellKind kind) {
-  DiscretiseOptions options;
-  options.nodes = nodes;
-  options.cells = kind;
-  return discretise(surface, nullptr, options);
-}
 
 TEST(Hexahedra, HoldTheVolumeOfABallWhateverTheirSize) {
   const Surface surface = ball(40, centre, 6);

@@ -16,14 +16,8 @@ namespace brainshift::discretise::tetrahedra_test {
 
 using test::ball;
 using test::bumpy_brain;
+using test::with_nodes;
 const Eigen::Vector3d centre(30, -210, 55);
-
-Discretisation with_nodes(const Surface& surface, std::size_t nodes, CellKind kind) {
-  DiscretiseOptions options;
-  options.nodes = nodes;
-  options.cells = kind;
-  return discretise(surface, nullptr, options);
-}
 
 Eigen::Matrix<double, 4, 3> tetrahedron(const BackgroundCells& cells, std::size_t cell) {
   Eigen::Matrix<double, 4, 3> x;

@@ -15,14 +15,8 @@ using test::ball;
 using test::box;
 using test::bumpy_brain;
 using test::Inside;
+using test::with_nodes;
 const Eigen::Vector3d centre(30, -210, 55);
-
-Discretisation with_nodes(const Surface& surface, std::size_t nodes, CellKind kind) {
-  DiscretiseOptions options;
-  options.nodes = nodes;
-  options.cells = kind;
-  return discretise(surface, nullptr, options);
-}
 
 TEST(Cloud, HasNoNodeOutsideTheSurface) {
   for (const Surface& surface : {bumpy_brain(), box({-3, 40, 7}, {20, 90, 31})}) {
