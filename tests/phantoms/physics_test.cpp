@@ -16,6 +16,7 @@
 #include "tests/phantoms/program.hpp"
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/hold_bottom.hpp"
 
 namespace brainshift::physics_test {
 
@@ -49,11 +50,7 @@ class Physics : public testing::Test {
     model.cloud = test::irregular_box(cells_a_side + 1, side);
     model.cells = test::box_cells(cells_a_side, side);
     model.conditions = test::all_free(model.cloud);
-    for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-      if (model.cloud.positions(a, 2) < 1e-6) {
-        model.conditions.displacement.row(a).setZero();
-      }
-    }
+    solve::hold_bottom(model);
     return model;
   }
 

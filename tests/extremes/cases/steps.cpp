@@ -89,11 +89,7 @@ std::vector<Row> time_step(bool) {
 std::vector<Row> free_vibration(bool small) {
   const int wanted = small ? 50000 : 1000000;
   solve::Model model = solve::box_model(test::box_cells(2, solve::model_side), 4);
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.positions(a, 2) == 0) {
-      model.conditions.displacement.row(a).setZero();
-    }
-  }
+  solve::hold_bottom(model);
   model.gravity = {2, 1, -1};
   constexpr double pulse = 0.05;  // s
   model.curve = solve::LoadCurve({0, 1}, {0, 0}, solve::LoadCurve::Join::smooth);

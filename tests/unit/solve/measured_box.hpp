@@ -8,12 +8,10 @@ namespace brainshift::solve {
 /// A cube held below; its upper face is measured to sink in the middle, each node by itself.
 inline Model measured_box(double sigma) {
   Model model = box_model(test::box_cells(6, model_side));
+  hold_bottom(model);
   std::vector<Eigen::Triplet<double>> share;
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const Eigen::RowVector3d x = model.cloud.positions.row(a);
-    if (x[2] < 1e-9) {
-      model.conditions.displacement.row(a).setZero();
-    }
     if (x[2] > model_side - 1e-9 && (x.head<2>().array() - model_side / 2).matrix().norm() < 25) {
       model.conditions.displacement.row(a) << 0, 0, -4;
       share.emplace_back(static_cast<int>(a), static_cast<int>(share.size()), 1.0);

@@ -6,6 +6,7 @@
 #include "solve/solve.hpp"
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/hold_bottom.hpp"
 #include "tests/unit/solve/material_cases.hpp"
 
 namespace brainshift::solve {

@@ -6,6 +6,7 @@
 
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/hold_bottom.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/cases/relative_figures.hpp"
@@ -56,11 +57,7 @@ Outcome wet_ball(bool small) {
   model.conditions = test::all_free(model.cloud);
   model.boundary = half_ball_surface(radius);
   model.cells = cells_over(*model.boundary, model.cloud.size(), 1.5);
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.positions(a, 2) == 0) {
-      model.conditions.displacement.row(a).setZero();
-    }
-  }
+  solve::hold_bottom(model);
   model.materials[1] = tissue;
   model.fluid = drained_to(15);
   return {relative_figures(solved(model, steady_options()), read_reference("wet_ball", ""), 1), {}};

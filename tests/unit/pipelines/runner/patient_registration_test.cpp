@@ -19,11 +19,7 @@ constexpr double sigma = 0.3;
 /// A cube that is held below.
 Model held_cube() {
   Model model = solve::box_model(test::box_cells(6, model_side));
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.positions(a, 2) < 1e-9) {
-      model.conditions.displacement.row(a).setZero();
-    }
-  }
+  solve::hold_bottom(model);
   return model;
 }
 

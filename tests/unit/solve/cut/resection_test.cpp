@@ -26,11 +26,7 @@ Model of_two_tissues(const std::function<bool(const Eigen::RowVector3d&)>& is_se
     const Eigen::RowVector3d high = model.cells.vertices.row(model.cells.connectivity[8 * cell + 6]);
     model.cells.label[cell] = is_second((low + high) / 2) ? 2 : 1;
   }
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.positions(a, 2) < 1e-9) {
-      model.conditions.displacement.row(a).setZero();
-    }
-  }
+  hold_bottom(model);
   return model;
 }
 

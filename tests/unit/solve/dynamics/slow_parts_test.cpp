@@ -24,11 +24,7 @@ Model cube_in_cube(double contrast) {
     const Eigen::Array3d away = (low.transpose().array() - side / 3).round();
     return (away >= 0).all() && (away < side / 3).all() ? 2 : 1;
   });
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.positions(a, 2) < 1e-9) {
-      model.conditions.displacement.row(a).setZero();
-    }
-  }
+  hold_bottom(model);
   return model;
 }
 

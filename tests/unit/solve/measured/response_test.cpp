@@ -20,10 +20,8 @@ struct Parts {
 
   explicit Parts(bool held) {
     model.materials[1].poisson_ratio = 0.3;
-    for (Eigen::Index a = 0; held && a < model.cloud.positions.rows(); ++a) {
-      if (model.cloud.positions(a, 2) < 1e-9) {
-        model.conditions.displacement.row(a).setZero();
-      }
+    if (held) {
+      hold_bottom(model);
     }
     parts.cloud = order_nodes(model.cloud, model.conditions);
     const ShapeFunctions shape(parts.cloud.positions, parts.cloud.spacing, {.basis = Basis::linear});
