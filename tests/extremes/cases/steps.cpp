@@ -6,52 +6,17 @@
 #include <sstream>
 
 #include "tests/extremes/row.hpp"
-#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/swinging_bar.hpp"
 
 namespace brainshift::extremes::steps_cases {
 
 namespace {
 
-constexpr double length = 60, modulus = 3000, density = 1000;
-
-/// A bar that is pulled suddenly along its length and swings through three periods.
-solve::Model bar() {
-  solve::Model model;
-  model.plane = solve::Plane::strain;  // without lateral strain, so as thin as any
-  model.cloud = test::irregular_rectangle(31, 4, length, 6);
-  model.conditions = test::all_free(model.cloud);
-  model.cells = test::rectangle_cells(30, 3, length, 6);
-  model.materials[1] = {
-      .youngs_modulus = modulus, .poisson_ratio = 0, .density = density, .law = solve::Law::linear_elastic};
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.positions(a, 0) < 1e-9) {
-      model.conditions.displacement(a, 0) = 0;
-    }
-  }
-  model.gravity = {1, 0, 0};
-  const double period = 4 * length / (1000 * std::sqrt(modulus / density));  // 4 L/c, s
-  model.curve = solve::LoadCurve({0, 1e-6, 3 * period}, {0, 1, 1}, solve::LoadCurve::Join::straight);
-  return model;
-}
-
-/// The time of the last passage of the bar's end through its place at rest, over the exact one: there the cosines of
-/// all modes vanish.
-double period_ratio(const solve::SolveResult& result) {
-  const double at_rest = density * length * length / (2 * modulus) * 1e-3;
-  constexpr Eigen::Index end = 2 * 31 - 1;
-  double time_before = 0, before = -at_rest, passage = 0;
-  int passages = 0;
-  for (const solve::Snapshot& s : result.snapshots) {
-    const double off = s.displacement(end, 0) - at_rest;
-    if (off * before < 0) {
-      passage = time_before + (s.time - time_before) * before / (before - off);
-      ++passages;
-    }
-    before = off;
-    time_before = s.time;
-  }
-  return passages == 6 ? passage / (11 * bar().curve.duration() / 12) : std::nan("");
+/// The time of the last passage of the bar's end through its place at rest, over the exact one.
+double period_ratio(const solve::SolveResult& result, double period) {
+  const auto [count, last] = solve::SwingingBar::passages(result.snapshots);
+  return count == 6 ? last / (11 * period / 4) : std::nan("");
 }
 
 double energy_error(const std::vector<solve::HistoryRow>& history) {
@@ -66,20 +31,21 @@ double energy_error(const std::vector<solve::HistoryRow>& history) {
 }  // namespace
 
 std::vector<Row> time_step(bool) {
+  const solve::SwingingBar bar;
   solve::SolveOptions options = solve::in_time();
   options.points_per_cell = 4;
   options.max_steps = 1;
-  const double critical = solve::solve(bar(), options).measures.critical_step;
+  const double critical = solve::solve(bar.model, options).measures.critical_step;
   options.max_steps = 100000;
   options.snapshot_every = 1;
   std::vector<Row> rows;
   for (const double share : {0.5, 0.99, 1.05, 2.0}) {
     options.time_step = share * critical;
-    const Ending ending = run(bar(), options);
+    const Ending ending = run(bar.model, options);
     std::ostringstream name;
     name << "time step " << share << " of the estimate";
     rows.push_back(judge(name.str(), share < 1 ? Must::answer : Must::refuse, ending,
-                         {{"period off by", 100 * std::abs(period_ratio(ending.result) - 1), 3, "%"},
+                         {{"period off by", 100 * std::abs(period_ratio(ending.result, bar.period) - 1), 3, "%"},
                           {"energies by", 100 * energy_error(ending.result.history), 1, "%"}},
                          "first longitudinal mode of a bar, on paper", share < 1 ? "" : "above the critical one"));
   }

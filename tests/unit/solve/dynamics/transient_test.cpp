@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/swinging_bar.hpp"
 
 namespace brainshift::solve::transient_test {
 
@@ -12,43 +12,16 @@ constexpr double side = model_side;
 using Join = LoadCurve::Join;
 
 TEST(Transient, ABarSwingsWithItsFirstLongitudinalFrequency) {
-  constexpr double length = 60, modulus = 3000, density = 1000;
-  Model model;
-  model.plane = Plane::strain;  // without lateral strain, so as thin as any
-  model.cloud = test::irregular_rectangle(31, 4, length, 6);
-  model.conditions = test::all_free(model.cloud);
-  model.cells = test::rectangle_cells(30, 3, length, 6);
-  model.materials[1] = {.youngs_modulus = modulus, .poisson_ratio = 0, .density = density, .law = Law::linear_elastic};
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.positions(a, 0) < 1e-9) {
-      model.conditions.displacement(a, 0) = 0;
-    }
-  }
-  model.gravity = {1, 0, 0};
-  const double period = 4 * length / (1000 * std::sqrt(modulus / density));   // 4 L/c, s
-  model.curve = LoadCurve({0, 1e-6, 3 * period}, {0, 1, 1}, Join::straight);  // suddenly
+  const SwingingBar bar;
   SolveOptions options = in_time();
   options.points_per_cell = 4;
   options.time_step = 1e-4;
   options.snapshot_every = 1;
-  const SolveResult result = solve(model, options);
+  const SolveResult result = solve(bar.model, options);
   ASSERT_TRUE(result.measures.converged) << result.failure;
-  // The end passes its place at rest after 1/4, 3/4, ... of a period: there the cosines of all modes vanish.
-  const double at_rest = density * 1 * length * length / (2 * modulus) * 1e-3;
-  const Eigen::Index end = 2 * 31 - 1;
-  double before_time = 0, before = -at_rest, last_passage = 0;
-  int passages = 0;
-  for (const Snapshot& s : result.snapshots) {
-    const double off = s.displacement(end, 0) - at_rest;
-    if (off * before < 0) {
-      last_passage = before_time + (s.time - before_time) * before / (before - off);
-      ++passages;
-    }
-    before = off;
-    before_time = s.time;
-  }
+  const auto [passages, last_passage] = SwingingBar::passages(result.snapshots);
   ASSERT_EQ(passages, 6);
-  const double ratio = (2 * passages - 1) * period / 4 / last_passage;
+  const double ratio = (2 * passages - 1) * bar.period / 4 / last_passage;
   RecordProperty("frequency_ratio", std::to_string(ratio));
   EXPECT_NEAR(ratio, 1, 0.03);
 }
