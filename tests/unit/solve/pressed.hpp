@@ -13,6 +13,7 @@
 #include "solve/run/prepare.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/noisy_nodes.hpp"
 
 namespace brainshift::solve {
 
@@ -40,6 +41,22 @@ struct Pressed {
     prepared = prepare(model, options, {}, measures, {}, true);
   }
   const Body& body() const { return prepared.body; }
+  void make_noisy() {
+    const BodyParts& parts = *prepared.parts;
+    const Points& prescribed = parts.cloud.conditions.displacement;
+    prepared.body.essential = EssentialConditions(prescribed, parts.nodal_rows, parts.cloud.original,
+                                                  noisy_nodes(prescribed.rows(), 1e-3), ShapeRows());
+  }
+  /// Two nodes with the row of one: conditions that repeat each other.
+  void repeat_conditions() {
+    const BodyParts& parts = *prepared.parts;
+    ShapeRows repeated;
+    for (std::size_t a = 0; a < parts.nodal_rows.size(); ++a) {
+      repeated.append(parts.nodal_rows[a / 2]);
+    }
+    prepared.body.essential =
+        EssentialConditions(Points::Constant(parts.cloud.positions.rows(), 3, 0.1), repeated, parts.cloud.original);
+  }
   Constants constants(std::size_t member) const {
     const auto m = static_cast<double>(member);
     Constants c{.materials = model.materials, .gravity = model.gravity, .fluid = {}};

@@ -80,16 +80,7 @@ TEST_P(RelaxOnDevice, KeepsTheDigitsOfSinglePrecision) {
 
 TEST_P(RelaxOnDevice, LetsConditionsWithNoiseGiveWayAsTheHostDoes) {
   Pressed pressed(1e-6);
-  const BodyParts& parts = *pressed.prepared.parts;
-  const Points& prescribed = parts.cloud.conditions.displacement;
-  Measurement measured;
-  measured.spread.resize(prescribed.rows(), prescribed.rows());
-  measured.spread.setIdentity();
-  measured.sigma = Points::Constant(prescribed.rows(), 3, 0.5);
-  measured.sigma.col(1).setConstant(0.8);  // components differ in their inverse
-  measured.weight = 1e-3;
-  pressed.prepared.body.essential =
-      EssentialConditions(prescribed, parts.nodal_rows, parts.cloud.original, measured, ShapeRows());
+  pressed.make_noisy();
   const SteppingResult expected = on_host(pressed, {});
   EXPECT_GT(expected.body.essential.largest_error(1, expected.parameters), 0.01) << "they do not give way";
   expect_same(on_device(pressed, {}), expected, 1e-8);
@@ -97,13 +88,7 @@ TEST_P(RelaxOnDevice, LetsConditionsWithNoiseGiveWayAsTheHostDoes) {
 
 TEST_P(RelaxOnDevice, SaysWhichConditionsRepeatEachOther) {
   Pressed pressed(1e-3);
-  const BodyParts& parts = *pressed.prepared.parts;
-  ShapeRows repeated;
-  for (std::size_t a = 0; a < parts.nodal_rows.size(); ++a) {
-    repeated.append(parts.nodal_rows[a / 2]);
-  }
-  pressed.prepared.body.essential =
-      EssentialConditions(Points::Constant(parts.cloud.positions.rows(), 3, 0.1), repeated, parts.cloud.original);
+  pressed.repeat_conditions();
   EXPECT_THROW(on_device(pressed, {}), TooFewNodes);
 }
 

@@ -104,18 +104,9 @@ TEST_P(RelaxTogetherOnDevice, KeepsTheDigitsOfSinglePrecisionAndTheBitsWhateverT
 
 TEST_P(RelaxTogetherOnDevice, LetsConditionsWithNoiseGiveWayAndPrescribesToEachItsOwn) {
   Pressed pressed(1e-6);
-  const BodyParts& parts = *pressed.prepared.parts;
-  const Points& prescribed = parts.cloud.conditions.displacement;
-  Measurement measured;
-  measured.spread.resize(prescribed.rows(), prescribed.rows());
-  measured.spread.setIdentity();
-  measured.sigma = Points::Constant(prescribed.rows(), 3, 0.5);
-  measured.sigma.col(1).setConstant(0.8);  // components differ in their inverse
-  measured.weight = 1e-3;
-  pressed.prepared.body.essential =
-      EssentialConditions(prescribed, parts.nodal_rows, parts.cloud.original, measured, ShapeRows());
+  pressed.make_noisy();
   std::vector<Member> loads = pressed.loads(3);
-  loads[1].prescribed = 0.5 * prescribed;
+  loads[1].prescribed = 0.5 * pressed.prepared.parts->cloud.conditions.displacement;
   const std::vector<MemberResult> expected = pressed.together(loads);
   ASSERT_GT(largest_difference(expected[0].parameters, expected[1].parameters), 0.1);
   expect_same(on_device(pressed, loads), expected, 1e-8);
@@ -174,13 +165,7 @@ TEST_P(RelaxTogetherOnDevice, StopsWhereTheStepsAreUsedUp) {
 
 TEST_P(RelaxTogetherOnDevice, SaysWhichConditionsRepeatEachOther) {
   Pressed pressed(1e-3);
-  const BodyParts& parts = *pressed.prepared.parts;
-  ShapeRows repeated;
-  for (std::size_t a = 0; a < parts.nodal_rows.size(); ++a) {
-    repeated.append(parts.nodal_rows[a / 2]);
-  }
-  pressed.prepared.body.essential =
-      EssentialConditions(Points::Constant(parts.cloud.positions.rows(), 3, 0.1), repeated, parts.cloud.original);
+  pressed.repeat_conditions();
   EXPECT_THROW(on_device(pressed, pressed.loads(2)), TooFewNodes);
 }
 

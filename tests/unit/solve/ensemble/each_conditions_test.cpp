@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "tests/unit/solve/noisy_nodes.hpp"
 #include "tests/unit/solve/weighted_box.hpp"
 
 namespace brainshift::solve::each_conditions_test {
@@ -30,13 +31,7 @@ struct Held {
   }
   /// The same with a noise that differs from axis to axis.
   EssentialConditions noisy() const {
-    Measurement measured;
-    measured.spread.resize(prescribed.rows(), prescribed.rows());
-    measured.spread.setIdentity();
-    measured.sigma = Points::Constant(prescribed.rows(), 3, 0.5);
-    measured.sigma.col(1).setConstant(0.8);
-    measured.weight = 1e-7;
-    return {prescribed, cloud.rows, names, measured, ShapeRows()};
+    return {prescribed, cloud.rows, names, noisy_nodes(prescribed.rows(), 1e-7), ShapeRows()};
   }
 };
 
