@@ -45,6 +45,13 @@ inline const std::vector<Material> every_law = [] {
   return laws;
 }();
 
+/// Those that devices know.
+inline const std::vector<Material> library_laws = [] {
+  std::vector<Material> laws = every_law;
+  std::erase_if(laws, [](const Material& material) { return material.law == Law::own; });
+  return laws;
+}();
+
 inline std::string name_of(const Material& material) {
   const std::string names[] = {"neo_hookean", "ogden", "saint_venant_kirchhoff", "linear_elastic", "own"};
   const std::string name = names[static_cast<int>(material.law)];
@@ -78,6 +85,7 @@ inline double energy(const ElasticLaw& law, const Eigen::Matrix3d& f) {
       [&](const auto& l) { return l.isochoric_energy(d) + l.bulk_modulus / 2 * std::pow(l.dilatation(d), 2); }, law);
 }
 
+/// First Piola–Kirchhoff, Pa.
 inline Eigen::Matrix3d stress(const ElasticLaw& law, const Eigen::Matrix3d& f) {
   return isochoric_stress(law, f) + pressure(law, f) * dilatation_slope(law, f);
 }

@@ -76,17 +76,6 @@ SpecimenOptions with_precision(SpecimenOptions options) {
   return options;
 }
 
-/// Material laws of the library.
-std::vector<Material> laws() {
-  std::vector<Material> result;
-  for (const Material& material : every_law) {
-    if (material.law != solve::Law::own) {
-      result.push_back(material);
-    }
-  }
-  return result;
-}
-
 template <class Scalar>
 void expect_same_as_on_the_host(const Backend& backend, const Material& material, const SpecimenOptions& options,
                                 double rounding, int nodes = 6) {
@@ -105,23 +94,23 @@ class DeviceForce : public OnDevice {};
 INSTANTIATE_TEST_SUITE_P(Of, DeviceForce, testing::Values(On::one_thread, On::gpu), name_of_device);
 
 TEST_P(DeviceForce, IsThatOfTheHostForEveryLaw) {
-  for (const Material& material : laws()) {
+  for (const Material& material : library_laws) {
     expect_same_as_on_the_host<double>(backend(), material, {}, 1e-12);
     expect_same_as_on_the_host<float>(backend(), material, {}, 1e-5);
   }
 }
 
 TEST_P(DeviceForce, IsThatOfTheHostForPointsAlonePatchesOfManyAndLargeSupports) {
-  expect_same_as_on_the_host<double>(backend(), laws().front(), {.nodes_per_patch = 0}, 1e-12);
-  expect_same_as_on_the_host<double>(backend(), laws().front(), {.nodes_per_patch = 40}, 1e-12);
-  expect_same_as_on_the_host<double>(backend(), laws().front(), {.basis = Basis::modified_quadratic}, 1e-12);
-  expect_same_as_on_the_host<float>(backend(), laws().front(), {.basis = Basis::modified_quadratic}, 1e-5);
+  expect_same_as_on_the_host<double>(backend(), library_laws.front(), {.nodes_per_patch = 0}, 1e-12);
+  expect_same_as_on_the_host<double>(backend(), library_laws.front(), {.nodes_per_patch = 40}, 1e-12);
+  expect_same_as_on_the_host<double>(backend(), library_laws.front(), {.basis = Basis::modified_quadratic}, 1e-12);
+  expect_same_as_on_the_host<float>(backend(), library_laws.front(), {.basis = Basis::modified_quadratic}, 1e-5);
 }
 
 TEST_P(DeviceForce, IsThatOfTheHostWhateverTheNumberOfPointsAndNodes) {
   for (const int nodes : {3, 4, 5, 7, 9}) {
     for (const int points_per_cell : {1, 8}) {
-      expect_same_as_on_the_host<float>(backend(), laws().front(),
+      expect_same_as_on_the_host<float>(backend(), library_laws.front(),
                                         {.nodes_per_patch = 2, .points_per_cell = points_per_cell}, 1e-5, nodes);
     }
   }
@@ -131,7 +120,7 @@ class DeviceBound : public OnDevice {};
 INSTANTIATE_TEST_SUITE_P(Of, DeviceBound, testing::Values(On::one_thread, On::gpu), name_of_device);
 
 TEST_P(DeviceBound, IsThatOfTheHostForEveryLaw) {
-  for (const Material& material : laws()) {
+  for (const Material& material : library_laws) {
     for (const double nodes_per_patch : {0.0, 6.0}) {
       Moved<double> moved(backend(), material, {.nodes_per_patch = nodes_per_patch});
       PointBlocks points = moved.specimen.points;
@@ -149,7 +138,7 @@ class DeviceLook : public OnDevice {};
 INSTANTIATE_TEST_SUITE_P(Of, DeviceLook, testing::Values(On::one_thread, On::gpu), name_of_device);
 
 TEST_P(DeviceLook, SeesThePointsAsTheHostDoes) {
-  for (const Material& material : laws()) {
+  for (const Material& material : library_laws) {
     Moved<double> moved(backend(), material, {});
     const PointState expected = point_state(moved.specimen.points, moved.specimen.laws, moved.specimen.scratch);
     const LookSums seen = moved.look();

@@ -20,17 +20,6 @@ namespace device_ensemble_test {
 constexpr double side = 50;
 const Material soft{.youngs_modulus = 10, .poisson_ratio = 0.1};
 
-/// Laws of the library, each that of a member.
-std::vector<Material> laws() {
-  std::vector<Material> result;
-  for (const Material& material : every_law) {
-    if (material.law != solve::Law::own) {
-      result.push_back(material);
-    }
-  }
-  return result;
-}
-
 /// Specimens that differ by the law of a tissue, on the device side by side, moved at random.
 template <class Scalar>
 class Moved {
@@ -107,34 +96,36 @@ class EachOnDevice : public OnDevice {};
 INSTANTIATE_TEST_SUITE_P(Of, EachOnDevice, testing::Values(On::one_thread, On::gpu), name_of_device);
 
 TEST_P(EachOnDevice, HasTheForceOfTheHostForEveryLaw) {
-  expect_forces_of_the_host<double>(backend(), laws(), {}, 1e-12);
-  expect_forces_of_the_host<float>(backend(), laws(), {}, 1e-5);
-  expect_forces_of_the_host<double>(backend(), {laws()[0], laws()[1]}, {}, 1e-12);  // neo-Hookean alone
+  expect_forces_of_the_host<double>(backend(), library_laws, {}, 1e-12);
+  expect_forces_of_the_host<float>(backend(), library_laws, {}, 1e-5);
+  expect_forces_of_the_host<double>(backend(), {library_laws[0], library_laws[1]}, {}, 1e-12);  // neo-Hookean alone
 }
 
 TEST_P(EachOnDevice, HasTheForceOfTheHostForPointsAlonePatchesOfManyAndLargeSupports) {
-  expect_forces_of_the_host<double>(backend(), laws(), {.nodes_per_patch = 0}, 1e-12);
-  expect_forces_of_the_host<double>(backend(), laws(), {.nodes_per_patch = 40}, 1e-12);
-  expect_forces_of_the_host<float>(backend(), laws(), {.basis = Basis::modified_quadratic}, 1e-5);
+  expect_forces_of_the_host<double>(backend(), library_laws, {.nodes_per_patch = 0}, 1e-12);
+  expect_forces_of_the_host<double>(backend(), library_laws, {.nodes_per_patch = 40}, 1e-12);
+  expect_forces_of_the_host<float>(backend(), library_laws, {.basis = Basis::modified_quadratic}, 1e-5);
   for (const int nodes : {3, 5, 9}) {
-    expect_forces_of_the_host<float>(backend(), {laws()[0]}, {.nodes_per_patch = 2, .points_per_cell = 1}, 1e-5, nodes);
+    expect_forces_of_the_host<float>(backend(), {library_laws[0]}, {.nodes_per_patch = 2, .points_per_cell = 1}, 1e-5,
+                                     nodes);
   }
 }
 
 TEST_P(EachOnDevice, HasTheBoundAndTheEnergyOfTheHostForEveryLaw) {
   for (const double nodes_per_patch : {0.0, 6.0}) {
-    Moved<double> moved(backend(), laws(), {.nodes_per_patch = nodes_per_patch});
+    Moved<double> moved(backend(), library_laws, {.nodes_per_patch = nodes_per_patch});
     const RecordOfEach record = moved.perform(TaskOfEach::measure_energy);
     moved.perform(TaskOfEach::follow);
     const std::vector<double> masses = moved.masses();
-    for (std::size_t m = 0; m < laws().size(); ++m) {
+    for (std::size_t m = 0; m < library_laws.size(); ++m) {
       const Specimen& specimen = moved.specimens[m];
       const std::vector<double> expected = stiffness_bound(specimen.points, specimen.laws, specimen.scratch);
       for (std::size_t a = 0; a < expected.size(); ++a) {
-        ASSERT_NEAR(masses[a * most_members + m], expected[a], 1e-9 * expected[a]) << name_of(laws()[m]) << ", " << a;
+        ASSERT_NEAR(masses[a * most_members + m], expected[a], 1e-9 * expected[a])
+            << name_of(library_laws[m]) << ", " << a;
       }
       const double energy = point_state(specimen.points, specimen.laws, specimen.scratch).strain_energy;
-      EXPECT_NEAR(record.energy[m], energy, 1e-9 * energy) << name_of(laws()[m]);
+      EXPECT_NEAR(record.energy[m], energy, 1e-9 * energy) << name_of(library_laws[m]);
     }
   }
 }
