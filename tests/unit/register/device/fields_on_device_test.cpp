@@ -11,6 +11,7 @@
 #include "solve/output/solution_file.hpp"
 #include "solve/shape/node_supports.hpp"
 #include "tests/unit/register/builders.hpp"
+#include "tests/unit/solve/device/backends.hpp"
 
 namespace brainshift::registration::device {
 
@@ -18,21 +19,14 @@ namespace {
 
 namespace b = builders;
 
-/// Where there is no GPU the half that wants one is skipped.
-enum class On : std::uint8_t { one_thread, gpu };
+using solve::device::On;
 
-class FieldsOnDevice : public testing::TestWithParam<On> {
+class FieldsOnDevice : public solve::device::OnDevice {
  protected:
-  void SetUp() override {
-    if (GetParam() == On::gpu && gpu() == nullptr) {
-      GTEST_SKIP() << solve::device::why_no_gpu();
-    }
-  }
   static const Backend& backend() { return GetParam() == On::gpu ? *gpu() : one_thread(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(On, FieldsOnDevice, testing::Values(On::one_thread, On::gpu),
-                         [](const auto& tested) { return tested.param == On::gpu ? "gpu" : "one_thread"; });
+INSTANTIATE_TEST_SUITE_P(On, FieldsOnDevice, testing::Values(On::one_thread, On::gpu), solve::device::name_of_device);
 
 /// Where two fields are apart, by at most one step of what they are rounded to: rounding may fall either way.
 void expect_same(const VectorImage& a, const VectorImage& b) {
