@@ -3,20 +3,11 @@
 
 #include <cmath>
 
-#include "solve/material/elastic_law.hpp"
 #include "solve/shape/node_supports.hpp"
 #include "tests/unit/solve/all_free.hpp"
+#include "tests/unit/solve/material_cases.hpp"
 
 namespace brainshift::extremes {
-
-Eigen::Matrix3d first_piola(const solve::Material& material, const Eigen::Matrix3d& gradient) {
-  return std::visit(
-      [&](const auto& law) -> Eigen::Matrix3d {
-        const solve::Deformation d(gradient);
-        return law.isochoric_stress(d) + law.bulk_modulus * law.dilatation(d) * law.dilatation_slope(d);
-      },
-      solve::elastic_law(material));
-}
 
 solve::Model Block::model(NodeCloud cloud, BackgroundCells cells) const {
   solve::Model model;
@@ -44,20 +35,14 @@ Eigen::Matrix3d Block::exact() const {
   for (int i = 0; i < 100; ++i) {
     const double side = std::sqrt(low * high);
     gradient = Eigen::Vector3d(side, side, stretch).asDiagonal();
-    (first_piola(material, gradient)(0, 0) < 0 ? low : high) = side;
+    (solve::stress(solve::elastic_law(material), gradient)(0, 0) < 0 ? low : high) = side;
   }
   return gradient;
 }
 
 double Block::energy() const {
   constexpr double milli_joule = 1e-6;  // Pa mm³
-  const double density = std::visit(
-      [&](const auto& law) {
-        const solve::Deformation d(exact());
-        return law.isochoric_energy(d) + law.bulk_modulus / 2 * law.dilatation(d) * law.dilatation(d);
-      },
-      solve::elastic_law(material));
-  return milli_joule * density * size.prod();
+  return milli_joule * solve::energy(solve::elastic_law(material), exact()) * size.prod();
 }
 
 std::vector<Measured> Block::errors(const solve::SolveResult& result, double most_displacement,
@@ -68,7 +53,8 @@ std::vector<Measured> Block::errors(const solve::SolveResult& result, double mos
   const double imposed = std::abs(stretch - 1) * size[2];
   const double off = x.rows() > 0 ? (result.solution.displacement - wanted).rowwise().norm().maxCoeff() : std::nan("");
   constexpr double per_square_millimetre = 1e-6;  // Pa to N/mm²
-  const double force = per_square_millimetre * size[0] * size[1] * first_piola(material, gradient)(2, 2);
+  const double force =
+      per_square_millimetre * size[0] * size[1] * solve::stress(solve::elastic_law(material), gradient)(2, 2);
   double pulled = 0;
   for (Eigen::Index a = 0; a < x.rows(); ++a) {
     pulled += x(a, 2) == size[2] ? result.solution.reaction_force(a, 2) : 0;

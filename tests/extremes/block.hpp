@@ -5,9 +5,6 @@
 
 namespace brainshift::extremes {
 
-/// First Piola–Kirchhoff stress of a law at a deformation gradient, Pa.
-Eigen::Matrix3d first_piola(const solve::Material& material, const Eigen::Matrix3d& gradient);
-
 /// A block between frictionless plates, its height changed by the factor `stretch` along z, its sides free: the
 /// stretches are uniform, whatever the law.
 struct Block {

@@ -11,6 +11,7 @@
 #include "solve/shape/node_supports.hpp"
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/material_cases.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -18,16 +19,6 @@
 namespace brainshift::verification::analytic_cases {
 
 namespace {
-
-/// P of a law at a deformation gradient, Pa.
-Eigen::Matrix3d first_piola(const solve::Material& material, const Eigen::Matrix3d& gradient) {
-  return std::visit(
-      [&](const auto& law) -> Eigen::Matrix3d {
-        const solve::Deformation d(gradient);
-        return law.isochoric_stress(d) + law.bulk_modulus * law.dilatation(d) * law.dilatation_slope(d);
-      },
-      solve::elastic_law(material));
-}
 
 /// diag(stretch, ...) with the axes that are NaN stretched until they carry no stress: one unknown, by bisection.
 Eigen::Matrix3d with_free_sides(const solve::Material& material, const Eigen::Vector3d& stretch) {
@@ -38,7 +29,7 @@ Eigen::Matrix3d with_free_sides(const solve::Material& material, const Eigen::Ve
     gradient = stretch.unaryExpr([middle](double s) { return std::isnan(s) ? middle : s; }).asDiagonal();
     double stress = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      stress = std::isnan(stretch[axis]) ? first_piola(material, gradient)(axis, axis) : stress;
+      stress = std::isnan(stretch[axis]) ? solve::stress(solve::elastic_law(material), gradient)(axis, axis) : stress;
     }
     (stress < 0 ? low : high) = middle;
   }
@@ -72,8 +63,8 @@ Figure stretch_figure(const std::string& name, const solve::Material& material, 
                       bool small) {
   const solve::SolveResult result = solved(stretched_box(material, stretch, small ? 5 : 2.5), steady_options());
   constexpr double per_square_millimetre = 1e-6;  // Pa to N/mm²
-  const double exact =
-      side * side * per_square_millimetre * first_piola(material, with_free_sides(material, stretch))(0, 0);
+  const double exact = side * side * per_square_millimetre *
+                       solve::stress(solve::elastic_law(material), with_free_sides(material, stretch))(0, 0);
   double force = 0;
   for (Eigen::Index a = 0; a < result.solution.positions.rows(); ++a) {
     force += result.solution.positions(a, 0) == side ? result.solution.reaction_force(a, 0) : 0;
