@@ -10,6 +10,7 @@
 
 #include "segmentation/geometry/surface.hpp"
 #include "segmentation/image/mask.hpp"
+#include "segmentation/surface/surface_measures.hpp"
 
 namespace brainshift::test {
 
@@ -55,10 +56,22 @@ inline LabelMap ball(const ImageGeometry& geometry, const Eigen::Vector3d& centr
   });
 }
 
+/// Oblique, smooth, with detail along all axes.
+inline ScalarImage wavy_image() {
+  const auto geometry = grid_around({40.0, -70.0, 15.0}, 24, {0.9, 1.1, 2.5}, oblique_left_handed());
+  return image_by<float>(geometry, [](const Eigen::Vector3d& x) {
+    return static_cast<float>(100.0 + 50.0 * std::sin(0.3 * x.x()) * std::cos(0.2 * x.y()) + x.z());
+  });
+}
+
 /// Oblique, with voxels of 1 × 2 × 3 mm.
 inline Mask empty_mask(int size) {
   const auto geometry = grid_around(Eigen::Vector3d::Zero(), size, {1.0, 2.0, 3.0}, oblique_left_handed());
   return {geometry, std::vector<std::uint8_t>(geometry.voxel_count())};
+}
+
+inline double ball_volume(double radius) {
+  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
 
 inline Surface tetrahedron() {
@@ -68,6 +81,12 @@ inline Surface tetrahedron() {
   surface.triangles.resize(4, 3);
   surface.triangles << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
   return surface;
+}
+
+inline void expect_sound(const segmentation::SurfaceMeasures& measures) {
+  EXPECT_TRUE(measures.closed);
+  EXPECT_TRUE(measures.outward);
+  EXPECT_FALSE(measures.self_intersecting);
 }
 
 /// Whether the call throws E with all of these words in its sentence.

@@ -9,11 +9,6 @@
 
 namespace brainshift::test::components_test {
 
-Mask empty_mask(int size) {
-  const auto geometry = grid_around(Eigen::Vector3d::Zero(), size, {1.0, 2.0, 3.0}, oblique_left_handed());
-  return {geometry, std::vector<std::uint8_t>(geometry.voxel_count())};
-}
-
 TEST(Components, OfAnEmptyMaskAreNone) {
   const Components none = components(empty_mask(3));
   EXPECT_TRUE(none.sizes.empty());

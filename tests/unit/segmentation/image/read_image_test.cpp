@@ -17,13 +17,6 @@ namespace brainshift::test::read_image_test {
 using std::filesystem::file_size;
 using std::filesystem::resize_file;
 
-ScalarImage wavy_image() {
-  const auto geometry = grid_around({40.0, -70.0, 15.0}, 24, {0.9, 1.1, 2.5}, oblique_left_handed());
-  return image_by<float>(geometry, [](const Eigen::Vector3d& x) {
-    return static_cast<float>(100.0 + 50.0 * std::sin(0.3 * x.x()) * std::cos(0.2 * x.y()) + x.z());
-  });
-}
-
 class EveryFormat : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Image, EveryFormat, ::testing::Values("a.nii", "a.nii.gz", "a.nrrd", "a.mha"),
                          [](const auto& named) {

@@ -15,10 +15,6 @@ namespace brainshift::test::checked_surface_test {
 
 using namespace segmentation;
 
-double ball_volume(double radius) {
-  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-}
-
 Surface sphere(double radius, int resolution) {
   vtkNew<vtkSphereSource> source;
   source->SetRadius(radius);
@@ -27,12 +23,6 @@ Surface sphere(double radius, int resolution) {
   source->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   source->Update();
   return from_vtk(*source->GetOutput());
-}
-
-void expect_sound(const SurfaceMeasures& measures) {
-  EXPECT_TRUE(measures.closed);
-  EXPECT_TRUE(measures.outward);
-  EXPECT_FALSE(measures.self_intersecting);
 }
 
 TEST(CheckedSurface, ASoundSurfaceIsOnlyRemeshed) {

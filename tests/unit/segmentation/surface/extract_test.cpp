@@ -6,7 +6,6 @@
 #include <vtkFeatureEdges.h>
 #include <vtkMassProperties.h>
 #include <vtkNew.h>
-#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -20,10 +19,6 @@ using namespace segmentation;
 
 const Eigen::Vector3d centre(100.0, -50.0, 30.0);
 
-double ball_volume(double radius) {
-  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-}
-
 vtkIdType open_or_shared_edges(const Surface& surface) {
   vtkNew<vtkFeatureEdges> edges;
   const auto data = to_vtk(surface);
@@ -32,12 +27,6 @@ vtkIdType open_or_shared_edges(const Surface& surface) {
   edges->ManifoldEdgesOff();
   edges->Update();
   return edges->GetOutput()->GetNumberOfCells();
-}
-
-void expect_sound(const SurfaceMeasures& measures) {
-  EXPECT_TRUE(measures.closed);
-  EXPECT_TRUE(measures.outward);
-  EXPECT_FALSE(measures.self_intersecting);
 }
 
 struct Frame {

@@ -8,12 +8,6 @@ namespace brainshift::test::surface_measures_test {
 
 using namespace segmentation;
 
-void expect_sound(const SurfaceMeasures& measures) {
-  EXPECT_TRUE(measures.closed);
-  EXPECT_TRUE(measures.outward);
-  EXPECT_FALSE(measures.self_intersecting);
-}
-
 TEST(Surface, ADefectIsMeasuredAsWhatItIs) {
   Surface open = tetrahedron();
   open.triangles.conservativeResize(3, 3);
