@@ -7,8 +7,8 @@
 
 #include "solve/output/field_difference.hpp"
 #include "tests/unit/solve/all_free.hpp"
-#include "tests/unit/solve/clouds.hpp"
 #include "tests/verification/block_picture.hpp"
+#include "tests/verification/cases/block_model.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -147,29 +147,6 @@ solve::Cut sheet(int divisions) {
   return cut;
 }
 
-const Eigen::Vector3d block_size(60, 30, 60);  // mm
-constexpr double block_front = 30;
-
-solve::Model block(double least_distance) {
-  const Eigen::Vector3d& size = block_size;
-  solve::Model model;
-  model.cloud = box_cloud(size, least_distance, 4, [](const Eigen::Vector3d& x) {
-    return std::clamp(std::hypot(x.x() - 30, x.z() - 30) / 15, 0.6, 1.0);
-  });
-  model.conditions = test::all_free(model.cloud);
-  const double edge = std::cbrt(size.prod() / (1.5 * static_cast<double>(model.cloud.size())));
-  model.cells = test::box_cells((size / edge).array().round().cast<int>(), size);
-  model.materials[1] = {3000, 0.49, 1000};
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    const double z = model.cloud.positions(a, 2);
-    if (z == 0 || z == size.z()) {
-      model.conditions.displacement.row(a) << 0, 0, (z == 0 ? 0 : 12);
-    }
-  }
-  model.cuts = {sheet(12)};
-  return model;
-}
-
 }  // namespace
 
 Outcome cut_path(bool small) {
@@ -199,7 +176,8 @@ Outcome cut_path(bool small) {
 Outcome cut_block(bool small) {
   Outcome outcome;
   const Reference reference = read_reference("cut_block", "cut_block_force");
-  solve::Model model = block(small ? 3.6 : 2.6);
+  solve::Model model = block_model(small ? 3.6 : 2.6, {0, 0, 12});
+  model.cuts = {sheet(12)};
   Rows rows(outcome, reference.error);
   const solve::SolveResult cut = solved(model, steady_options());
   const std::string nodes = std::to_string(cut.measures.nodes) + " nodes, ";
@@ -218,7 +196,7 @@ Outcome cut_block(bool small) {
   rows.add("supports evaluated again at an advance, of all", "",
            100 * touched / static_cast<double>(progressive.measures.integration_points), "%", {}, progressive);
   rows.add("cutting, a square centimetre", "", 100 * m.seconds / m.extent, "s", {}, progressive);
-  outcome.pictures.push_back({"cut_block", picture_of_cut_block(progressive.solution, block_size, block_front)});
+  outcome.pictures.push_back({"cut_block", picture_of_cut_block(progressive.solution, block_size, block_rim)});
   return outcome;
 }
 

@@ -2,12 +2,9 @@
 //
 // A block with a rigid sheet half through its middle, pressed towards the sheet and sheared along it, against finite
 // elements with a contact pair on each side of the sheet.
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
-#include "tests/unit/solve/all_free.hpp"
-#include "tests/unit/solve/clouds.hpp"
+#include "tests/verification/cases/block_model.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -16,36 +13,13 @@ namespace brainshift::verification::septum_cases {
 
 namespace {
 
-const Eigen::Vector3d size(60, 30, 60);  // mm
-constexpr double rim = 30;               // x where the sheet ends, z where it lies
-
 Surface sheet() {
-  constexpr double beyond = 12;  // mm
+  constexpr double beyond = 12, rim = block_rim;  // mm
+  const double back = block_size.y() + beyond;
   Surface surface{Points(4, 3), Triangles(2, 3)};
-  surface.vertices << -beyond, -beyond, rim, rim, -beyond, rim, rim, size.y() + beyond, rim, -beyond, size.y() + beyond,
-      rim;
+  surface.vertices << -beyond, -beyond, rim, rim, -beyond, rim, rim, back, rim, -beyond, back, rim;
   surface.triangles << 0, 1, 2, 0, 2, 3;
   return surface;
-}
-
-solve::Model block(double least_distance, const Eigen::RowVector3d& top) {
-  solve::Model model;
-  model.cloud = box_cloud(size, least_distance, 4, [](const Eigen::Vector3d& x) {
-    return std::clamp(std::hypot(x.x() - rim, x.z() - rim) / 15, 0.6, 1.0);
-  });
-  model.conditions = test::all_free(model.cloud);
-  const double edge = std::cbrt(size.prod() / (1.5 * static_cast<double>(model.cloud.size())));
-  model.cells = test::box_cells((size / edge).array().round().cast<int>(), size);
-  model.materials[1] = {3000, 0.49, 1000};
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    const double z = model.cloud.positions(a, 2);
-    if (z == 0) {
-      model.conditions.displacement.row(a).setZero();
-    } else if (z == size.z()) {
-      model.conditions.displacement.row(a) = top;
-    }
-  }
-  return model;
 }
 
 double seconds_a_step(const solve::SolveResult& result) {
@@ -55,7 +29,7 @@ double seconds_a_step(const solve::SolveResult& result) {
 /// In per cent of the largest displacement of the reference. deepest: bound of what lies behind its wall, mm.
 std::vector<Figure> against(const std::string& load, const Eigen::RowVector3d& top, bool small, double deepest) {
   const Reference reference = read_reference("septum_" + load, "");
-  solve::Model model = block(small ? 3.6 : 2.6, top);
+  solve::Model model = block_model(small ? 3.6 : 2.6, top);
   std::optional<solve::SolveResult> whole;
   if (!small) {
     whole = solved(model, steady_options());
