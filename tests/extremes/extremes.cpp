@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
+#include "segmentation/files/write_text.hpp"
 #include "tests/extremes/row.hpp"
 
 namespace {
@@ -55,14 +55,6 @@ Arguments read_arguments(const std::vector<std::string>& words) {
   return arguments;
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file);
-  out << text;
-  if (!out.flush()) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
-}
-
 int run_cases(const Arguments& arguments) {
   std::vector<Row> rows;
   for (const auto& [name, run_case] : cases) {
@@ -76,8 +68,8 @@ int run_cases(const Arguments& arguments) {
     }
     if (!arguments.out.empty()) {
       std::filesystem::create_directories(arguments.out);
-      write_text(arguments.out / "extremes.md", markdown_table(rows));
-      write_text(arguments.out / "extremes.csv", csv_table(rows));
+      brainshift::write_text(arguments.out / "extremes.md", markdown_table(rows));
+      brainshift::write_text(arguments.out / "extremes.csv", csv_table(rows));
     }
   }
   std::printf("%s", markdown_table(rows).c_str());

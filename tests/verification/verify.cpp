@@ -12,9 +12,9 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
+#include "segmentation/files/write_text.hpp"
 #include "tests/verification/figures.hpp"
 
 namespace {
@@ -46,14 +46,6 @@ Arguments read_arguments(int argc, char** argv) {
   return arguments;
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out.flush()) {
-    throw std::runtime_error(file.string() + ": cannot be written");
-  }
-}
-
 /// A case that the solver gave up is a figure that does not hold; the others still run.
 Outcome finished(const Case& run_case, bool small) {
   try {
@@ -81,10 +73,10 @@ int run(const Arguments& arguments) {
         draw(arguments.out, plot);
       }
       for (const Picture& picture : outcome.pictures) {
-        write_text(arguments.out / (picture.file + ".svg"), picture.svg);
+        brainshift::write_text(arguments.out / (picture.file + ".svg"), picture.svg);
       }
-      write_text(arguments.out / "verification.md", markdown_table(rows));
-      write_text(arguments.out / "verification.csv", csv_table(rows));
+      brainshift::write_text(arguments.out / "verification.md", markdown_table(rows));
+      brainshift::write_text(arguments.out / "verification.csv", csv_table(rows));
     }
   }
   std::printf("%s", markdown_table(rows).c_str());
