@@ -2,7 +2,6 @@
 #include "pipelines/runner/discretise_warnings.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "segmentation/options/values.hpp"
@@ -49,7 +48,7 @@ Warnings warnings_of(const Surface& brain, const LabelMap& labels, const discret
   Warnings warnings;
   const double apart = (middle_of(brain) - middle_of(labels, options.brain_labels)).norm();
   if (apart > std::max(far, labels.geometry.spacing.maxCoeff())) {
-    warnings.push_back("the middle of the surface is " + write_number(std::round(10 * apart) / 10) +
+    warnings.push_back("the middle of the surface is " + with_decimals(apart) +
                        " mm away from that of the brain's labels; are both of one patient and in one frame: mm, LPS?");
   }
   if (options.tumour_factor < 1 && std::ranges::find(labels.voxels, options.tumour_label) == labels.voxels.end()) {

@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/runner/enough_memory.hpp"
 
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 
 #include "pipelines/scene/stage_memory.hpp"
+#include "segmentation/options/values.hpp"
 
 namespace brainshift::pipelines {
 namespace {
 
-std::string to_tenths(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", number);
-  return text;
-}
-
 std::string gigabytes(double mb) {
-  return to_tenths(mb * 1024 * 1024 / 1e9);
+  return with_decimals(mb * 1024 * 1024 / 1e9);
 }
 
 std::string millions(double count) {
-  return to_tenths(count / 1e6) + " million";
+  return with_decimals(count / 1e6) + " million";
 }
 
 /// What the stage's memory grows with, and how to have less of it.

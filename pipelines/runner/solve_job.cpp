@@ -20,6 +20,7 @@
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/geometry/collinear.hpp"
+#include "segmentation/options/values.hpp"
 #include "solve/cut/septum.hpp"
 #include "solve/load/near_surface.hpp"
 #include "solve/load/noisy_load.hpp"
@@ -141,7 +142,7 @@ void write_measured(const SolveJob& job, const SolveInput& input, const solve::S
       said.notes.push_back(
           "no skull holds the brain: all rigid motion that was measured counts as the patient's registration");
     } else if (doubt > 1) {
-      said.notes.push_back("warning: the error of the registration is known to " + solve::rounded(doubt) +
+      said.notes.push_back("warning: the error of the registration is known to " + with_decimals(doubt) +
                            " mm only; the points do not tell it from the brain's own motion: measure more, some of "
                            "them inside the brain and some away from the opening");
     }
@@ -293,7 +294,7 @@ void read_measured_load(const SolveJob& job, SolveInput& input) {
     input.registration = found.motion;
     if (found.open > registration_at_rest) {
       input.notes.push_back("warning: the registration has not come to rest: it would still move by " +
-                            solve::rounded(found.open, 2) + " mm; measure more points, best inside the brain, too");
+                            with_decimals(found.open, 2) + " mm; measure more points, best inside the brain, too");
     }
   });
 }

@@ -29,7 +29,7 @@ namespace own = segmentation::default_label;
 
 constexpr double least_brain = 300e3;  // mm³; a tumour is smaller, the parenchyma of a brain larger
 
-std::string in_millilitres(double volume) {
+std::string in_whole_millilitres(double volume) {
   return std::to_string(std::lround(volume / 1000)) + " ml";
 }
 
@@ -107,7 +107,7 @@ class Writer {
       for (const auto& [number, part] : volumes) {
         volume += part;
       }
-      take(files_.tumour, "a tumour's map of " + in_millilitres(volume) +
+      take(files_.tumour, "a tumour's map of " + in_whole_millilitres(volume) +
                               (volumes.contains(2) && volumes.size() > 1 ? ", whose number 2 is oedema" : ""));
     }
   }
@@ -130,7 +130,7 @@ class Writer {
          {std::pair(own::parenchyma, "parenchyma"), std::pair(own::ventricles, "ventricles"),
           std::pair(own::tumour, "tumour"), std::pair(own::csf, "fluid"), std::pair(own::skull, "skull")}) {
       if (const auto found = volumes.find(label); found != volumes.end()) {
-        classes += std::string(classes.empty() ? "" : ", ") + name + " " + in_millilitres(found->second);
+        classes += std::string(classes.empty() ? "" : ", ") + name + " " + in_whole_millilitres(found->second);
       }
     }
     take(files_.labels, "a label map " + table + ": " + classes);
@@ -169,7 +169,7 @@ class Writer {
     constexpr double largest_ventricles = 250e3;  // mm³; segmentations with 1 grey and 2 white matter have more there
     if (const auto found = volumes_.find(own::ventricles);
         found != volumes_.end() && found->second > largest_ventricles) {
-      refuse(files_.labels, "its label 2 holds " + in_millilitres(found->second) +
+      refuse(files_.labels, "its label 2 holds " + in_whole_millilitres(found->second) +
                                 ", rare for ventricles and usual for white matter, so its numbers may be others than "
                                 "the program's own; give --labels-are with a table of them");
     }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace brainshift {
 
@@ -10,6 +12,12 @@ bool Range::holds(double value) const {
   const bool above = low_allowed ? value >= low : value > low;
   const bool below = high_allowed ? value <= high : value < high;
   return std::isfinite(value) && above && below;
+}
+
+std::string with_decimals(double number, int decimals) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << number;
+  return text.str();
 }
 
 std::vector<std::string> split_words(std::string_view text) {

@@ -48,6 +48,9 @@ std::string write_number(T value) {
   return {text, result.ptr};
 }
 
+/// Of so many decimals, for sentences.
+std::string with_decimals(double number, int decimals = 1);
+
 /// Words separated by blanks or commas.
 std::vector<std::string> split_words(std::string_view text);
 

@@ -2,14 +2,13 @@
 #include "solve/load/near_surface.hpp"
 
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "segmentation/geometry/point_tree.hpp"
 #include "segmentation/geometry/quantile.hpp"
+#include "segmentation/options/values.hpp"
 
 namespace brainshift::solve {
 namespace {
@@ -51,12 +50,6 @@ bool on_it_when_turned(const Distances& as_given, const Distances& turned, doubl
 
 }  // namespace
 
-std::string rounded(double number, int decimals) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(decimals) << number;
-  return text.str();
-}
-
 void check_load(const CraniotomyLoad& load) {
   if (load.positions.rows() == 0 || load.positions.rows() != load.displacement.rows()) {
     throw std::invalid_argument("load: no displacement is measured, or not one at each position");
@@ -78,17 +71,18 @@ void check_near_surface(const Points& measured, const Points& surface, double fa
   const Distances turned = distances_when_turned(tree, measured);
   if (on_it_when_turned(as_given, turned, farthest_allowed)) {
     throw std::invalid_argument(
-        "load: the measured points lie " + rounded(as_given.median) + " mm off the brain's surface (median; farthest " +
-        rounded(as_given.farthest) + " mm), and with x and y flipped all lie within " + rounded(turned.farthest) +
+        "load: the measured points lie " + with_decimals(as_given.median) +
+        " mm off the brain's surface (median; farthest " + with_decimals(as_given.farthest) +
+        " mm), and with x and y flipped all lie within " + with_decimals(turned.farthest) +
         " mm of it: RAS was most likely taken for LPS, or LPS for RAS; correct the frame that the load's file names");
   }
   if (as_given.farthest > farthest_allowed) {
     const Eigen::RowVector3d p = measured.row(as_given.farthest_row);
-    throw std::invalid_argument("load: measured point " + std::to_string(as_given.farthest_row + 1) + " of " +
-                                std::to_string(measured.rows()) + " at (" + rounded(p.x()) + ", " + rounded(p.y()) +
-                                ", " + rounded(p.z()) + ") LPS is " + rounded(as_given.farthest) +
-                                " mm from the nearest surface node, " + rounded(farthest_allowed) +
-                                " mm are allowed; are image and load in the same frame?");
+    throw std::invalid_argument(
+        "load: measured point " + std::to_string(as_given.farthest_row + 1) + " of " + std::to_string(measured.rows()) +
+        " at (" + with_decimals(p.x()) + ", " + with_decimals(p.y()) + ", " + with_decimals(p.z()) + ") LPS is " +
+        with_decimals(as_given.farthest) + " mm from the nearest surface node, " + with_decimals(farthest_allowed) +
+        " mm are allowed; are image and load in the same frame?");
   }
 }
 
@@ -97,9 +91,9 @@ void check_frame(const Points& measured, const Points& surface, double farthest_
   const PointTree tree(surface);
   const Distances as_given = distances_to(tree, measured), turned = distances_when_turned(tree, measured);
   if (as_given.median > off && 3 * turned.median < as_given.median && turned.farthest <= farthest_allowed) {
-    throw std::invalid_argument("load: the measured points lie " + rounded(as_given.median) +
+    throw std::invalid_argument("load: the measured points lie " + with_decimals(as_given.median) +
                                 " mm off the brain's surface (median), and with x and y flipped " +
-                                rounded(turned.median) +
+                                with_decimals(turned.median) +
                                 " mm: RAS was most likely taken for LPS, or LPS for RAS; correct the frame that the "
                                 "load's file names");
   }
@@ -136,7 +130,7 @@ double share_not_taken(const Points& measured, const NodeCloud& cloud, const Poi
 
 void check_taken(const Points& measured, const NodeCloud& cloud, const Points& prescribed) {
   if (const double share = share_not_taken(measured, cloud, prescribed); share > 0.5) {
-    throw std::invalid_argument("load: " + rounded(100 * share) + " % of the " + std::to_string(measured.rows()) +
+    throw std::invalid_argument("load: " + with_decimals(100 * share) + " % of the " + std::to_string(measured.rows()) +
                                 " measured points lie over no node that is loaded: they do not lie about one opening, "
                                 "as on both sides of the brain or all around it; give those of one opening");
   }
@@ -147,7 +141,7 @@ void check_no_places(const CraniotomyLoad& load) {
   const double places = load.positions.rowwise().norm().maxCoeff();
   const double apart = (load.displacement - load.positions).rowwise().norm().maxCoeff();
   if (apart < alike * places && load.displacement.rowwise().norm().minCoeff() > short_way) {
-    throw std::invalid_argument("load: its displacements are nearly its places, " + rounded(apart) +
+    throw std::invalid_argument("load: its displacements are nearly its places, " + with_decimals(apart) +
                                 " mm apart at most: are they where the points went? Give by how much each moved");
   }
 }
@@ -158,8 +152,8 @@ void check_moved(const Points& displacement, const Points& surface) {
   const double moved = displacement.rowwise().norm().maxCoeff(&farthest);
   if (!(moved <= 0.5 * across)) {
     throw std::invalid_argument("load: measured point " + std::to_string(farthest + 1) + " of " +
-                                std::to_string(displacement.rows()) + " moves by " + rounded(moved) +
-                                " mm, more than half of the body (" + rounded(across) +
+                                std::to_string(displacement.rows()) + " moves by " + with_decimals(moved) +
+                                " mm, more than half of the body (" + with_decimals(across) +
                                 " mm across); displacements in mm are expected");
   }
 }

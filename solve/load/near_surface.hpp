@@ -38,7 +38,4 @@ void check_moved(const Points& displacement, const Points& surface);
 /// points went.
 void check_no_places(const CraniotomyLoad& load);
 
-/// Of so many decimals, for sentences.
-std::string rounded(double number, int decimals = 1);
-
 }  // namespace brainshift::solve

@@ -9,6 +9,7 @@
 
 #include "segmentation/geometry/distinct_points.hpp"
 #include "segmentation/geometry/point_tree.hpp"
+#include "segmentation/options/values.hpp"
 #include "solve/arrays/shared_work.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/load/load_options.hpp"
@@ -114,7 +115,7 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
       nearest_miss = std::min(nearest_miss, distance_to(tree, node));
     }
     throw std::invalid_argument(
-        "load: no surface node lies under the opening; the nearest is " + rounded(nearest_miss) +
+        "load: no surface node lies under the opening; the nearest is " + with_decimals(nearest_miss) +
         " mm from a measured point: measure more points, or use a finer cloud or a wider margin");
   }
   return prescribed;
