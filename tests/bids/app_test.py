@@ -4,6 +4,8 @@
 
   app_test.py PROGRAM     ends with 77 where Snakemake is not installed
 """
+import csv
+import html
 import json
 import os
 import pathlib
@@ -41,13 +43,21 @@ class AppTest(unittest.TestCase):
 
     def test_the_broken_participant_is_named_and_the_others_are_done(self):
         self.assertEqual(self.first.returncode, NOT_ALL, self.first.stderr)
-        self.assertEqual(self.first.stdout, f"2 of 3 done: {self.out}\n")
+        self.assertEqual(self.first.stdout,
+                         f"2 of 3 done, 2 of them with warnings: see {self.out / 'group_measures.tsv'}\n")
         self.assertIn("sub-00003: no T1w image", self.first.stderr)
         self.assertIn("no T1w image", (self.out / "sub-00003.html").read_text())
         page = (self.out / "group.html").read_text()
         self.assertLess(page.index("sub-00003"), page.index("sub-00001"))
-        table = (self.out / "group_measures.tsv").read_text().splitlines()
-        self.assertEqual([line.split("\t")[1] for line in table[1:]], ["done", "done", "no result"])
+        record = json.loads((self.out / "work/sub-00001/run/run.json").read_text())
+        notes = [note for stage in record["stages"].values() for note in stage.get("notes", [])]
+        warnings = [note for note in notes if note.startswith("warning: ")]
+        self.assertIn(html.escape(warnings[0].removeprefix("warning: ")), page)
+        with open(self.out / "group_measures.tsv", newline="", encoding="utf-8") as stream:
+            table = list(csv.DictReader(stream, delimiter="\t"))
+        self.assertEqual([row["status"] for row in table], ["done", "done", "no result"])
+        self.assertEqual((table[0]["warnings"], "warning: " + table[0]["first_warning"]),
+                         (str(len(warnings)), warnings[0]))
 
     def test_derivatives_have_the_names_of_bids_and_the_bytes_of_a_single_run(self):
         stem = str(self.out / "sub-00001/anat/sub-00001_")
@@ -78,6 +88,7 @@ class AppTest(unittest.TestCase):
         again = call("brainshift-bids", self.bids, self.out, "participant", "--participant-label", "sub-00001", "00002",
                      *FAST)
         self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(again.stdout, f"2 of 2 done, 2 of them with warnings: see the pages in {self.out}\n")
         after = [self.inode(*stage) for stage in stages]
         self.assertEqual([one == other for one, other in zip(before, after)], [True, False, True])
         self.assertTrue((self.out / "sub-00002/anat/sub-00002_desc-jacobian_map.nii.gz").exists())
@@ -92,9 +103,13 @@ class AppTest(unittest.TestCase):
                     f"discretise.command={command}")
         self.assertEqual(done.returncode, NOT_ALL, done.stderr)
         self.assertIn("2: --set: tissues.1 youngs_modulus is '-5'", done.stderr)
+        self.assertEqual(done.stdout,
+                         f"1 of 2 done, 1 of them with warnings: see {self.root / 'sweep/measures.tsv'}\n")
         rows = [line.split("\t") for line in (self.root / "sweep/measures.tsv").read_text().splitlines()]
         row = dict(zip(rows[0], rows[1]))
         self.assertEqual((row["tissues.1.youngs_modulus"], row["status"]), ("2000", "done"))
+        self.assertGreater(int(row["warnings"]), 0)
+        self.assertNotEqual(row["first_warning"], "n/a")
         self.assertLess(float(row["largest_shift_mm"]), 20)
         self.assertTrue((self.root / "sweep" / "work" / "1/run/discretise/command.log").exists())
 

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a BIDS folder holds and what it lacks; the plan; the table and which rows lie far from the others."""
+import csv
 import hashlib
+import json
 import os
 import pathlib
 import sys
@@ -12,7 +14,7 @@ from unittest import mock
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipelines/bids"))
 
-from cohort import dataset, derivatives, files, marks, measures, names, pages, plan, program  # noqa: E402
+from cohort import dataset, derivatives, files, group, marks, measures, names, pages, plan, program  # noqa: E402
 from cohort.finder import Finder  # noqa: E402
 
 POINTS = "derivatives/plan/sub-01/anat/sub-01_desc-cortex_points.csv"
@@ -297,21 +299,22 @@ class FilesTest(Folder):
         self.assertEqual(list(self.root.iterdir()), [target])
 
 
-class GroupTest(unittest.TestCase):
+class GroupTest(Folder):
     def rows(self):
         rows = [{"name": f"sub-{i:02d}", "status": "done", "largest_shift_mm": 8 + 0.1 * (i % 5), "folded_voxels": 0,
-                 "seconds": 1.0} for i in range(20)]
+                 "seconds": 1.0, "warnings": 0} for i in range(20)]
         rows[7]["largest_shift_mm"] = 19.0
         rows[12]["folded_voxels"] = 3
+        rows[15] |= {"warnings": 2, "first_warning": "the points move <out>"}
         rows.append({"name": "sub-99", "status": "no result", "sentence": "no <T1w> image"})
         return rows
 
-    def test_far_rows_are_found_and_come_first_behind_those_without_a_result(self):
+    def test_far_rows_are_found_and_come_behind_those_without_a_result_or_with_warnings(self):
         rows = self.rows()
         far = measures.far_columns(rows)
         self.assertEqual([list(places) for places in far if places], [["largest_shift_mm"], ["folded_voxels"]])
-        order = [rows[i]["name"] for i in measures.outliers_first(rows, far)]
-        self.assertEqual((order[0], set(order[1:3])), ("sub-99", {"sub-07", "sub-12"}))
+        order = [rows[i]["name"] for i in measures.doubtful_first(rows, far)]
+        self.assertEqual((order[:2], set(order[2:4])), (["sub-99", "sub-15"], {"sub-07", "sub-12"}))
 
     def test_the_page_and_the_table_hold_every_row(self):
         rows = [{column: row.get(column) for column in (*row, *measures.COLUMNS, *measures.COSTS)}
@@ -319,9 +322,24 @@ class GroupTest(unittest.TestCase):
         text = pages.group_page(rows, measures.far_columns(rows), "t.tsv")
         self.assertEqual(text.count("<tr"), len(rows) + 1)
         self.assertIn("no &lt;T1w&gt; image", text)
+        self.assertIn("20 of 21 done, 1 of them with warnings", text)
+        self.assertEqual(text.count("<tr class=warned>"), 1)
+        self.assertIn('<td>2</td><td class="words">the points move &lt;out&gt;</td>', text)
         table = measures.as_table(rows, ("name", "largest_shift_mm"))
         self.assertEqual(table.splitlines()[-1], "sub-99\tn/a")
         self.assertEqual(table.splitlines()[8], "sub-07\t19")
+
+    def test_the_warnings_of_all_stages_stand_in_the_table_which_its_sidecar_describes(self):
+        clean = {"segment": {"notes": ["the numbers are FreeSurfer's"]}, "discretise": {}}
+        warned = {"segment": {"notes": [*clean["segment"]["notes"], "warning: the T1 is another's"]}, "discretise": {},
+                  "solve": {"notes": ["warning: the points move out of the head"]}}
+        done = {name: measures.row_of({"stages": stages}) for name, stages in (("sub-01", warned), ("sub-02", clean))}
+        group.write(self.root, done, {"sub-03": "no T1w image"})
+        with open(self.root / group.TABLE, newline="", encoding="utf-8") as stream:
+            rows = list(csv.DictReader(stream, delimiter="\t"))
+        self.assertEqual([(row["warnings"], row["first_warning"]) for row in rows],
+                         [("2", "the T1 is another's"), ("0", "n/a"), ("n/a", "n/a")])
+        self.assertEqual(set(json.loads((self.root / "group_measures.json").read_text())), set(rows[0]))
 
 
 class NamesTest(unittest.TestCase):

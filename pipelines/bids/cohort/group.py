@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The group level: one table, its sidecar and one page of all cases, outliers first."""
+"""The group level: one table, its sidecar and one page of all cases, doubtful ones first."""
 from . import measures, pages
 from .files import as_json, replace_text
 
@@ -21,7 +21,7 @@ def write(out, done, sentences):
     far = measures.far_columns(rows)
     for row, places in zip(rows, far):
         row["outlier_in"] = " ".join(places)
-    columns = ["name", "status", *measures.COLUMNS, *measures.COSTS, "outlier_in", "sentence"]
+    columns = ["name", "status", *measures.COLUMNS, *measures.COSTS, "outlier_in", *measures.WARNINGS, "sentence"]
     replace_text(out / TABLE, measures.as_table(rows, columns))
     replace_text(out / TABLE.replace(".tsv", ".json"), as_json(measures.described(OTHERS)))
     replace_text(out / PAGE, pages.group_page(rows, far, TABLE))

@@ -23,6 +23,11 @@ COSTS = {
     "seconds": ("Wall time of all stages", "s"),
     "peak_memory_mb": ("Most memory that a stage held", "MB"),
 }
+WARNINGS = {
+    "warnings": ("Warnings that the stages of the run gave", ""),
+    "first_warning": ("The first of them; the run's page has all", ""),
+}
+MARK = "warning:"  # begins a note that warns
 FAR = 3.5  # median absolute deviations, scaled to standard deviations: Iglewicz and Hoaglin's
 
 
@@ -42,7 +47,16 @@ def row_of(record):
     row = {name: looked_up(stages, path) for name, (path, _, _) in COLUMNS.items()}
     row["seconds"] = sum(stage.get("seconds", 0) for stage in stages.values())
     row["peak_memory_mb"] = max(stage.get("peak_memory_mb", 0) for stage in stages.values())
+    warnings = warnings_of(stages)
+    row["warnings"] = len(warnings)
+    row["first_warning"] = warnings[0] if warnings else None
     return row
+
+
+def warnings_of(stages):
+    """In the order of the stages, without their mark."""
+    notes = [note for stage in stages.values() for note in stage.get("notes", [])]
+    return [note[len(MARK):].strip() for note in notes if note.startswith(MARK)]
 
 
 def far_columns(rows):
@@ -63,10 +77,11 @@ def far_columns(rows):
     return far
 
 
-def outliers_first(rows, far):
-    """Indices: those without a result, then those that lie farthest out, then by name."""
+def doubtful_first(rows, far):
+    """Indices: those without a result, then those with warnings; of each those that lie farthest out, then by name."""
     return sorted(range(len(rows)),
-                  key=lambda i: (rows[i]["status"] == "done", -max(far[i].values(), default=0), rows[i]["name"]))
+                  key=lambda i: (rows[i]["status"] == "done", not rows[i].get("warnings"),
+                                 -max(far[i].values(), default=0), rows[i]["name"]))
 
 
 def written(value):
@@ -85,6 +100,6 @@ def as_table(rows, columns):
 
 def described(others):
     """The sidecar of the table; others: of the columns that are no measures."""
-    units = {name: (text, unit) for name, (_, text, unit) in COLUMNS.items()} | COSTS
+    units = {name: (text, unit) for name, (_, text, unit) in COLUMNS.items()} | COSTS | WARNINGS
     return others | {name: {"Description": text, **({"Units": unit} if unit else {})}
                      for name, (text, unit) in units.items()}

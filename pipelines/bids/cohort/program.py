@@ -15,6 +15,13 @@ def exit_code(snakemake, without_result):
     return 1 if snakemake else 4 if without_result else 0
 
 
+def closing(done, every, warned, place, told):
+    """The last line. warned: how many of those done have warnings; told: where these are told."""
+    if warned:
+        return f"{done} of {every} done, {warned} of them with warnings: see {told}"
+    return f"{done} of {every} done: {place}"
+
+
 def guarded(name, main):
     """What main says is the exit code; of what cannot be run or written, a sentence."""
     try:
