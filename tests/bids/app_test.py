@@ -4,7 +4,9 @@
 
   app_test.py PROGRAM     ends with 77 where Snakemake is not installed
 """
+import array
 import csv
+import gzip
 import html
 import json
 import os
@@ -26,6 +28,13 @@ NOT_ALL, UNUSABLE, NO_SNAKEMAKE = 4, 2, 77
 
 def call(tool, *words):
     return subprocess.run([APP / tool, *map(str, words)], capture_output=True, text=True, check=False)
+
+
+def tumour_map(labels):
+    """Of a phantom's labels, which are of 16 bits, those of the tumour as 1."""
+    plain = gzip.decompress(labels.read_bytes())
+    voxels = array.array("h", plain[352:])
+    return gzip.compress(plain[:352] + array.array("h", [int(label == 3) for label in voxels]).tobytes())
 
 
 class AppTest(unittest.TestCase):
@@ -92,6 +101,26 @@ class AppTest(unittest.TestCase):
         after = [self.inode(*stage) for stage in stages]
         self.assertEqual([one == other for one, other in zip(before, after)], [True, False, True])
         self.assertTrue((self.out / "sub-00002/anat/sub-00002_desc-jacobian_map.nii.gz").exists())
+
+    def test_the_group_names_the_file_that_is_gone_since_a_run(self):
+        extra, out = self.root / "extra", self.root / "with_tumour"
+        tumour = extra / "sub-00002/anat/sub-00002_label-tumor_mask.nii.gz"
+        tumour.parent.mkdir(parents=True)
+        planning = self.bids / "derivatives/planning"
+        tumour.write_bytes(tumour_map(planning / "sub-00002/anat/sub-00002_dseg.nii.gz"))
+        landmarks = self.root / "landmarks.mrk.json"  # of an option: it is no participant's, and none misses it
+        point = {"label": "tumour", "position": [9.6, 7.9, 54.9]}
+        landmarks.write_text(json.dumps({"markups": [{"coordinateSystem": "LPS", "controlPoints": [point]}]}))
+        folders = ("--derivatives", planning, extra)
+        done = call("brainshift-bids", self.bids, out, "participant", "--participant-label", "00002", "--one-job",
+                    *folders, *FAST, "--set", f"landmarks.file={landmarks}")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        record = json.loads((out / "work/sub-00002/run/run.json").read_text())
+        self.assertLessEqual({"image.tumour", "landmarks.file"}, {given["role"] for given in record["inputs"]})
+        group = ("brainshift-bids", self.bids, out, "group", "--one-job", *folders, "--brainshift", PROGRAM)
+        self.assertNotIn("sub-00002:", call(*group).stderr)
+        tumour.unlink()
+        self.assertIn(f"sub-00002: it was computed with {tumour}, which is no longer", call(*group).stderr)
 
     def test_a_sweep_with_another_program_in_a_stage(self):
         command = f"{PROGRAM} -q discretise --surface {{in}}/segment/brain.vtp --labels {{in}}/segment/labels.nii.gz " \

@@ -223,13 +223,42 @@ class PlanTest(Folder):
         self.assertNotEqual(file.stat().st_ino, first)
         self.assertIn("files=(--t1 'a b')", file.read_text())
 
-    def test_a_case_has_changed_where_a_file_holds_something_else(self):
-        self.make("t1.nii.gz", text="one")
-        case = plan.Case("sub-01", "", [], [], [str(self.root / "t1.nii.gz")])
-        record = {"inputs": [{"sha256": hashlib.sha256(b"one").hexdigest()}]}
-        self.assertFalse(plan.has_changed(record, case))
-        self.make("t1.nii.gz", text="two")
-        self.assertTrue(plan.has_changed(record, case))
+    def why_outdated(self, case_files, used):
+        """The scene names t1, tumour and load; used: of the run, what each file held."""
+        names = {name: self.root / name for name in {"t1", "tumour", "load", *case_files, *used}}
+        scene = self.root / "scene.xml"
+        scene.write_text(f'<scene><image t1="{names["t1"]}" tumour="{names["tumour"]}" smooth="1"/>'
+                         f'<load file="{names["load"]}"/></scene>')
+        record = {"inputs": [{"path": str(names[name]), "sha256": hashlib.sha256(held.encode()).hexdigest()}
+                             for name, held in used.items()]}
+        case = plan.Case("sub-01", "", [], [], [str(names[name]) for name in case_files])
+        return plan.why_outdated(record, case, scene)
+
+    def test_a_run_is_outdated_where_a_file_holds_something_else_or_is_new(self):
+        used = {"t1": "one", "tumour": "two", "load": "three"}
+        for name, held in used.items():
+            self.make(name, text=held)
+        self.assertEqual(self.why_outdated(list(used), used), "")
+        self.make("cuts", text="four")
+        self.assertIn("have changed", self.why_outdated([*used, "cuts"], used))
+        self.make("t1", text="another")
+        self.assertIn("its files have changed", self.why_outdated(list(used), used))
+
+    def test_a_run_is_outdated_where_a_file_is_gone_and_the_file_is_named(self):
+        used = {"t1": "one", "tumour": "two", "load": "three"}
+        self.make("t1", text="one")
+        self.make("load", text="three")
+        self.assertIn(f"it was computed with {self.root / 'tumour'}, which", self.why_outdated(["t1", "load"], used))
+        self.make("renamed", text="two")
+        self.assertEqual(self.why_outdated(["t1", "load", "renamed"], used), "", "by another name, of the same content")
+
+    def test_a_run_with_files_of_options_is_not_outdated(self):
+        self.make("t1", text="one")
+        self.make("load", text="three")
+        self.make("tumour", text="the participant's own, which an option replaced")
+        used = {"t1": "one", "load": "three", "given": "two", "landmarks": "four"}
+        self.assertEqual(self.why_outdated(["t1", "tumour", "load"], used), "")
+        self.assertEqual(self.why_outdated(["t1", "load"], used), "", "nobody used what is gone")
 
     def test_a_file_that_an_option_names_counts_as_the_scenes_own(self):
         self.make("load.csv", "t1/slice.dcm", "discretise/nodes.vtu", text="one")
@@ -245,7 +274,7 @@ class PlanTest(Folder):
         self.make("t1/slice.dcm", text="another")
         plan.write_case(self.root, case, "1.0")
         self.assertNotEqual((self.root / "row/case.sh").read_text(), first)
-        self.assertFalse(plan.has_changed({"inputs": []}, case), "a folder's own sum is the run's matter")
+        self.assertEqual(plan.why_outdated({"inputs": []}, case, scene), "", "a folder's own sum is the run's matter")
 
     def test_an_image_whose_compression_is_damaged_has_no_grid(self):
         file = self.root / "a.nii.gz"

@@ -60,11 +60,20 @@ def files_in(given):
     return [given] if os.path.exists(given) else []
 
 
-def has_changed(record, case):
-    """Whether a file of the case is none of those that its run, by run.json, was made of."""
-    made_of = {given.get("sha256") for given in record["inputs"]}
-    return any(hashlib.sha256(Path(file).read_bytes()).hexdigest() not in made_of for file in case.inputs
-               if os.path.isfile(file))
+def why_outdated(record, case, scene):
+    """Empty where a run was made of the case's files as they are now; else a sentence. record: its run.json; scene: its
+    scene, which names files of the case alone. What --set gave besides, or in the place of one, is of no case."""
+    elements = tree.parse(scene).iter() if scene.exists() else ()
+    named = {value for element in elements for value in element.attrib.values()}
+    made_of = {given["path"]: given["sha256"] for given in record["inputs"]}
+    sums = {file: hashlib.sha256(Path(file).read_bytes()).hexdigest() for file in case.inputs if os.path.isfile(file)}
+    gone = [file for file in made_of if file in named - sums.keys() and made_of[file] not in sums.values()]
+    if gone:
+        return f"it was computed with {gone[0]}, which is no longer among its files; give the level participant again"
+    replaced = named - made_of.keys()
+    if any(sums[file] not in made_of.values() for file in sums.keys() - replaced):
+        return "its files have changed since it was computed; give the level participant again"
+    return ""
 
 
 def set_words(case):
