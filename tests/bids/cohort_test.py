@@ -358,6 +358,10 @@ class GroupTest(Folder):
         self.assertEqual(table.splitlines()[-1], "sub-99\tn/a")
         self.assertEqual(table.splitlines()[8], "sub-07\t19")
 
+    def test_the_last_line_says_how_many_have_warnings_where_some_have(self):
+        self.assertEqual(program.closing(7, 9, 0, "out", "t.tsv"), "7 of 9 done: out")
+        self.assertEqual(program.closing(7, 9, 2, "out", "t.tsv"), "7 of 9 done, 2 of them with warnings: see t.tsv")
+
     def test_the_warnings_of_all_stages_stand_in_the_table_which_its_sidecar_describes(self):
         clean = {"segment": {"notes": ["the numbers are FreeSurfer's"]}, "discretise": {}}
         warned = {"segment": {"notes": [*clean["segment"]["notes"], "warning: the T1 is another's"]}, "discretise": {},
