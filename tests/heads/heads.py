@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs heads and writes the table of them; called by run.sh."""
 import array
-import base64
 import csv
 import html
 import json
 import pathlib
 import resource
-import struct
 import subprocess
 import sys
 import time
 import xml.etree.ElementTree as tree
-import zlib
+
+sys.dont_write_bytecode = True
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "random"))
+
+import vtu  # noqa: E402
 
 DIRECTION = (0.5, -0.1, 0.86)  # of the opening from the brain's middle, LPS: the left frontal and parietal lobe
 FIELDS = ("head", "converged", "seconds", "segment_seconds", "peak_mb", "smallest_jacobian", "folded_voxels",
@@ -24,24 +26,12 @@ BOUNDS = {"seconds": 30, "segment_seconds": 10, "peak_mb": 1500, "folded_voxels"
 LEAST_JACOBIAN = 0.3
 
 
-def decoded(text, size):
-    return base64.b64decode(text[:4 * ((size + 2) // 3)])[:size]
-
-
 def points(file):
-    """Points of a .vtp that brainshift wrote: appended base64 of zlib blocks."""
+    """Points of a .vtp that brainshift wrote."""
     root = tree.parse(file).getroot()
     element = root.find(".//Points/DataArray")
     text = root.find("AppendedData").text.strip()[1:][int(element.get("offset")):]
-    blocks = struct.unpack("<I", decoded(text, 4))[0]
-    header = 4 * (3 + blocks)
-    sizes = struct.unpack_from(f"<{blocks}I", decoded(text, header), 12)
-    packed = decoded(text[4 * ((header + 2) // 3):], sum(sizes))
-    plain, start = b"", 0
-    for size in sizes:
-        plain += zlib.decompress(packed[start:start + size])
-        start += size
-    values = array.array("d", plain)
+    values = array.array("d", vtu.unpacked(text))
     return list(zip(values[0::3], values[1::3], values[2::3]))
 
 
