@@ -3,30 +3,18 @@ import sys
 
 import numpy as np
 
-from . import ccx, cylinders, deck, evaluate, meshes, tables
+from . import ccx, cylinders, deck, disc, evaluate, tables
 
 RADIUS, HEIGHT, PUNCH, DEEPEST = 15.0, 17.0, 5.0, 8.0
 LEVELS = [4, 8, 16]  # cells under the punch; as many beside it and 3/2 as many in the height
-POWER = 1.25
 STEP = 0.25
 SHARES = np.arange(1, int(DEEPEST / STEP) + 1) * STEP / DEEPEST
 SAMPLED = [2.0, 4.0]
-TO_NEWTON = 180e-6  # CalculiX gives the force of its sector of 2 degrees, here in micronewton
-
-
-def section(cells):
-    """Triangles of 0 <= r <= 15, 0 <= z <= 17, graded to the edge of the punch; diagonals end there from both sides."""
-    crowded = meshes.graded(cells, POWER)
-    z = HEIGHT * meshes.graded(cells * 3 // 2, POWER)
-    left = meshes.triangles(meshes.rectangle(PUNCH * crowded, z))
-    right = meshes.triangles(meshes.rectangle((RADIUS - PUNCH) * crowded, z))
-    right_nodes = right.nodes * [-1, 1] + [RADIUS, 0]
-    flipped = right.elements[:, [0, 2, 1, 5, 4, 3]]
-    return meshes.merged(np.vstack([left.nodes, right_nodes]), np.vstack([left.elements, flipped + len(left.nodes)]))
+CASE = disc.Case("indentation", RADIUS, HEIGHT, PUNCH, DEEPEST, 0.49)
 
 
 def solve(cells, folder, material):
-    mesh = section(cells)
+    mesh = disc.section(CASE, cells)
     r, z = mesh.nodes.T
     punch, bottom, axis = mesh.where((z > HEIGHT - 1e-6) & (r < PUNCH + 1e-6)), mesh.where(z < 1e-6), mesh.where(r < 1e-6)
     prescribed = (deck.prescribe(punch, 1, 0) + deck.prescribe(punch, 2, -DEEPEST) + deck.prescribe(bottom, 1, 0)
@@ -36,18 +24,12 @@ def solve(cells, folder, material):
     return mesh, ccx.run(path, len(mesh.nodes))
 
 
-def at_points(mesh, field, points):
-    r = np.hypot(points[:, 0], points[:, 1])
-    values = evaluate.Interpolator(mesh, np.column_stack([r, points[:, 2]]))(field)
-    return np.column_stack([points[:, :2] / np.maximum(r, 1e-9)[:, None] * values[:, :1], values[:, 1]])
-
-
 def sound_curve(mesh, run):
     """Rows depth, force as far as they can be trusted: to the first snap (a step of the force 5 % below the one before: the
     elements at the punch edge fold) or element turned inside out. CalculiX goes on after both."""
     rows = [[0.0, 0.0]]
     for share, force in sorted(run.forces["PUNCH"].items()):
-        row = [DEEPEST * share, -TO_NEWTON * force[1]]
+        row = [DEEPEST * share, -disc.TO_NEWTON * force[1]]
         snaps = len(rows) > 1 and row[1] - rows[-1][1] < 0.95 * (rows[-1][1] - rows[-2][1])
         if snaps or evaluate.smallest_area_ratio(mesh, run.fields[share]) <= 0:
             break
@@ -56,14 +38,14 @@ def sound_curve(mesh, run):
 
 
 def main(folder, out):
-    material = deck.NeoHookean.from_young(5000, 0.49)
+    material = deck.NeoHookean.from_young(5000, CASE.nu)
     points = cylinders.sample_points(RADIUS, HEIGHT, [(PUNCH, HEIGHT), (RADIUS, 0)])
     runs = [solve(cells, folder, material) for cells in LEVELS]
     curves = [sound_curve(mesh, run) for mesh, run in runs]
     reached = [curve[-1, 0] for curve in curves]
     for (mesh, run), curve in zip(runs, curves):
         print(f"indentation: {len(mesh.elements)} CAX6, stopped after {DEEPEST * run.reached:g} mm, sound to {curve[-1]}, bottom "
-              f"{run.forces['BOTTOM'][round(curve[-1, 0] / DEEPEST, 6)][1] * TO_NEWTON:.6f} N, {run.seconds:.0f} s", flush=True)
+              f"{run.forces['BOTTOM'][round(curve[-1, 0] / DEEPEST, 6)][1] * disc.TO_NEWTON:.6f} N, {run.seconds:.0f} s", flush=True)
     finest = runs[-1][0]
 
     def about(title, lines):
@@ -74,7 +56,7 @@ def main(folder, out):
                 "boundary: z = 0: u = 0; z = 17 and r <= 5: uz = -depth, ux = uy = 0; the rest free; static, large strain",
                 f"made by fe/indentation.py with {tables.versions()}",
                 f"finest mesh: {len(finest.elements)} CAX6 on {len(finest.nodes)} nodes in the axial section, "
-                f"graded to the punch edge with power {POWER}",
+                f"graded to the punch edge with power {disc.POWER}",
                 f"with {', '.join(map(str, LEVELS))} cells under the punch CalculiX stopped after "
                 f"{', '.join(f'{DEEPEST * run.reached:g}' for _, run in runs)} mm; the last depth before the elements at the "
                 f"punch edge fold (the force snaps) is {', '.join(f'{d:g}' for d in reached)} mm",
@@ -82,8 +64,8 @@ def main(folder, out):
 
     for depth in sorted({min(d, min(reached)) for d in SAMPLED}):
         share = round(depth / DEEPEST, 6)
-        samples = [at_points(mesh, run.fields[share], points) for mesh, run in runs]
-        forces = [-TO_NEWTON * run.forces["PUNCH"][share][1] for _, run in runs]
+        samples = [disc.at_points(mesh, run.fields[share], points) for mesh, run in runs]
+        forces = [-disc.TO_NEWTON * run.forces["PUNCH"][share][1] for _, run in runs]
         force, lengths, lines = tables.convergence(forces, samples, LEVELS)
         comments = about(f"depth {depth:g} mm", [f"force {forces[-1]:.6g} N", *lines, tables.error_line(force, lengths)])
         tables.write_samples(f"{out}/indentation_{depth:g}mm.csv", comments, points, samples[-1])
