@@ -61,10 +61,6 @@ std::vector<std::map<std::string, double>> read_table(const fs::path& file) {
   return rows;
 }
 
-void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
-}
-
 std::vector<std::string> half_written(const fs::path& folder) {
   std::vector<std::string> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "segmentation/files/write_text.hpp"
+
 namespace brainshift {
 
 struct ProgramResult {
@@ -35,7 +37,6 @@ class ScratchFolder {
 std::string contents_of(const std::filesystem::path& file);
 /// The rows of a .csv, lines of comments left out: values by the names of their columns.
 std::vector<std::map<std::string, double>> read_table(const std::filesystem::path& file);
-void write_text(const std::filesystem::path& file, const std::string& text);
 
 /// Names ending in .partial or .old anywhere under the folder, and beside it: what a stopped program must not leave.
 std::vector<std::string> half_written(const std::filesystem::path& folder);
