@@ -23,6 +23,7 @@
 #include "pipelines/scene/new_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
 #include "pipelines/scene/presets.hpp"
+#include "pipelines/slicer/check_outputs.hpp"
 #include "pipelines/slicer/description.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
@@ -41,17 +42,6 @@ struct SlicerArguments {
 
   std::string value(const std::string& flag) const { return values.contains(flag) ? values.at(flag) : ""; }
 };
-
-template <class Visit>
-void for_each_parameter(Kind kind, const Visit& visit) {
-  for (const SlicerGroup& group : slicer_groups()) {
-    for (const SlicerParameter& parameter : group.parameters) {
-      if (parameter.kind == kind) {
-        visit(parameter);
-      }
-    }
-  }
-}
 
 std::string as_xml_text(std::string_view text) {
   std::string safe;
@@ -96,17 +86,6 @@ class Progressing {
  private:
   double shown_ = -1;
 };
-
-void check_outputs(const SlicerArguments& arguments) {
-  for_each_parameter(Kind::output, [&](const SlicerParameter& output) {
-    const std::string file = arguments.value(output.flag);
-    for (const auto& [name, ending] : output.attributes) {
-      if (name == "fileExtensions" && !file.empty() && !file.ends_with(ending)) {
-        throw std::invalid_argument("--" + output.flag + " is '" + file + "', but must end in " + ending);
-      }
-    }
-  });
-}
 
 /// The scene with options as attributes, PATH=VALUE each: 'brainshift run' on it does the same. None is of a part that
 /// the scene lacks.
@@ -273,7 +252,7 @@ void write_returned(const SlicerArguments& arguments, const RunOutcome& outcome)
 }
 
 void run_module(const SlicerArguments& arguments, const Settings& settings) {
-  check_outputs(arguments);
+  check_outputs(arguments.values, arguments.return_file);
   std::optional<ScratchFolder> scratch;
   fs::path folder = arguments.value("run");
   if (folder.empty()) {

@@ -32,6 +32,17 @@ struct SlicerGroup {
 /// The parameters. Those that are options of a scene have help, range and default of the table of options.
 const std::vector<SlicerGroup>& slicer_groups();
 
+template <class Visit>
+void for_each_parameter(SlicerParameter::Kind kind, const Visit& visit) {
+  for (const SlicerGroup& group : slicer_groups()) {
+    for (const SlicerParameter& parameter : group.parameters) {
+      if (parameter.kind == kind) {
+        visit(parameter);
+      }
+    }
+  }
+}
+
 /// The module's description, XML of the Slicer Execution Model; `as_files` for hosts that know its images, files and
 /// numbers alone, in the dialect of CTK's schema.
 std::string slicer_description(bool as_files);

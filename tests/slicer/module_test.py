@@ -2,6 +2,7 @@
 """The command-line module, called by a stand-in of 3D Slicer.  python3 module_test.py PROGRAM MODULE [Class]"""
 import json
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -115,6 +116,19 @@ class Refused(unittest.TestCase):
     def test_a_value_that_is_not_allowed_is_told(self):
         self.assertIn("noise is 'much'", self.refusal({**head, "noise": "much"}))
         self.assertIn("edge_length is '0.1'", self.refusal({**head, "edge_length": 0.1}))
+
+    def test_an_output_that_cannot_be_written_is_told_before_the_run(self):
+        begun = time.monotonic()
+        for words, said in ((["--warped", folder / "none" / "w.nii.gz"], f"no folder {folder / 'none'}"),
+                            (["--displacement", ""], "--displacement is empty"),
+                            (["--warped", head["t1"]], "must end in .nii.gz"),
+                            (["--returnparameterfile", head["t1"]], "is --t1, too")):
+            inputs = [word for name, file in head.items() for word in ("--" + name, file)]
+            done = subprocess.run([program, "slicer", *inputs, *words], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+            self.assertIn(said, done.stderr)
+            self.assertNotIn("<filter-start>", done.stdout)
+        self.assertLess(time.monotonic() - begun, 20)
 
 
 if __name__ == "__main__":
