@@ -5,8 +5,11 @@
 #include <CGAL/Polygon_mesh_processing/repair.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "segmentation/geometry/cgal_bridge.hpp"
 
@@ -41,6 +44,47 @@ std::size_t border_edges(const CgalMesh& mesh) {
   return count;
 }
 
+/// The shells that face the other way than a body's do, whose outermost face outward and those within by turns, each by
+/// its number and first triangle, and how many shells there are. The numbers are in the order of the triangles.
+struct WrongShells {
+  std::vector<std::pair<std::size_t, CgalMesh::Face_index>> wrong;
+  std::size_t all = 0;
+};
+
+WrongShells wrong_shells(CgalMesh& mesh) {
+  const auto volume_of = mesh.add_property_map<CgalMesh::Face_index, std::size_t>("f:volume").first;
+  const auto shell_of = mesh.add_property_map<CgalMesh::Face_index, std::size_t>("f:shell").first;
+  std::vector<std::size_t> depth;
+  std::vector<bool> outward;
+  pmp::volume_connected_components(mesh, volume_of,
+                                   CGAL::parameters::face_connected_component_map(shell_of)
+                                       .nesting_levels(std::ref(depth))
+                                       .is_cc_outward_oriented(std::ref(outward)));
+  WrongShells shells;
+  for (const auto face : mesh.faces()) {
+    const std::size_t shell = shell_of[face];
+    if (shell < shells.all) {
+      continue;
+    }
+    ++shells.all;  // CGAL numbers the shells as it meets them
+    if (outward[shell] != (depth[shell] % 2 == 0)) {
+      shells.wrong.emplace_back(shell + 1, face);
+    }
+  }
+  return shells;
+}
+
+[[noreturn]] void refuse_orientation(CgalMesh& mesh, const std::string& what) {
+  const WrongShells shells = wrong_shells(mesh);
+  if (shells.wrong.empty() || shells.wrong.size() == shells.all) {
+    refuse(what, "is inside out: its triangles must be counter-clockwise seen from outside; flip them.");
+  }
+  const auto& [shell, face] = shells.wrong.front();
+  refuse(what, "is inside out in part: shell " + std::to_string(shell) + " of " + std::to_string(shells.all) +
+                   " faces the wrong way, that of triangle " + std::to_string(static_cast<std::size_t>(face)) +
+                   "; flip the triangles of this shell alone, or remove it.");
+}
+
 }  // namespace
 
 void check_encloses_body(const Surface& surface, const std::string& what) {
@@ -59,7 +103,7 @@ void check_encloses_body(const Surface& surface, const std::string& what) {
     refuse(what, "intersects itself; repair it (the segment stage can).");
   }
   if (!(volume(surface) > 0) || !pmp::does_bound_a_volume(*mesh)) {
-    refuse(what, "is inside out: its triangles must be counter-clockwise seen from outside; flip them.");
+    refuse_orientation(*mesh, what);
   }
 }
 

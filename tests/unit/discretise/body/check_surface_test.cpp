@@ -67,13 +67,34 @@ TEST(CheckSurface, RefusesASurfaceThatCutsItself) {
   EXPECT_NE(fault(spike).find("intersects itself"), std::string::npos);
 }
 
+Surface flipped(Surface surface) {
+  surface.triangles.col(0).swap(surface.triangles.col(1));
+  return surface;
+}
+
+const Surface within = box({2, 2, 2}, {4, 4, 4}), beside = box({20, 0, 0}, {22, 2, 2});
+
+TEST(CheckSurface, LetsPassACavityAndABodyWithinIt) {
+  const Surface hollow = joined(box({0, 0, 0}, {30, 30, 30}), flipped(box({5, 5, 5}, {25, 25, 25})));
+  EXPECT_EQ(fault(hollow), "");
+  EXPECT_EQ(fault(joined(hollow, box({10, 10, 10}, {20, 20, 20}))), "");
+}
+
 TEST(CheckSurface, RefusesASurfaceThatIsInsideOut) {
-  Surface turned = body;
-  turned.triangles.col(0).swap(turned.triangles.col(1));
-  EXPECT_NE(fault(turned).find("inside out"), std::string::npos);
-  Surface second = box({20, 0, 0}, {22, 2, 2});
-  second.triangles.col(0).swap(second.triangles.col(1));
-  EXPECT_NE(fault(joined(body, second)).find("inside out"), std::string::npos) << "one of two bodies";
+  for (const Surface& turned : {flipped(body), flipped(joined(body, beside)), joined(flipped(body), within)}) {
+    EXPECT_NE(fault(turned).find("is inside out: "), std::string::npos) << fault(turned);
+    EXPECT_NE(fault(turned).find("flip them"), std::string::npos) << "all of its shells";
+  }
+}
+
+TEST(CheckSurface, NamesTheShellThatFacesTheWrongWay) {
+  const std::string last = "shell 2 of 2 faces the wrong way, that of triangle 12; flip the triangles of this shell";
+  EXPECT_NE(fault(joined(body, within)).find(last), std::string::npos) << "a cavity that faces outward";
+  EXPECT_NE(fault(joined(body, flipped(beside))).find(last), std::string::npos) << "a stray one that faces inward";
+  EXPECT_NE(fault(joined(flipped(beside), body)).find("shell 1 of 2 faces the wrong way"), std::string::npos);
+  EXPECT_NE(fault(joined(flipped(body), beside)).find("shell 1 of 2"), std::string::npos) << "the largest";
+  const Surface three = joined(joined(body, flipped(within)), flipped(beside));
+  EXPECT_NE(fault(three).find("shell 3 of 3 faces the wrong way, that of triangle 24"), std::string::npos);
 }
 
 }  // namespace brainshift::discretise::check_surface_test
