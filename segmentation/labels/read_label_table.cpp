@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -95,7 +96,9 @@ bool has_letter(const std::string& name) {
   return std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; });
 }
 
-void add_row(LabelTable& table, const Row& row, const fs::path& file, std::size_t line) {
+// first_lines: of each number, the line that names it first.
+void add_row(LabelTable& table, const Row& row, const fs::path& file, std::size_t line,
+             std::map<int, std::size_t>& first_lines) {
   const auto number = read_number<int>(trimmed(row.number));
   if (!number || !has_letter(row.name)) {
     fail_at_line(file, line,
@@ -104,6 +107,11 @@ void add_row(LabelTable& table, const Row& row, const fs::path& file, std::size_
   }
   if (*number < 0 || *number > static_cast<int>(label_numbers.high)) {
     return;  // a list of colours names numbers that no label map of ours holds
+  }
+  if (const auto known = first_lines.emplace(*number, line); !known.second) {
+    fail_at_line(file, line,
+                 "names the number " + std::to_string(*number) + ", which line " + std::to_string(known.first->second) +
+                     " names already; keep one of the two");
   }
   table.classes[static_cast<std::uint16_t>(*number)] = *number == 0 ? std::uint16_t{0} : class_of_name(row.name);
 }
@@ -203,10 +211,11 @@ LabelTable read_label_table(const fs::path& file) {
   const auto lines = read_lines(file);
   const auto columns = columns_of(lines.front());
   LabelTable table{"those of " + file.string(), {}};
+  std::map<int, std::size_t> first_lines;
   for (std::size_t i = columns ? 1 : 0; i < lines.size(); ++i) {
     const std::string_view text = trimmed(lines[i]);
     if (!text.empty() && text.front() != '#') {
-      add_row(table, row_of(lines[i], columns), file, i + 1);
+      add_row(table, row_of(lines[i], columns), file, i + 1, first_lines);
     }
   }
   if (table.classes.empty()) {

@@ -74,6 +74,18 @@ TEST_F(TableFile, WhatIsNoTableIsRefusedWithItsLine) {
   EXPECT_TRUE(refused(scratch_.path() / "none.txt", {"no such file"}));
 }
 
+TEST_F(TableFile, ANumberThatIsNamedTwiceIsRefusedWithBothLines) {
+  for (const auto& [name, text] :
+       {std::pair("a.tsv", "index\tname\n10\tBrain\n40\tCSF\n10\tSkull\n"),
+        {"b.txt", "# numbers\n10 Brain\n\n10 Brain\n"},
+        {"c.txt", "9 CSF\n10 1 2 3 1 1 1 \"Brain\"\n8 Skull\n010 1 2 3 1 1 1 \"Skull\"\n"}}) {
+    const auto file = write(name, text);
+    EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_label_table(file); },
+                                                     {name + std::string(":4"), "number 10", "line 2"}));
+  }
+  EXPECT_EQ(read_label_table(write("d.txt", "1 Brain\n99000 far\n99000 too\n")).classes.size(), 1) << "not of a map";
+}
+
 TEST(ClassOfName, FollowsItsWords) {
   EXPECT_EQ(class_of_name("Right-Inf-Lat-Vent"), default_label::ventricles);
   EXPECT_EQ(class_of_name("choroid plexus"), default_label::ventricles);
