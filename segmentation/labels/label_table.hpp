@@ -33,7 +33,8 @@ const std::vector<std::string>& label_table_names();
 /// a number twice.
 LabelTable read_label_table(const std::filesystem::path& file);
 
-/// The class that the words in a tissue's name tell, in upper or lower case; parenchyma where they tell none.
+/// The class that the words in a tissue's name tell, in upper or lower case; parenchyma where they tell none. A word
+/// ends where its letters do, or where a capital begins another: "LateralVentricles", "CSFSpace".
 std::uint16_t class_of_name(const std::string& name);
 
 /// Whether a name says anything: "Segment_1", as 3D Slicer names what nobody named, does not.

@@ -20,18 +20,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The words of "Left-Inf-Lat-Vent" or "ctx_lh_G_oc-temp", in lower case.
-std::vector<std::string> words_of(const std::string& name) {
-  std::vector<std::string> words(1);
-  for (const char letter : in_lower_case(name)) {
+bool is_upper(char letter) {
+  return std::isupper(static_cast<unsigned char>(letter)) != 0;
+}
+
+bool is_lower(char letter) {
+  return std::islower(static_cast<unsigned char>(letter)) != 0;
+}
+
+// The runs of letters in a name, as they are written.
+std::vector<std::string> parts_of(const std::string& name) {
+  std::vector<std::string> parts(1);
+  for (const char letter : name) {
     if (std::isalpha(static_cast<unsigned char>(letter)) != 0) {
-      words.back() += letter;
-    } else if (!words.back().empty()) {
-      words.emplace_back();
+      parts.back() += letter;
+    } else if (!parts.back().empty()) {
+      parts.emplace_back();
     }
   }
-  if (words.back().empty()) {
-    words.pop_back();
+  if (parts.back().empty()) {
+    parts.pop_back();
+  }
+  return parts;
+}
+
+// Whether another word begins there, not at the first letter: in "LateralVentricles" at V, in "CSFSpace" at its last S.
+bool begins_word(const std::string& part, std::size_t at) {
+  return is_upper(part[at]) && (is_lower(part[at - 1]) || (at + 1 < part.size() && is_lower(part[at + 1])));
+}
+
+// The words of "Left-Inf-Lat-Vent", "ctx_lh_G_oc-temp" or "LateralVentricles", in lower case; of what capitals part,
+// the whole, too: "ExtraCerebral".
+std::vector<std::string> words_of(const std::string& name) {
+  std::vector<std::string> words;
+  for (const std::string& part : parts_of(name)) {
+    words.push_back(in_lower_case(part));
+    std::size_t from = 0;
+    for (std::size_t at = 1; at <= part.size(); ++at) {
+      const bool ends = at == part.size() ? from > 0 : begins_word(part, at);
+      if (ends) {
+        words.push_back(in_lower_case(part.substr(from, at - from)));
+        from = at;
+      }
+    }
   }
   return words;
 }
@@ -199,8 +230,8 @@ std::uint16_t class_of_name(const std::string& name) {
 }
 
 bool name_tells_class(const std::string& name) {
-  const auto words = words_of(name);
-  return !words.empty() && words.front() != "segment";
+  const auto parts = parts_of(name);
+  return !parts.empty() && in_lower_case(parts.front()) != "segment";
 }
 
 LabelTable read_label_table(const fs::path& file) {

@@ -104,4 +104,42 @@ TEST(ClassOfName, FollowsItsWords) {
   EXPECT_EQ(class_of_name("hippocampal head"), default_label::parenchyma);
 }
 
+TEST(ClassOfName, PartsWordsAtTheirCapitals) {
+  EXPECT_EQ(class_of_name("LateralVentricles"), default_label::ventricles);
+  EXPECT_EQ(class_of_name("leftLateralVentricle2"), default_label::ventricles);
+  EXPECT_EQ(class_of_name("BrainTumor"), default_label::tumour);
+  EXPECT_EQ(class_of_name("GTVEnhancing"), default_label::tumour);
+  EXPECT_EQ(class_of_name("SkullBone"), default_label::skull);
+  EXPECT_EQ(class_of_name("CSFSpace"), default_label::csf);
+  EXPECT_EQ(class_of_name("extraCSF"), default_label::csf);
+  EXPECT_EQ(class_of_name("SkullStrippedBrain"), default_label::parenchyma);
+  EXPECT_EQ(class_of_name("HeadOfCaudate"), default_label::parenchyma);
+}
+
+TEST(ClassOfName, KnownTablesHaveTheirClasses) {
+  for (const char* name :
+       {"Left-VentralDC", "VentralDC", "WM-hypointensities", "Left-Cerebral-White-Matter", "Brain-Stem",
+        "CC_Mid_Anterior", "Left-Accumbens-area", "ctx-lh-bankssts", "ctx_rh_G_and_S_cingul-Mid-Ant", "wm-lh-insula",
+        "Optic-Chiasm", "left ventral DC", "Medullary-Bulb", "DCerebellarNuclei", "L_FEFarea"}) {
+    EXPECT_EQ(class_of_name(name), default_label::parenchyma) << name;
+  }
+  for (const char* name : {"Left-Lateral-Ventricle", "3rd-Ventricle", "4th-Ventricle", "5th-Ventricle",
+                           "Left-Inf-Lat-Vent", "Left-choroid-plexus", "right inferior lateral ventricle"}) {
+    EXPECT_EQ(class_of_name(name), default_label::ventricles) << name;
+  }
+  EXPECT_EQ(class_of_name("CSF"), default_label::csf);
+  for (const char* name : {"Unknown", "Head-ExtraCerebral", "BoneOrAir"}) {
+    EXPECT_EQ(class_of_name(name), 0) << name;
+  }
+}
+
+TEST(NameTellsClass, UnlessNobodyNamedIt) {
+  for (const char* name : {"Segment_1", "segment", "SEGMENT 12", "1", ""}) {
+    EXPECT_FALSE(name_tells_class(name)) << name;
+  }
+  for (const char* name : {"Brain", "SegmentedTumour", "SegmentTumour"}) {
+    EXPECT_TRUE(name_tells_class(name)) << name;
+  }
+}
+
 }  // namespace brainshift::test::read_label_table_test
