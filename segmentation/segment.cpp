@@ -272,6 +272,7 @@ Segmentation segment_labels(const SegmentInput& input, const SegmentOptions& opt
   const Mask tissue = mask_of(*result.labels, options.brain_labels);
   report(progress, 0.1, "the brain as one body");
   const BrainBody body = brain_body(tissue, options.closing.value_or(0));
+  check_edge_length(options.edge_length, body.across);
   note_body(result, body, tissue, options.fluid_label.has_value());
   note_tumour(result, input, body.mask);
   if (options.closing.value_or(0) == 0) {
@@ -312,6 +313,7 @@ Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options
   }
   const Mask tissue = mask_of(mask);
   const BrainBody body = brain_body(tissue, options.closing.value_or(0));
+  check_edge_length(options.edge_length, body.across);
   Segmentation result;
   note_tumour(result, input, body.mask);
   report(progress, 0.1, "tissue classes");
@@ -348,8 +350,10 @@ void note_volume(Segmentation& result, double given, const CheckedSurface& check
 
 Segmentation segment_surface(const SegmentInput& input, const SegmentOptions& options) {
   if (input.surface->triangles.rows() > 0) {
-    check_across(extent(*input.surface),
+    const double across = extent(*input.surface);
+    check_across(across,
                  "is the surface in metres or micrometres, or has it a stray vertex? Scale it, or remove that vertex");
+    check_edge_length(options.edge_length, across);
   }
   CheckedSurface checked = checked_surface(*input.surface, options.edge_length);
   Segmentation result;

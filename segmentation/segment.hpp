@@ -15,7 +15,8 @@ namespace brainshift::segmentation {
 /// std::runtime_error when a file cannot be written whole.
 void write_segmentation(const std::filesystem::path& folder, const Segmentation& segmentation);
 
-/// Runs the stage. Throws std::invalid_argument when the input cannot be used (what, why, what to do).
+/// Runs the stage. Throws std::invalid_argument when the input cannot be used, or the edges are too long for the brain
+/// (what, why, what to do).
 Segmentation segment(const SegmentInput& input, const SegmentOptions& options, const Progress& progress = {});
 
 }  // namespace brainshift::segmentation

@@ -78,7 +78,7 @@ void set_options(const OptionTable<T>& table, const py::kwargs& named, T& option
   }
 }
 
-/// "\n\nOptions:\n  edge_length: a number >= 0.5, mm; target edge of the remeshed surfaces\n  ...".
+/// "\n\nOptions:\n  edge_length: a number >= 0.5, mm; target edge of the remeshed surfaces; ...\n  ...".
 template <class T>
 std::string options_help(const OptionTable<T>& table, const T& defaults) {
   std::string text = "\n\nOptions, by name:\n";

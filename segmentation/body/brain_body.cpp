@@ -11,12 +11,15 @@
 namespace brainshift::segmentation {
 namespace {
 
-void check_size(const Mask& brain) {
+// The brain's size, checked.
+double size_across(const Mask& brain) {
   const Eigen::Vector3d& spacing = brain.geometry.spacing;
   std::ostringstream advice;
   advice << "are the image's lengths in metres, centimetres or micrometres? Voxels of " << spacing.x() << " x "
          << spacing.y() << " x " << spacing.z() << " mm are what its header says; correct it";
-  check_across((cropped(brain, 0).geometry.size.cast<double>() * spacing.array()).maxCoeff(), advice.str());
+  const double across = (cropped(brain, 0).geometry.size.cast<double>() * spacing.array()).maxCoeff();
+  check_across(across, advice.str());
+  return across;
 }
 
 // What of the tissue lies outside the body.
@@ -112,13 +115,25 @@ void check_across(double across, const std::string& advice) {
   }
 }
 
+void check_edge_length(double edge_length, double across) {
+  // To collapse a fine contour to longer edges takes minutes, then hours, and what is left is not the brain's shape.
+  constexpr double largest_share = 1.0 / 6;
+  const double longest = std::max(SegmentOptions{}.edge_length, std::floor(10 * largest_share * across) / 10);
+  if (edge_length > longest) {
+    std::ostringstream text;
+    text << "edge_length is '" << edge_length << "', but must be at most " << longest << " (mm) for a brain " << across
+         << " mm across: longer edges do not show its shape";
+    throw std::invalid_argument(text.str());
+  }
+}
+
 BrainBody brain_body(const Mask& tissue, double closing) {
   if (count(tissue) == 0) {
     throw std::invalid_argument("no voxel is brain: the mask, or what the brain's labels name, is empty");
   }
   BrainBody body;
   body.mask = holes_filled(largest_component(closing > 0 ? closed(tissue, closing) : tissue));
-  check_size(body.mask);
+  body.across = size_across(body.mask);
   body.cut_area = checked_cut(body.mask);
   count_loose(tissue, body);
   return body;

@@ -12,6 +12,7 @@ namespace brainshift::segmentation {
 /// The brain as one body without holes.
 struct BrainBody {
   Mask mask;
+  double across = 0;        ///< the longest edge of the box around it, along the image's axes, mm
   double loose_volume = 0;  ///< of tissue that hangs together with none of it and was dropped, mm³
   std::size_t loose_pieces = 0;
   double cut_area = 0;  ///< of its surface on the image's border, where the field of view cuts it off, mm²
@@ -24,6 +25,10 @@ BrainBody brain_body(const Mask& tissue, double closing);
 
 /// Throws std::invalid_argument, with the advice, unless a brain can be so many mm across.
 void check_across(double across, const std::string& advice);
+
+/// Throws std::invalid_argument where the edges of a surface (mm) would be longer than the default and than a sixth of
+/// the brain, which is so many mm across.
+void check_edge_length(double edge_length, double across);
 
 /// Whether the skull's label encloses the brain.
 bool encloses(const LabelMap& labels, std::uint16_t skull, const Mask& brain);

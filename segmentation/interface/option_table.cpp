@@ -7,7 +7,7 @@ const OptionTable<SegmentOptions>& segment_options() {
   using Options = SegmentOptions;
   static const OptionTable<Options> table = {
       number_option<Options>("edge_length", &Options::edge_length, {.low = 0.5}, "mm",
-                             "target edge of the remeshed surfaces"),
+                             "target edge of the remeshed surfaces; at most a sixth of the brain's extent, or 5"),
       number_option<Options>(
           "closing", &Options::closing, {.low = 0, .high = 20}, "mm",
           "gaps of the brain narrower than twice this are closed, so that sulci are not folds of its "

@@ -6,6 +6,7 @@
 #include <limits>
 #include "tests/unit/segmentation/builders.hpp"
 #include "tests/unit/segmentation/drawn_head.hpp"
+#include "tests/unit/segmentation/shapes.hpp"
 
 namespace brainshift::test::check_input_test {
 
@@ -60,6 +61,34 @@ TEST(Segment, RefusesABrainWhoseLengthsAreInMetres) {
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("metres"), std::string::npos) << error.what();
   }
+}
+
+TEST(Segment, RefusesEdgesTooLongForTheBrain) {
+  const Head drawn = head(oblique());
+  SegmentOptions options = two_labels();
+  SegmentInput labels, masked, surface;
+  labels.labels = drawn.labels;
+  masked.t1 = drawn.t1;
+  masked.brain_mask = drawn.mask;
+  surface.surface = sphere(centre, brain_radius, 3);
+  options.edge_length = 12;
+  for (const SegmentInput& input : {labels, masked, surface}) {
+    EXPECT_TRUE(throws_saying<std::invalid_argument>(
+        [&] { segment(input, options); }, {"edge_length is '12'", "at most ", " (mm) for a brain ", " mm across"}));
+  }
+  options.edge_length = 9;
+  EXPECT_GT(segment(surface, options).brain.triangles.rows(), 0);
+}
+
+TEST(Segment, TakesTheDefaultEdgeForTheSmallestBrain) {
+  SegmentInput input;
+  const Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  input.labels = ball(grid_around(middle, 32, Eigen::Vector3d::Ones(), oblique()), middle, 10.6);
+  SegmentOptions options;
+  options.brain_labels = {1};
+  EXPECT_GT(segment(input, options).brain.triangles.rows(), 0);
+  options.edge_length = 5.1;
+  EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { segment(input, options); }, {"at most 5 (mm)"}));
 }
 
 }  // namespace brainshift::test::check_input_test
