@@ -27,10 +27,10 @@ const LabelTable& brats_table();
 const std::vector<std::string>& label_table_names();
 
 /// Of a file: lines `number name ...` (FreeSurferColorLUT.txt, 3D Slicer's .ctbl) or `number ... "name"` (ITK-SNAP),
-/// tab-separated columns `index` and `name` (BIDS _dseg.tsv), or the segments of a .seg.nrrd. The class follows from
-/// the words in the name: ventricle, CSF, skull, tumour, background and so on; any other name is parenchyma. 0 is
-/// background, whatever its name. Throws std::invalid_argument, naming file and line, when it is no such table or names
-/// a number twice.
+/// tab-separated columns `index` and `name` (BIDS _dseg.tsv) or `ID` and `LabelName` (FastSurfer), or the segments of a
+/// .seg.nrrd. The class follows from the words in the name: ventricle, CSF, skull, tumour, background and so on; any
+/// other name is parenchyma. 0 is background, whatever its name. Throws std::invalid_argument, naming file and line,
+/// when it is no such table or names a number twice.
 LabelTable read_label_table(const std::filesystem::path& file);
 
 /// The class that the words in a tissue's name tell, in upper or lower case; parenchyma where they tell none. A word

@@ -85,7 +85,7 @@ std::vector<std::string> split_at_tabs(const std::string& line) {
   return fields;
 }
 
-// Columns of a tab-separated table with the header `index` and `name`.
+// Columns of a tab-separated table with the header `index` and `name`, or FastSurfer's `ID` and `LabelName`.
 struct Columns {
   std::size_t index;
   std::size_t name;
@@ -93,8 +93,11 @@ struct Columns {
 
 std::optional<Columns> columns_of(const std::string& header) {
   const auto fields = split_at_tabs(header);
-  const auto index = std::find(fields.begin(), fields.end(), "index");
-  const auto name = std::find(fields.begin(), fields.end(), "name");
+  const auto column = [&](const char* of_bids, const char* of_fastsurfer) {
+    const auto found = std::find(fields.begin(), fields.end(), of_bids);
+    return found != fields.end() ? found : std::find(fields.begin(), fields.end(), of_fastsurfer);
+  };
+  const auto index = column("index", "ID"), name = column("name", "LabelName");
   if (index == fields.end() || name == fields.end()) {
     return std::nullopt;
   }

@@ -242,10 +242,10 @@ TEST(Segment, ASurfaceThatIsWrappedOrRemeshedToAnotherVolumeIsWarnedOf) {
   input.surface = segment(of_labels, two_labels()).brain;
   SegmentOptions options;
   EXPECT_TRUE(segment(input, options).notes.empty());
-  options.edge_length = 30;
+  options.edge_length = 10;
   const Segmentation coarse = segment(input, options);
   ASSERT_EQ(coarse.notes.size(), 1U);
-  EXPECT_NE(coarse.notes.front().find("warning: the surface was remeshed to edges of 30 mm"), std::string::npos)
+  EXPECT_NE(coarse.notes.front().find("warning: the surface was remeshed to edges of 10 mm"), std::string::npos)
       << coarse.notes.front();
   input.surface->triangles.conservativeResize(input.surface->triangles.rows() - 1, 3);
   options.edge_length = 5;
