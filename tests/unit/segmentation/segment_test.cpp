@@ -225,7 +225,7 @@ TEST(Segment, AHoleOfOtherLabelsInTheBrainIsTold) {
   SegmentInput input;
   input.labels = drawn.labels;
   EXPECT_TRUE(segment(input, two_labels()).notes.empty());
-  const LabelMap hole = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, 24.0, 0.0), 7.0);
+  const LabelMap hole = ball(drawn.mask.geometry, centre + Eigen::Vector3d(0.0, 19.0, 0.0), 7.0);
   for (std::size_t i = 0; i < hole.voxels.size(); ++i) {
     input.labels->voxels[i] = hole.voxels[i] != 0 ? std::uint16_t{9} : input.labels->voxels[i];
   }

@@ -146,7 +146,7 @@ TEST_F(JobsTest, AMaskMayBeAnImageAndATumourAMapOfBrats) {
   job.image.tumour = folder_ / "tumour.nii.gz";
   const StageReport said = run_job(job, folder_ / "out", {});
   EXPECT_TRUE(std::ranges::any_of(said.notes, [](const std::string& note) {
-    return note.find("tumour.nii.gz: taken for BraTS's numbers, so that 2 (12.2 ml) is oedema") != std::string::npos;
+    return note.find("tumour.nii.gz: taken for BraTS's numbers, so that 2 (12.3 ml) is oedema") != std::string::npos;
   }));
   const LabelMap labels = read_label_map(folder_ / "out/labels.nii.gz");
   EXPECT_EQ(labels.at(6, 10, 10), 3);
@@ -187,7 +187,7 @@ TEST_F(JobsTest, ATumourOfItsOwnFileBesideItsNumberInTheMapIsWarnedOf) {
   }
   const std::vector<std::string> said = notes();
   ASSERT_EQ(said.size(), 1U);
-  expect_parts(said.front(), {"warning: label 3 of", "labels.nii.gz", "0.8 ml", "1.0 ml", "another number"});
+  expect_parts(said.front(), {"warning: label 3 of", "labels.nii.gz", "0.8 ml", "of 1 ml", "another number"});
 }
 
 TEST_F(JobsTest, ADiscretisationIsFinerWhereTheLoadIs) {
