@@ -2,7 +2,6 @@
 #include "discretise/cells/tetrahedra.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "discretise/cloud/delaunay.hpp"
 #include "discretise/cloud/tetrahedron.hpp"

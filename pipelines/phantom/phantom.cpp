@@ -2,7 +2,6 @@
 #include "pipelines/phantom/phantom.hpp"
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <numbers>
 
 #include "segmentation/options/values.hpp"

@@ -3,7 +3,6 @@
 
 #include <Eigen/SVD>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 
 #include "pipelines/python/convert.hpp"

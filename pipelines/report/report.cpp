@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <future>
 #include <iterator>
 #include <numeric>

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "discretise/body/scanlines.hpp"

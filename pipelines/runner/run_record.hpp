@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "pipelines/runner/jobs.hpp"
 #include "pipelines/runner/plan.hpp"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <stdexcept>
 
 #include "pipelines/scene/read_elements.hpp"
 #include "pipelines/scene/read_sequence.hpp"

@@ -2,7 +2,6 @@
 #include "pipelines/scene/read_elements.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <vector>

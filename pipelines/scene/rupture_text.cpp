@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
-#include <vector>
 
 #include "segmentation/options/option.hpp"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 
 #include "register/device/tasks.hpp"
 #include "solve/device/backend.hpp"

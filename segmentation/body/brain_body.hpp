@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "segmentation/image/mask.hpp"
 #include "segmentation/interface/options.hpp"

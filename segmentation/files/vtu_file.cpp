@@ -15,8 +15,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <stdexcept>
-#include <string_view>
 
 #include "segmentation/files/not_written.hpp"
 #include "segmentation/files/readable_file.hpp"

@@ -4,7 +4,6 @@
 // Bridge to nanoflann, for .cpp files: not a public header. Its distances are squared.
 
 #include <cstddef>
-#include <memory>
 #include <nanoflann.hpp>
 
 #include "segmentation/geometry/points.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/image/image_header.hpp"
 
-#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <string>

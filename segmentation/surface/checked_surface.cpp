@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <stdexcept>
-#include <string>
 
 #include "segmentation/surface/checked_surface.hpp"
 #include "segmentation/surface/one_body.hpp"

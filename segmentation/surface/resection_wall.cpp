@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "segmentation/geometry/point_tree.hpp"

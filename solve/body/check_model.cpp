@@ -3,7 +3,6 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <sstream>
 #include <stdexcept>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <stdexcept>
 
 #include "segmentation/geometry/branching_edges.hpp"
 #include "segmentation/geometry/nearest_on_segment.hpp"

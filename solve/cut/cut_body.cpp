@@ -2,7 +2,6 @@
 #include "solve/cut/cut_body.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>

@@ -4,7 +4,6 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "segmentation/geometry/points.hpp"

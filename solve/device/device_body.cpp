@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/device/device_body.hpp"
 
-#include <numeric>
 #include <type_traits>
 
 #include "solve/device/device_fault.hpp"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 namespace brainshift::solve {
 
 /// The work that was done on a moving body and where it went, 1e-9 J.

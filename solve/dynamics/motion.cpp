@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 
 #include "solve/arrays/shared_work.hpp"
 #include "solve/dynamics/soundness.hpp"

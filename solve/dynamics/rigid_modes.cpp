@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/arrays/shared_work.hpp"

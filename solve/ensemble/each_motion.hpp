@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "solve/body/body.hpp"
 #include "solve/ensemble/each_conditions.hpp"

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <random>
 
 #include "solve/dynamics/load_pace.hpp"
 #include "solve/dynamics/relaxation.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
-
 #include "discretise/interface/node_cloud.hpp"
 #include "segmentation/geometry/points.hpp"
 #include "solve/load/craniotomy_load.hpp"

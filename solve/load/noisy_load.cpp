@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/load/best_fit_plane.hpp"

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>

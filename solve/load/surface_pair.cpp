@@ -3,7 +3,6 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <cmath>
-#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>

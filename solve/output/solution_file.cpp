@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtu_file.hpp"

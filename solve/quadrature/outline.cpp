@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "solve/quadrature/gauss_points.hpp"
 #include "solve/shape/support_search.hpp"

@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <stdexcept>

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "segmentation/geometry/points.hpp"
 #include "solve/shape/shape_functions.hpp"

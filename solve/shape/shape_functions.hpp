@@ -2,10 +2,8 @@
 #pragma once
 
 #include <Eigen/SparseCore>
-#include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "segmentation/geometry/points.hpp"
 #include "solve/interface/shape_options.hpp"

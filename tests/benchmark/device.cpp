@@ -15,7 +15,6 @@
 // The run kept in memory, as `brainshift live` does, and so many loads by chance as tests/benchmark/live.py has them:
 // from a load's file to the nodes' displacements, on both.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

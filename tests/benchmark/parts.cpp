@@ -6,7 +6,6 @@
 //
 //   parts OUT.csv [nodes [repeats]]
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/benchmark/problems.hpp"
 
-#include <cmath>
-
 #include "discretise/discretise.hpp"
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/scene/parse_scene.hpp"

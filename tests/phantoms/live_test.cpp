@@ -11,7 +11,6 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "register/files/read_place_map.hpp"
 #include "register/files/transform_files.hpp"

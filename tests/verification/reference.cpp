@@ -2,7 +2,6 @@
 #include "tests/verification/reference.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <numeric>
 #include <sstream>

@@ -3,7 +3,6 @@
 // A cylinder with bonded faces to a fifth and a tenth of its height, and a cube whose sides are free. Its uniform state
 // is an answer only above 56 % of its height: below, free faces of soft matter fold into creases (Hong, Zhao & Suo
 // 2009), which store less energy.
-#include <algorithm>
 #include <cmath>
 
 #include "tests/extremes/block.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The brain where nobody expects it: ten metres from the origin, and in metres instead of millimetres.
-#include <cmath>
 
 #include "segmentation/segment.hpp"
 #include "tests/extremes/brain.hpp"

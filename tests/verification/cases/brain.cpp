@@ -2,8 +2,6 @@
 //
 // Wittek et al., figure 4: brain shift on the brain of the demo, MLS and MMLS on two kinds of cells, against finite
 // elements on the same geometry, load and material.
-#include <algorithm>
-#include <cmath>
 
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"

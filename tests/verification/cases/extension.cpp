@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Wittek et al., section 6.2: a rectangle of 100 × 40 mm with 57 nodes, held at one end, lengthened by 30 %.
-#include <cmath>
 
 #include "segmentation/geometry/neighbour_distance.hpp"
 #include "tests/unit/solve/all_free.hpp"

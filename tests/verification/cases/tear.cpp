@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Wittek et al., figure 11: a specimen of pia-arachnoid is lengthened until it tears.
-#include <algorithm>
 #include <cmath>
 
 #include "solve/output/stress_strain.hpp"

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <fstream>
 
 #include "pipelines/runner/stage_folder.hpp"
 #include "tests/unit/pipelines/run_folder.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cmath>
-
 #include "pipelines/report/run_data.hpp"
 
 namespace brainshift::pipelines {

@@ -2,10 +2,11 @@
 #include "pipelines/report/viewer_data.hpp"
 
 #include <gtest/gtest.h>
+
 #include <openssl/evp.h>
 #include <zlib.h>
+#include <Eigen/Geometry>
 
-#include <cstring>
 #include <random>
 
 #include "tests/unit/pipelines/report/small_run.hpp"

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <fstream>
 
 #include "pipelines/runner/stage_folder.hpp"
 #include "tests/unit/pipelines/run_folder.hpp"

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "pipelines/runner/plan.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/runner/stage_record.hpp"

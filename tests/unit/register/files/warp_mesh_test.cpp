@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "register/files/byte_order.hpp"
 #include "tests/unit/register/shifted.hpp"
 

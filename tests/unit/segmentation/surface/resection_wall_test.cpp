@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "tests/unit/scratch_folder.hpp"

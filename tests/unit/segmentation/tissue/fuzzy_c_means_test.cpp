@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/tissue/fuzzy_c_means.hpp"
 
-#include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <random>
 
 #include "tests/unit/segmentation/builders.hpp"

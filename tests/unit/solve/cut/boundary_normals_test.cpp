@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve::boundary_normals_test {

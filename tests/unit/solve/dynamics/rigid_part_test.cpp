@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift::solve::rigid_part_test {

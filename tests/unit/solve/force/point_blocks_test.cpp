@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "solve/quadrature/cell_points.hpp"
 #include "tests/unit/solve/clouds.hpp"

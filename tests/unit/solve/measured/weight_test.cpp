@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "solve/measured/gaussian.hpp"
 #include "tests/unit/scratch_folder.hpp"

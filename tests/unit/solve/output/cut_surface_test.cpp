@@ -8,8 +8,6 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
 
-#include <filesystem>
-
 #include "solve/solve.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/all_free.hpp"

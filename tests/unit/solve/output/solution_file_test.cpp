@@ -5,7 +5,6 @@
 #include <vtkPointData.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "segmentation/files/vtu_file.hpp"
 #include "solve/interface/solution.hpp"

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "tests/unit/solve/models.hpp"
 
