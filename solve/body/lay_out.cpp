@@ -152,9 +152,10 @@ PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::in
 /// Contact pushes nodes back before they are far out, so it is enough to know the distance near the skull; but where a
 /// node starts farther out. Of a head it is as fine as any; a smaller body has its nodes nearer to each other.
 SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cloud) {
-  constexpr double of_nodes = 3;  // steps of the grid from node to node, at the least
+  constexpr double from_node_to_node = 3, across = 200;  // steps of the grid: at the least, at the most
   SignedDistanceOptions all;
-  const double finer = std::min(1.0, median(cloud.spacing) / (of_nodes * all.spacing));
+  const double wanted = std::max(median(cloud.spacing) / from_node_to_node, extent(skull) / across);
+  const double finer = std::min(1.0, wanted / all.spacing);
   all.spacing *= finer;
   all.margin *= finer;
   SignedDistanceOptions near = all;
