@@ -5,8 +5,8 @@
 
 #include <openssl/evp.h>
 #include <zlib.h>
-#include <Eigen/Geometry>
 
+#include <Eigen/Geometry>
 #include <random>
 
 #include "tests/unit/pipelines/report/small_run.hpp"
