@@ -362,7 +362,9 @@ Segmentation segment_surface(const SegmentInput& input, const SegmentOptions& op
   result.measures["brain"] = checked.measures;
   result.measures["skull"] = checked.measures;
   note_dropped(result, checked.loose_volume, checked.loose_pieces, checked.loose_volume + checked.measures.volume);
-  note_volume(result, std::abs(volume(*input.surface)), checked, options.edge_length);
+  Surface about_middle = *input.surface;  // of an open surface the volume depends on the origin
+  about_middle.vertices.rowwise() -= input.surface->vertices.colwise().mean().eval();
+  note_volume(result, std::abs(volume(about_middle)), checked, options.edge_length);
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include "pipelines/runner/discretise_warnings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "segmentation/options/values.hpp"
@@ -9,8 +10,13 @@
 namespace brainshift::pipelines {
 namespace {
 
-/// Of the volume that a closed surface holds, mm.
-Eigen::Vector3d middle_of(const Surface& surface) {
+struct Place {
+  Eigen::Vector3d middle;  ///< mm
+  double volume;           ///< mm³
+};
+
+/// Of what a closed surface holds.
+Place place_of(const Surface& surface) {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double volume = 0;
   const Eigen::Vector3d origin = surface.vertices.row(0);
@@ -21,11 +27,11 @@ Eigen::Vector3d middle_of(const Surface& surface) {
     volume += of_tetrahedron;
     moment += of_tetrahedron * (a + b + c) / 4;
   }
-  return origin + moment / volume;
+  return {origin + moment / volume, volume};
 }
 
-/// Of the voxels with these labels, mm; there is one.
-Eigen::Vector3d middle_of(const LabelMap& labels, const std::vector<std::int32_t>& counted) {
+/// Of the voxels with these labels; there is one.
+Place place_of(const LabelMap& labels, const std::vector<std::int32_t>& counted) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
   for (int k = 0; k < labels.geometry.size.z(); ++k) {
@@ -38,16 +44,19 @@ Eigen::Vector3d middle_of(const LabelMap& labels, const std::vector<std::int32_t
       }
     }
   }
-  return labels.geometry.to_world(sum / count);
+  return {labels.geometry.to_world(sum / count), count * labels.geometry.spacing.prod()};
 }
 
 }  // namespace
 
 Warnings warnings_of(const Surface& brain, const LabelMap& labels, const discretise::DiscretiseOptions& options) {
-  constexpr double far = 3;  // mm; bodies that segment makes are within one
+  constexpr double far = 3;       // mm; bodies that segment makes are within one
+  constexpr double alike = 0.05;  // of the volume: beyond, as with a large hole, the middles need not agree
   Warnings warnings;
-  const double apart = (middle_of(brain) - middle_of(labels, options.brain_labels)).norm();
-  if (apart > std::max(far, labels.geometry.spacing.maxCoeff())) {
+  const Place body = place_of(brain), drawn = place_of(labels, options.brain_labels);
+  const double apart = (body.middle - drawn.middle).norm();
+  if (apart > std::max(far, labels.geometry.spacing.maxCoeff()) &&
+      std::abs(body.volume - drawn.volume) < alike * body.volume) {
     warnings.push_back("the middle of the surface is " + with_decimals(apart) +
                        " mm away from that of the brain's labels; are both of one patient and in one frame: mm, LPS?");
   }

@@ -61,8 +61,8 @@ void take_to_grid(std::optional<LabelMap>& map, const fs::path& file, const Imag
                   "; taken to it, the nearest label at each voxel");
 }
 
-/// The number that a tumour of its own file gets may be another tissue's.
-void note_both_tumours(const LabelMap& labels, const LabelMap& tumour, const fs::path& map, const fs::path& file,
+/// The number that a tumour of its own file gets may be another tissue's, where a map has numbers of its own.
+void note_both_tumours(const LabelMap& labels, const LabelMap& tumour, const SegmentJob& job, const fs::path& file,
                        std::vector<std::string>& notes) {
   constexpr double worth_saying = 0.2;  // of the file's tumour: two hands do not draw the same outline
   std::size_t both = 0, beside = 0;
@@ -71,12 +71,17 @@ void note_both_tumours(const LabelMap& labels, const LabelMap& tumour, const fs:
     both += tumour.voxels[i] != 0 ? 1 : 0;
     beside += same && tumour.voxels[i] == 0 ? 1 : 0;
   }
-  if (static_cast<double>(beside) > worth_saying * static_cast<double>(both)) {
+  if (both == 0) {
+    notes.push_back("warning: " + file.string() + ": no voxel is tumour there");
+  } else if (static_cast<double>(beside) > worth_saying * static_cast<double>(both)) {
     const double voxel = labels.geometry.spacing.prod();
-    notes.push_back("warning: label 3 of " + map.string() + " holds " +
+    notes.push_back("warning: " + std::string(job.reading.by_class ? "the tumour" : "label 3") + " of " +
+                    job.image.labels.string() + " holds " +
                     segmentation::in_millilitres(static_cast<double>(beside) * voxel) + " outside the tumour of " +
                     file.string() + ", of " + segmentation::in_millilitres(static_cast<double>(both) * voxel) +
-                    ", and all of it counts as tumour; if it is another tissue, give it another number");
+                    ", and all of it counts as tumour" +
+                    (job.reading.by_class ? "; give one of the two if that is wrong"
+                                          : "; if it is another tissue, give it another number"));
   }
 }
 
@@ -146,7 +151,7 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
     take_to_grid(input.tumour_mask, tumour, input.labels->geometry, job.image.labels, notes);
   }
   if (input.labels && input.tumour_mask) {
-    note_both_tumours(*input.labels, *input.tumour_mask, job.image.labels, tumour, notes);
+    note_both_tumours(*input.labels, *input.tumour_mask, job, tumour, notes);
   }
   std::ranges::copy(
       frame_warnings({job.image.t1, job.image.labels, job.image.brain_mask, job.image.tumour, job.image.tumour_mask}),

@@ -38,10 +38,11 @@ double faces_at_septa(double nodes) {
   return 2.5 * std::pow(nodes, 2.0 / 3);
 }
 
-/// Samples of the distance to the skull: 1.5 mm apart, 10 mm past the surface (solve/body/lay_out.cpp).
-double distance_samples(double volume) {
-  const double width = std::cbrt(6 * volume / std::numbers::pi) + 20;
-  return std::pow(width / 1.5, 3);
+/// Samples of the distance to the skull, and a part of them past it (solve/body/lay_out.cpp).
+double distance_samples(double volume, double nodes) {
+  const double width = std::cbrt(6 * volume / std::numbers::pi), spacing = std::cbrt(volume / nodes);
+  const double step = std::min(1.5, std::max(spacing / 3, width / 200));
+  return std::pow(width / step + 14, 3);
 }
 
 /// The first tissue that relaxes in a transient run, and its Prony terms; null: none.
@@ -82,7 +83,8 @@ std::vector<PartCost> solve_costs(const Scene& scene, const SolveSize& size) {
   }
   if (scene.contact) {
     const double touching = surface_nodes(size.nodes);
-    costs.push_back({"contact", "contact", distance_samples(size.volume) * sizeof(float) + touching * contact_bytes,
+    costs.push_back({"contact", "contact",
+                     distance_samples(size.volume, size.nodes) * sizeof(float) + touching * contact_bytes,
                      touching * contact_time});
   }
   if (scene.septa || scene.septum) {

@@ -38,17 +38,19 @@ bool may_write_into(const fs::path& folder) {
   return ::access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-/// The folder may be there, or is made.
+/// The folder may be there, or is made with those above it.
 void check_folder(const Given& output) {
   std::error_code unknown;
-  if (!fs::exists(output.file, unknown)) {
-    return;
+  fs::path there = whole_path(output.file);
+  while (!fs::exists(there, unknown) && there.has_relative_path()) {
+    there = there.parent_path();
   }
-  if (!fs::is_directory(output.file, unknown)) {
-    refuse_output(output, "which is a file; name a folder");
+  if (!fs::is_directory(there, unknown)) {
+    refuse_output(output, "but " + there.string() + " is a file; name a folder");
   }
-  if (!may_write_into(output.file)) {
-    refuse_output(output, "into which you may not write; change its permissions, or name another folder");
+  if (!may_write_into(there)) {
+    refuse_output(output,
+                  "but you may not write into " + there.string() + "; change its permissions, or name another folder");
   }
 }
 

@@ -78,7 +78,7 @@ std::optional<double> declared_voxels(const std::filesystem::path& file);
 ScalarImage read_image(const std::filesystem::path& file);
 LabelMap read_label_map(const std::filesystem::path& file);
 /// A mask, which may be an image of any numbers, as a stripped T1 is: 1 where it is not 0. Throws as read_image() does,
-/// and where it holds fractions from 0 to 1 alone, as probabilities are.
+/// and where it holds probabilities: from 0 to 1, most of them near the one or the other.
 LabelMap read_mask(const std::filesystem::path& file);
 VectorImage read_vector_image(const std::filesystem::path& file);
 

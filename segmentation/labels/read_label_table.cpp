@@ -82,6 +82,9 @@ std::vector<std::string> split_at_tabs(const std::string& line) {
       fields.back() += letter;
     }
   }
+  for (std::string& field : fields) {
+    field = std::string(trimmed(field));
+  }
   return fields;
 }
 
@@ -243,17 +246,23 @@ LabelTable read_label_table(const fs::path& file) {
     return table_of_segments(file);
   }
   const auto lines = read_lines(file);
-  const auto columns = columns_of(lines.front());
+  const auto says = [&](std::size_t i) { return !trimmed(lines[i]).empty() && trimmed(lines[i]).front() != '#'; };
+  std::size_t line = 0;
+  while (line < lines.size() && !says(line)) {
+    ++line;
+  }
+  const auto columns = line < lines.size() ? columns_of(lines[line]) : std::nullopt;
   LabelTable table{"those of " + file.string(), {}};
   std::map<int, std::size_t> first_lines;
-  for (std::size_t i = columns ? 1 : 0; i < lines.size(); ++i) {
-    const std::string_view text = trimmed(lines[i]);
-    if (!text.empty() && text.front() != '#') {
-      add_row(table, row_of(lines[i], columns), file, i + 1, first_lines);
+  for (line += columns ? 1 : 0; line < lines.size(); ++line) {
+    if (says(line)) {
+      add_row(table, row_of(lines[line], columns), file, line + 1, first_lines);
     }
   }
   if (table.classes.empty()) {
-    refuse(file, "names no label; lines 'number name', or columns 'index' and 'name', are expected");
+    refuse(file,
+           "names no label; lines 'number name', or columns 'index' and 'name' (or 'ID' and 'LabelName'), are "
+           "expected");
   }
   return table;
 }

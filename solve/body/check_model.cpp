@@ -34,8 +34,8 @@ void check_plane(const Model& model) {
     const auto along = of_nodes.col(2).array();
     return (!along.isNaN() && along != 0).any();
   };
-  if (planar &&
-      (model.gravity.z() != 0 || leaves_plane(model.conditions.displacement) || leaves_plane(model.conditions.force))) {
+  const bool pulled_out = model.gravity.z() != 0 || (model.fluid && model.fluid->gravity.z() != 0);
+  if (planar && (pulled_out || leaves_plane(model.conditions.displacement) || leaves_plane(model.conditions.force))) {
     throw std::invalid_argument(
         "gravity, forces and displacements of a plane problem have no z; set theirs to 0, or "
         "put the problem into the plane of x and y");

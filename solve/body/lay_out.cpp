@@ -150,7 +150,7 @@ PlacedPoints in_order(const IntegrationPoints& points, const std::vector<std::in
 }
 
 /// Contact pushes nodes back before they are far out, so it is enough to know the distance near the skull; but where a
-/// node starts farther out. Of a head it is as fine as any; a smaller body has its nodes nearer to each other.
+/// node starts farther out. Where nodes are near to each other, as in a small body, its samples are, too.
 SignedDistance distance_for_contact(const Surface& skull, const OrderedCloud& cloud) {
   constexpr double from_node_to_node = 3, across = 200;  // steps of the grid: at the least, at the most
   SignedDistanceOptions all;

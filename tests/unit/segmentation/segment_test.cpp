@@ -253,6 +253,8 @@ TEST(Segment, ASurfaceThatIsWrappedOrRemeshedToAnotherVolumeIsWarnedOf) {
   ASSERT_EQ(wrapped.notes.size(), 1U);
   EXPECT_NE(wrapped.notes.front().find("is open or cuts itself and was wrapped; it holds"), std::string::npos)
       << wrapped.notes.front();
+  input.surface->vertices.col(2).array() += 5000;
+  EXPECT_EQ(segment(input, options).notes, wrapped.notes) << "wherever it lies";
 }
 
 TEST(Segment, WithoutFluidTheLabelsAroundTheBrainBoundTheSkullWhereTheyCan) {

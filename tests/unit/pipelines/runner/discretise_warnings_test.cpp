@@ -34,6 +34,9 @@ TEST(DiscretiseWarnings, TellOfABodyBesideItsLabels) {
   EXPECT_TRUE(warnings_of(brain, labels, {}).empty());
   labels.geometry.origin.y() += 4;
   expect_one(warnings_of(brain, labels, {}), {"4.5 mm away", "frame"});
+  discretise::DiscretiseOptions in_part;
+  in_part.brain_labels = {3};
+  EXPECT_TRUE(warnings_of(brain, labels, in_part).empty()) << "of which the rest is no tissue";
 }
 
 TEST(DiscretiseWarnings, TellOfFinerNodesAtATumourThatIsNotThere) {

@@ -154,15 +154,23 @@ TEST_F(JobsTest, AMaskMayBeAnImageAndATumourAMapOfBrats) {
   EXPECT_EQ(labels.at(1, 1, 1), 0);
 }
 
-TEST_F(JobsTest, AMaskOfProbabilitiesIsRefused) {
-  ScalarImage part = image();
-  std::ranges::transform(part.voxels, part.voxels.begin(), [](float value) { return value / 6; });
-  write_image(folder_ / "part.nii.gz", part);
-  write_image(folder_ / "t1.nii.gz", image());
-  SegmentJob job;
-  job.image.t1 = folder_ / "t1.nii.gz";
-  job.image.brain_mask = folder_ / "part.nii.gz";
-  expect_parts(refusal([&] { run_job(job, folder_ / "out", {}); }), {"part.nii.gz", "probabilities", "above a half"});
+TEST_F(JobsTest, AMaskOfProbabilitiesIsRefusedAndNotAnImageScaledToOne) {
+  const LabelMap inside = block(3, 1, 0);
+  ScalarImage mask = image();
+  const auto read = [&](const std::function<float(std::size_t)>& in_brain) {
+    for (std::size_t i = 0; i < mask.voxels.size(); ++i) {
+      mask.voxels[i] = inside.voxels[i] == 0 ? 0.0F : in_brain(i);
+    }
+    write_image(folder_ / "mask.nii.gz", mask);
+    return refusal([&] { read_mask(folder_ / "mask.nii.gz"); });
+  };
+  EXPECT_EQ(read([](std::size_t) { return 1.0F; }), "");
+  EXPECT_EQ(read([](std::size_t i) { return 0.2F + 0.1F * static_cast<float>(i % 9); }), "") << "a stripped T1";
+  EXPECT_EQ(read([](std::size_t i) { return i % 3 == 0 ? 7.5F : 0.01F; }), "") << "a stripped T1 with a dark rim";
+  for (const auto& fractions : {std::function([](std::size_t i) { return i % 5 == 0 ? 0.5F : 1.0F; }),
+                                std::function([](std::size_t i) { return i % 5 == 0 ? 0.4F : 1e-6F; })}) {
+    expect_parts(read(fractions), {"mask.nii.gz", "probabilities", "above a half"});
+  }
 }
 
 /// The tumour of a file gets the number 3, which a map may use for another tissue.
@@ -188,6 +196,8 @@ TEST_F(JobsTest, ATumourOfItsOwnFileBesideItsNumberInTheMapIsWarnedOf) {
   const std::vector<std::string> said = notes();
   ASSERT_EQ(said.size(), 1U);
   expect_parts(said.front(), {"warning: label 3 of", "labels.nii.gz", "0.8 ml", "of 1 ml", "another number"});
+  write_image(job.image.tumour, block(4, 0, 0));
+  expect_parts(notes().front(), {"warning:", "tumour.nii.gz", "no voxel is tumour"});
 }
 
 TEST_F(JobsTest, ADiscretisationIsFinerWhereTheLoadIs) {

@@ -50,6 +50,7 @@ TEST_F(CheckOutputs, RefuseAPlaceThatCannotBeWritten) {
   fs::create_directory(scratch_ / "d.nii.gz");
   expect_parts(fault({{"error", at("d.nii.gz")}}), {"--error", "is a folder"});
   expect_parts(fault({{"run", at("t1.nii.gz")}}), {"--run", "is a file"});
+  expect_parts(fault({{"run", at("t1.nii.gz/a/run")}}), {"--run", at("t1.nii.gz") + " is a file"});
   if (::geteuid() != 0) {  // root may write anywhere
     fs::permissions(scratch_ / "d.nii.gz", fs::perms::owner_read | fs::perms::owner_exec);
     expect_parts(fault({{"warped", at("d.nii.gz/w.nii.gz")}}), {"--warped", "may not write into its folder"});

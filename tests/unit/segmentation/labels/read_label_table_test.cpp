@@ -51,7 +51,7 @@ TEST_F(TableFile, ColumnsOfBidsAreReadInAnyOrder) {
   EXPECT_EQ(table.classes, (std::map<std::uint16_t, std::uint16_t>{{1, 1}, {7, 2}, {9, 3}}));
   const auto of_fastsurfer = read_label_table(
       write("lut.tsv",
-            "ID\tLabelName\tRed\tGreen\tBlue\tAlpha\n0\tUnknown\t0\t0\t0\t0\n"
+            "# as FastSurfer has it\nID\t LabelName \tRed\tGreen\tBlue\tAlpha\n0\tUnknown\t0\t0\t0\t0\n"
             "2\tLeft-Cerebral-White-Matter\t245\t245\t245\t0\n4\tLeft-Lateral-Ventricle\t120\t18\t134\t0\n"));
   EXPECT_EQ(of_fastsurfer.classes, (std::map<std::uint16_t, std::uint16_t>{{0, 0}, {2, 1}, {4, 2}}));
 }
