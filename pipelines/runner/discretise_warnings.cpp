@@ -10,13 +10,13 @@
 namespace brainshift::pipelines {
 namespace {
 
-struct Place {
+struct Bulk {
   Eigen::Vector3d middle;  ///< mm
   double volume;           ///< mm³
 };
 
 /// Of what a closed surface holds.
-Place place_of(const Surface& surface) {
+Bulk bulk_of(const Surface& surface) {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   double volume = 0;
   const Eigen::Vector3d origin = surface.vertices.row(0);
@@ -31,7 +31,7 @@ Place place_of(const Surface& surface) {
 }
 
 /// Of the voxels with these labels; there is one.
-Place place_of(const LabelMap& labels, const std::vector<std::int32_t>& counted) {
+Bulk bulk_of(const LabelMap& labels, const std::vector<std::int32_t>& counted) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
   for (int k = 0; k < labels.geometry.size.z(); ++k) {
@@ -53,7 +53,7 @@ Warnings warnings_of(const Surface& brain, const LabelMap& labels, const discret
   constexpr double far = 3;       // mm; bodies that segment makes are within one
   constexpr double alike = 0.05;  // of the volume: beyond, as with a large hole, the middles need not agree
   Warnings warnings;
-  const Place body = place_of(brain), drawn = place_of(labels, options.brain_labels);
+  const Bulk body = bulk_of(brain), drawn = bulk_of(labels, options.brain_labels);
   const double apart = (body.middle - drawn.middle).norm();
   if (apart > std::max(far, labels.geometry.spacing.maxCoeff()) &&
       std::abs(body.volume - drawn.volume) < alike * body.volume) {
