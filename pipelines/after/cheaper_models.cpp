@@ -24,13 +24,6 @@ std::int32_t largest_tissue(const Model& model) {
       ->first;
 }
 
-solve::Material linear(solve::Material material) {
-  material.youngs_modulus = 2 * solve::shear_modulus(material) * (1 + material.poisson_ratio);
-  material.law = solve::Law::linear_elastic;
-  material.ogden.clear();
-  return material;
-}
-
 template <class Is>
 bool any_material(const Model& model, const Is& is) {
   return std::any_of(model.materials.begin(), model.materials.end(), [&](const auto& m) { return is(m.second); });
@@ -102,7 +95,7 @@ CheaperModel small_strains(double largest_stretch) {
   }
   return {"large strains", "linear_elastic", why.str(), [](Model& m, SolveOptions&) {
             for (auto& [label, material] : m.materials) {
-              material = linear(material);
+              material = solve::linearised(material);
             }
           }};
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "solve/material/own_elasticity.hpp"
 
@@ -47,13 +49,32 @@ double stiffness_contrast(const std::map<std::int32_t, Material>& materials) {
 
 namespace {
 
-OwnElasticity softened(const OwnElasticity& own, double share) {
-  return {.shear_modulus = share * own.shear_modulus,
-          .energy = [share, of = own.energy](const Deformation& d) { return share * of(d); },
-          .stress = [share, of = own.stress](const Deformation& d) { return Eigen::Matrix3d(share * of(d)); }};
+OwnElasticity multiplied(double factor, const OwnElasticity& own) {
+  return {.shear_modulus = factor * own.shear_modulus,
+          .energy = [factor, of = own.energy](const Deformation& d) { return factor * of(d); },
+          .stress = [factor, of = own.stress](const Deformation& d) { return Eigen::Matrix3d(factor * of(d)); }};
 }
 
 }  // namespace
+
+Material stiffened(Material material, double factor) {
+  material.youngs_modulus *= factor;
+  for (OgdenTerm& term : material.ogden) {
+    term.shear_modulus *= factor;
+  }
+  if (material.own) {
+    material.own = std::make_shared<const OwnElasticity>(multiplied(factor, *material.own));
+  }
+  return material;
+}
+
+Material linearised(Material material) {
+  material.youngs_modulus = 2 * shear_modulus(material) * (1 + material.poisson_ratio);
+  material.law = Law::linear_elastic;
+  material.ogden.clear();
+  material.own.reset();
+  return material;
+}
 
 Material long_term(Material material) {
   double left = 1;
@@ -62,14 +83,9 @@ Material long_term(Material material) {
   }
   const double bulk = bulk_modulus(material);
   const double shear = left * shear_modulus(material);
+  material = stiffened(std::move(material), left);
   material.youngs_modulus = 9 * bulk * shear / (3 * bulk + shear);
   material.poisson_ratio = (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear);
-  for (OgdenTerm& term : material.ogden) {
-    term.shear_modulus *= left;
-  }
-  if (material.own) {
-    material.own = std::make_shared<const OwnElasticity>(softened(*material.own, left));
-  }
   material.prony.clear();
   return material;
 }

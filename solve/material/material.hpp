@@ -66,6 +66,12 @@ bool much_stiffer(double shear_modulus, double other);
 /// The largest shear modulus at rest over the least.
 double stiffness_contrast(const std::map<std::int32_t, Material>& materials);
 
+/// With all of its stress at the same strain times a factor.
+Material stiffened(Material material, double factor);
+
+/// The linear elastic material of the same moduli at rest.
+Material linearised(Material material);
+
 /// The elastic material that is left at t = ∞: µ times 1 − Σ g_i, the same K, no Prony terms.
 Material long_term(Material material);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "discretise/cloud/random.hpp"
 
@@ -20,10 +21,7 @@ double normal(discretise::Random& random) {
 
 Material drawn_material(Material material, const UncertaintyOptions& options, discretise::Random& random) {
   const double factor = std::exp(options.stiffness * normal(random)), place = random.uniform();
-  material.youngs_modulus *= factor;
-  for (OgdenTerm& term : material.ogden) {
-    term.shear_modulus *= factor;
-  }
+  material = stiffened(std::move(material), factor);
   const double own = material.poisson_ratio;
   constexpr double least = -0.99;
   const double low = std::max(own - options.poisson, least), high = std::min(own + options.poisson, most_poisson);

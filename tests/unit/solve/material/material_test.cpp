@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "solve/material/check_material.hpp"
+#include "tests/unit/solve/material_cases.hpp"
 
 namespace brainshift::solve::material_test {
 
@@ -26,6 +27,25 @@ TEST(MuchStiffer, DoesNotDependOnTheUnit) {
         less{.youngs_modulus = 29990 * unit};
     EXPECT_TRUE(much_stiffer(shear_modulus(stiff), shear_modulus(soft))) << unit;
     EXPECT_FALSE(much_stiffer(shear_modulus(less), shear_modulus(soft))) << unit;
+  }
+}
+
+TEST(Stiffened, MultipliesTheStressOfEveryLaw) {
+  const Eigen::Matrix3d f = random_deformation(3);
+  for (const Material& material : every_law) {
+    const Eigen::Matrix3d before = stress(elastic_law(material), f),
+                          after = stress(elastic_law(stiffened(material, 1.7)), f);
+    EXPECT_LE((after - 1.7 * before).norm(), 1e-12 * before.norm()) << name_of(material);
+  }
+}
+
+TEST(Linearised, KeepsTheModuliOfEveryLaw) {
+  for (const Material& material : every_law) {
+    const Material linear = linearised(material);
+    EXPECT_EQ(linear.law, Law::linear_elastic);
+    EXPECT_NEAR(shear_modulus(linear), shear_modulus(material), 1e-12 * shear_modulus(material));
+    EXPECT_NEAR(bulk_modulus(linear), bulk_modulus(material), 1e-12 * bulk_modulus(material));
+    EXPECT_NO_THROW(check_material("for small strains", linear));
   }
 }
 
