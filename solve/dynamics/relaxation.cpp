@@ -9,6 +9,7 @@
 #include "solve/dynamics/damping_turns.hpp"
 #include "solve/dynamics/error_bound.hpp"
 #include "solve/dynamics/load_pace.hpp"
+#include "solve/dynamics/lowest_eigenvalue.hpp"
 #include "solve/dynamics/motion.hpp"
 #include "solve/dynamics/quickening.hpp"
 #include "solve/dynamics/relaxation_rules.hpp"
@@ -47,13 +48,13 @@ class Relaxation {
         course_(course),
         options_(options),
         motion_(std::move(body), options.snapshot_every),
-        force_before_(motion_.force),
+        lowest_(motion_.body.nodes()),
         pace_(steps_of_load(options.load_steps, laws()), course.change.by_state),
         cautious_(cautious) {
     if (course_.settled) {
       mass_ = course_.settled->mass;
       mass_scale_ = course_.settled->mass_scale;
-      lowest_ = course_.settled->lowest;
+      lowest_.hold(course_.settled->lowest);
       mass_jacobian_ = course_.settled->smallest_jacobian;
       if (course_.settled->of_rigid > 0) {
         rigid_.emplace(motion_.body.positions(motion_.body.original, Eigen::all));
@@ -142,7 +143,8 @@ class Relaxation {
   /// For the steps up to the next look.
   void damp() {
     const int steps = motion_.result.steps;
-    beta_ = critical_beta(turns_.eigenvalue(damped_eigenvalue(lowest_, steps, course_.starts_roughly()), steps));
+    beta_ =
+        critical_beta(turns_.eigenvalue(damped_eigenvalue(lowest_.value(), steps, course_.starts_roughly()), steps));
   }
 
   bool no_change_is_left() const { return !course_.change || course_.change.is_done(); }
@@ -153,7 +155,7 @@ class Relaxation {
         !motion_.change(course_.change, laws(), motion_.time * course_.curve.duration(), calm_ > 0)) {
       return;
     }
-    force_before_.assign(4 * nodes(), 0.0);
+    lowest_.begin_anew(nodes());
     internal_force(points(), laws(), motion_.now, motion_.scratch, motion_.force);
     const std::vector<double> bound = stiffness_bound(points(), laws(), motion_.scratch);
     mass_.resize(nodes(), 0.0);
@@ -165,7 +167,6 @@ class Relaxation {
     weigh();
     bound_.reset();
     spans_.reset();
-    place_at_look_.clear();
     error_bound_ = bound_.value();
     calm_ = 0;
     pace_.wait();
@@ -173,7 +174,7 @@ class Relaxation {
 
   void step() {
     if (motion_.result.steps % window_ == window_ - 1) {
-      std::swap(motion_.force, force_before_);
+      lowest_.keep_force(motion_);
     }
     const double time = pace_.go_on(calm_ >= rows_of_rest);
     const double fraction = course_.curve.at(time * course_.curve.duration());
@@ -201,7 +202,7 @@ class Relaxation {
     }
     const NodalVectors seen = seen_of(motion_.now);
     const double moved = longest_difference(seen, seen_of(motion_.before));
-    look_at_stiff_parts();
+    lowest_.look_at_stiff_parts(motion_, mass_, cautious_);
     farthest_ = std::max(farthest_, largest_component(motion_.now));
     estimate_lowest_eigenvalue(moved);
     add_to_bound(moved);
@@ -219,33 +220,20 @@ class Relaxation {
       follow_stiffness();
     }
     if (motion_.time >= 1 && !cautious_ && (motion_.rigid_modes || bound_.value() > far_from_rest * tolerance())) {
-      quickening_.look(motion_, mass_, beta_, lowest_);
+      quickening_.look(motion_, mass_, beta_, lowest_.value());
     }
   }
 
   void add_to_bound(double moved) {
     const int begin = motion_.result.steps - window_;
     const double slowest =
-        std::max(damped_rate(lowest_, begin, course_.starts_roughly()), turns_.slowest(lowest_, begin));
-    bound_.add(moved, std::sqrt(critical_beta(turns_.eigenvalue(lowest_, begin))), motion_.time >= 1, rounding(),
-               slowest);
+        std::max(damped_rate(lowest_.value(), begin, course_.starts_roughly()), turns_.slowest(lowest_.value(), begin));
+    bound_.add(moved, std::sqrt(critical_beta(turns_.eigenvalue(lowest_.value(), begin))), motion_.time >= 1,
+               rounding(), slowest);
   }
 
   NodalVectors seen_of(const NodalVectors& parameters) const {
     return course_.bound == BoundOf::parameters ? parameters : displacement_of(motion_.body.nodal_rows, parameters);
-  }
-
-  /// What rigid motions of stiff parts would tell of A_0, if they were not hidden behind quicker ones.
-  void look_at_stiff_parts() {
-    constexpr int seldom = 200;                   // steps
-    constexpr double surroundings_follow = 0.25;  // which a part that moves alone strains more
-    if (motion_.time < 1 || motion_.body.stiff_parts.empty() || motion_.result.steps < next_look_at_parts_) {
-      return;
-    }
-    next_look_at_parts_ = motion_.result.steps + seldom;
-    const NodeLists parts = cautious_ ? motion_.body.stiff_parts : parts_without_modes(motion_.body);
-    const double slowest = slowest_rigid_motion(motion_.body, parts, mass_, motion_.now, motion_.scratch);
-    of_parts_ = slowest > 0 ? std::max(surroundings_follow * slowest, smallest_eigenvalue) : of_parts_;
   }
 
   void complete_row() {
@@ -255,44 +243,13 @@ class Relaxation {
     row.error_bound = error_bound_;
   }
 
-  /// A_0 from the last increments, and where these feel rounding from those of the last window, too.
+  /// Not where an update holds it.
   void estimate_lowest_eigenvalue(double moved) {
-    const Motion& m = motion_;
-    if (course_.settled && (m.result.steps < settled_steps || turns_.are_on(m.result.steps))) {
-      return;
+    const int steps = motion_.result.steps;
+    if (!course_.settled || (steps >= settled_steps && !turns_.are_on(steps))) {
+      lowest_.estimate(motion_, mass_, alpha, feels_rounding(moved, farthest_, points().precision()),
+                       course_.settled.has_value());
     }
-    double estimate = eigenvalue_since(m.next, force_before_);
-    if (!place_at_look_.empty() && feels_rounding(moved, farthest_, points().precision())) {
-      estimate = std::min(estimate, eigenvalue_since(place_at_look_, force_at_look_));
-    }
-    if (m.time >= 1 && !course_.settled) {  // windows of an update are too short to average rounding out
-      place_at_look_ = m.before;
-      force_at_look_ = m.force;
-    }
-    if (estimate > 0) {
-      estimate = bounded_eigenvalue(estimate + spring_stiffness());
-      // More damping makes steps shorter, but not what is left: near the end that would pass for rest.
-      lowest_ = course_.settled ? std::min(lowest_, estimate) : estimate;
-    }
-    lowest_ = std::min(lowest_, of_parts_);
-  }
-
-  /// Rayleigh's quotient of the change from (place, force) to `before` and its force; not above 0: it does not tell.
-  double eigenvalue_since(const NodalVectors& place, const NodalVectors& force) const {
-    const Motion& m = motion_;
-    const double stiffness = sum_over_nodes(
-        nodes(), [&](std::size_t a) { return (at(m.before, a) - at(place, a)).dot(at(m.force, a) - at(force, a)); });
-    return rayleigh_quotient(stiffness, m.inertia(mass_, m.before, place));
-  }
-
-  /// The share of conditions that give way in A_0; 0 where there are none.
-  double spring_stiffness() const {
-    const Motion& m = motion_;
-    const double work = m.body.essential.spring_work(m.before, m.now) / alpha;
-    if (!(work > 0)) {
-      return 0;
-    }
-    return work / m.inertia(mass_, m.now, m.before);
   }
 
   /// By the last steps; once that is small enough, by the last spans, too, which an update may not know yet.
@@ -311,7 +268,7 @@ class Relaxation {
     }
     const int span = window_ * SpanBound::windows_of(window_), now = motion_.result.steps;
     return left_of_rigid(rigid_->longest(spans_.end_of_last(), spans_.begin_of_last()), span,
-                         turns_.largest_eigenvalue(lowest_, now - span, now), course_.settled->of_rigid);
+                         turns_.largest_eigenvalue(lowest_.value(), now - span, now), course_.settled->of_rigid);
   }
 
   double tolerance() const { return wanted_bound(options_.tolerance, farthest_); }
@@ -368,23 +325,21 @@ class Relaxation {
 
   SteppingResult finish() {
     motion_.result.error_bound = error_bound_;
-    motion_.result.settled = {
-        .mass = std::move(mass_), .mass_scale = mass_scale_, .lowest = lowest_, .smallest_jacobian = mass_jacobian_};
+    motion_.result.settled = {.mass = std::move(mass_),
+                              .mass_scale = mass_scale_,
+                              .lowest = lowest_.value(),
+                              .smallest_jacobian = mass_jacobian_};
     return motion_.finish();
   }
 
   const int window_;
   const Course& course_;
   const SolveOptions& options_;
-  Motion motion_;              // its time runs from 0 to 1 while the load's curve is run through, then stays
-  NodalVectors force_before_;  // one step before the force of a look
-  NodalVectors place_at_look_, force_at_look_;  // `before` and the force there of the last look under the whole load
+  Motion motion_;  // its time runs from 0 to 1 while the load's curve is run through, then stays
+  LowestEigenvalue lowest_;
   std::vector<double> mass_;
   double mass_scale_ = 1;
-  double lowest_ = 1e-4;                                       // A_0: a guess until there are increments
-  double beta_ = 1;                                            // of the steps since the last look
-  double of_parts_ = std::numeric_limits<double>::infinity();  // A_0 of stiff parts that conditions see
-  int next_look_at_parts_ = 0;
+  double beta_ = 1;           // of the steps since the last look
   double mass_jacobian_ = 1;  // the smallest J of the state that the masses follow
   ErrorBound bound_{window_, margin_of(course_.bound)};
   std::optional<RigidPart> rigid_;
