@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "solve/force/internal_force.hpp"
+#include "solve/interface/result.hpp"
 #include "tests/unit/solve/material_cases.hpp"
 #include "tests/unit/solve/specimen.hpp"
 
