@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/device/device_body.hpp"
 
-#include <numeric>
-
 #include "solve/dynamics/relaxation_rules.hpp"
 #include "solve/force/firmness.hpp"
 #include "solve/force/stiffness_bound.hpp"
 #include "tests/unit/solve/device/backends.hpp"
 #include "tests/unit/solve/material_cases.hpp"
-#include "tests/unit/solve/specimen.hpp"
+#include "tests/unit/solve/specimen_body.hpp"
 
 namespace brainshift::solve::device {
 
@@ -59,11 +57,7 @@ class Moved {
 
  private:
   static Body body_of(const Specimen& specimen) {
-    Body body;
-    body.original.resize(specimen.cloud.size());
-    std::iota(body.original.begin(), body.original.end(), 0);
-    body.points = specimen.points;
-    body.laws = specimen.laws;
+    Body body = free_body(specimen);
     body.points.felt = felt_tissues(body.points, body.laws.elastic.size());
     return body;
   }

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <deque>
 #include <memory>
-#include <numeric>
 
 #include "solve/device/each/pieces.hpp"
 #include "solve/force/firmness.hpp"
 #include "solve/force/stiffness_bound.hpp"
 #include "tests/unit/solve/device/backends.hpp"
 #include "tests/unit/solve/material_cases.hpp"
-#include "tests/unit/solve/specimen.hpp"
+#include "tests/unit/solve/specimen_body.hpp"
 
 namespace brainshift::solve::device {
 
@@ -37,7 +36,7 @@ class Moved {
       u.push_back(loads.back().start);
       force.push_back(specimens.back().force(u.back()));
     }
-    body_ = body_of(specimens.front());
+    body_ = free_body(specimens.front());
     on_ = std::make_unique<DeviceEnsemble<Scalar>>(backend, body_, false);
     on_->load(loads);
     order_.who = static_cast<Members>((std::uint64_t{1} << loads.size()) - 1);
@@ -64,14 +63,6 @@ class Moved {
   std::vector<NodalVectors> u, force;
 
  private:
-  static Body body_of(const Specimen& specimen) {
-    Body body;
-    body.original.resize(specimen.cloud.size());
-    std::iota(body.original.begin(), body.original.end(), 0);
-    body.points = specimen.points;
-    body.laws = specimen.laws;
-    return body;
-  }
   Body body_;
   std::unique_ptr<DeviceEnsemble<Scalar>> on_;
   OrderOfEach order_;

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
+#include <vector>
 
-#include "tests/unit/solve/specimen.hpp"
+#include "tests/unit/solve/specimen_body.hpp"
 
 namespace brainshift::solve::lowest_eigenvalue_test {
 
@@ -16,8 +16,9 @@ constexpr double side = 30, alpha = 3;
 /// A box that nothing holds, one step after it lay undeformed.
 struct Stepped {
   Specimen box{test::irregular_box(4, side), test::box_cells(3, side), {Material{}}, SpecimenOptions{}};
-  Motion motion{body(), 0};
+  Motion motion{free_body(box), 0};
   std::vector<double> mass = std::vector<double>(box.cloud.size(), 1.0);
+
   /// Masses for a quotient of this.
   explicit Stepped(double wanted) {
     motion.before = box.random_parameters(1e-6);
@@ -30,16 +31,6 @@ struct Stepped {
     std::fill(mass.begin(), mass.end(), stiffness / inertia / wanted);
     motion.weigh(mass, alpha);
     motion.time = 1;
-  }
-
- private:
-  Body body() const {
-    Body made;
-    made.original.resize(box.cloud.size());
-    std::iota(made.original.begin(), made.original.end(), 0);
-    made.points = box.points;
-    made.laws = box.laws;
-    return made;
   }
 };
 

@@ -10,18 +10,14 @@
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/force/stiffness_bound.hpp"
 #include "tests/unit/solve/chapter_critical_step.hpp"
-#include "tests/unit/solve/specimen.hpp"
+#include "tests/unit/solve/specimen_body.hpp"
 
 namespace brainshift::solve::motion_test {
 
 constexpr double side = 30;
 
 Body pulled_body(const Specimen& box, double pull) {
-  Body body;
-  body.original.resize(box.cloud.size());
-  std::iota(body.original.begin(), body.original.end(), 0);
-  body.points = box.points;
-  body.laws = box.laws;
+  Body body = free_body(box);
   NodalVectors external = box.rest();
   for (std::size_t a = 0; a < box.cloud.size(); ++a) {
     external[4 * a + 2] = pull * (box.cloud.positions(static_cast<Eigen::Index>(a), 2) - side / 2);
