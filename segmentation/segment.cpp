@@ -334,6 +334,10 @@ Segmentation segment_t1(const SegmentInput& input, const SegmentOptions& options
 
 // Wrapping fills grooves and long edges cut bumps off: of a surface that loses or gains much.
 void note_volume(Segmentation& result, double given, const CheckedSurface& checked, double edge_length) {
+  if (checked.closed_holes > 0) {
+    result.notes.push_back("the surface had holes, " + std::to_string(checked.closed_holes) +
+                           " of them, which were closed with triangles");
+  }
   constexpr double much = 0.03;  // edges of 5 mm take 0.02 of a ball of 40 mm
   const double left = checked.measures.volume + checked.loose_volume;
   const bool changed = std::abs(left - given) > much * given, repaired = checked.measures.repaired;

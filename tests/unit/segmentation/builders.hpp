@@ -83,6 +83,20 @@ inline Surface tetrahedron() {
   return surface;
 }
 
+/// Without the triangles that reach into the uppermost share of its height, and so open.
+inline Surface without_top(Surface surface, double share) {
+  const double high = surface.vertices.col(2).maxCoeff(), low = surface.vertices.col(2).minCoeff();
+  Eigen::Index left = 0;
+  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
+    const Eigen::RowVector3i triangle = surface.triangles.row(t);
+    if (surface.vertices.col(2)(triangle).maxCoeff() < high - share * (high - low)) {
+      surface.triangles.row(left++) = triangle;
+    }
+  }
+  surface.triangles.conservativeResize(left, 3);
+  return surface;
+}
+
 inline void expect_sound(const segmentation::SurfaceMeasures& measures) {
   EXPECT_TRUE(measures.closed);
   EXPECT_TRUE(measures.outward);

@@ -247,8 +247,13 @@ TEST(Segment, ASurfaceThatIsWrappedOrRemeshedToAnotherVolumeIsWarnedOf) {
   ASSERT_EQ(coarse.notes.size(), 1U);
   EXPECT_NE(coarse.notes.front().find("warning: the surface was remeshed to edges of 10 mm"), std::string::npos)
       << coarse.notes.front();
-  input.surface->triangles.conservativeResize(input.surface->triangles.rows() - 1, 3);
   options.edge_length = 5;
+  const Surface whole = *input.surface;
+  input.surface->triangles.conservativeResize(whole.triangles.rows() - 1, 3);
+  const Segmentation closed = segment(input, options);
+  ASSERT_EQ(closed.notes.size(), 1U);
+  EXPECT_EQ(closed.notes.front(), "the surface had holes, 1 of them, which were closed with triangles");
+  input.surface = without_top(whole, 0.05);
   const Segmentation wrapped = segment(input, options);
   ASSERT_EQ(wrapped.notes.size(), 1U);
   EXPECT_NE(wrapped.notes.front().find("is open or cuts itself and was wrapped; it holds"), std::string::npos)

@@ -40,13 +40,36 @@ TEST(CheckedSurface, AnInsideOutSurfaceIsTurned) {
   EXPECT_GT(checked.measures.volume, 0.0);
 }
 
-TEST(CheckedSurface, AHoleIsBridgedAndCounted) {
+TEST(CheckedSurface, AHoleIsClosedAndCounted) {
   Surface surface = sphere(30.0, 40);
-  surface.triangles = surface.triangles.topRows(surface.triangles.rows() - 6).eval();
-  ASSERT_FALSE(measure(surface).closed);
+  const double whole = volume(surface);
+  surface.triangles.row(700).swap(surface.triangles.row(surface.triangles.rows() - 1));
+  surface.triangles.conservativeResize(surface.triangles.rows() - 1, 3);
+  for (const Surface& open : {surface, turned_over(surface)}) {
+    ASSERT_FALSE(measure(open).closed);
+    const auto checked = checked_surface(open, 3.0);
+    expect_sound(checked.measures);
+    EXPECT_FALSE(checked.measures.repaired);
+    EXPECT_EQ(checked.closed_holes, 1U);
+    EXPECT_NEAR(checked.measures.volume, whole, 0.01 * whole);
+  }
+}
+
+TEST(CheckedSurface, ATriangleThatFacesTheWrongWayIsTurned) {
+  Surface surface = sphere(30.0, 40);
+  std::swap(surface.triangles(700, 0), surface.triangles(700, 1));
+  const auto checked = checked_surface(surface, 5.0);
+  expect_sound(checked.measures);
+  EXPECT_FALSE(checked.measures.repaired);
+  EXPECT_EQ(checked.closed_holes, 0U);
+}
+
+TEST(CheckedSurface, AWideHoleIsWrappedAndCounted) {
+  const Surface surface = without_top(sphere(30.0, 40), 0.05);
   const auto checked = checked_surface(surface, 6.0);
   expect_sound(checked.measures);
   EXPECT_TRUE(checked.measures.repaired);
+  EXPECT_EQ(checked.closed_holes, 0U);
   EXPECT_NEAR(checked.measures.volume, ball_volume(30.0), 0.06 * ball_volume(30.0));
 }
 
