@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "segmentation/files/text_lines.hpp"
+#include "segmentation/files/number_table.hpp"
 #include "solve/cut/self_crossing.hpp"
 
 namespace brainshift::solve {
@@ -93,31 +93,12 @@ Cut checked_cut(const WrittenPath& path, const CutTiming& timing) {
 }  // namespace
 
 Cut read_cut_path(const std::filesystem::path& file, const CutTiming& timing) {
-  const std::vector<std::string> lines = read_lines(file);
-  std::size_t line = 0;
-  while (line < lines.size() && lines[line].starts_with('#')) {
-    ++line;
-  }
-  const std::vector<std::string> header = line < lines.size() ? split_fields(lines[line]) : std::vector<std::string>();
-  const bool timed = header == std::vector<std::string>{"x", "y", "time"};
-  if (!timed && header != std::vector<std::string>{"x", "y"}) {
-    fail_at_line(file, line + 1, "the header x,y or x,y,time of a cut's path is expected here");
-  }
-  WrittenPath path{file.string(), "line", {}, {}, {}};
-  for (++line; line < lines.size(); ++line) {
-    if (lines[line].starts_with('#')) {
-      continue;
-    }
-    const std::vector<std::string> fields = split_fields(lines[line]);
-    if (fields.size() != header.size()) {
-      fail_at_line(file, line + 1,
-                   std::string(timed ? "three numbers x,y,time" : "two numbers x,y") + " are expected, found \"" +
-                       lines[line] + "\"");
-    }
-    path.number.push_back(line + 1);
-    path.vertices.emplace_back(parse_number(fields[0], file, line + 1), parse_number(fields[1], file, line + 1));
-    if (timed) {
-      path.time.push_back(parse_number(fields[2], file, line + 1));
+  NumberTable table = read_number_table(file, {"x,y", "x,y,time"});
+  WrittenPath path{file.string(), "line", std::move(table.line), {}, {}};
+  for (const std::vector<double>& row : table.rows) {
+    path.vertices.emplace_back(row[0], row[1]);
+    if (row.size() == 3) {
+      path.time.push_back(row[2]);
     }
   }
   return checked_cut(path, timing);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "segmentation/files/number_table.hpp"
 #include "segmentation/files/text_lines.hpp"
 #include "segmentation/options/values.hpp"
 
@@ -67,27 +68,13 @@ double LoadCurve::at(double time) const {
 }
 
 LoadCurve read_load_curve(const std::filesystem::path& file, LoadCurve::Join join) {
-  const std::vector<std::string> lines = read_lines(file);
-  std::size_t line = 0;
-  while (line < lines.size() && lines[line].starts_with('#')) {
-    ++line;
-  }
-  if (line == lines.size() || split_fields(lines[line]) != std::vector<std::string>{"time", "factor"}) {
-    fail_at_line(file, line + 1, "the header time,factor is expected here");
-  }
+  const NumberTable table = read_number_table(file, {"time,factor"});
   std::vector<double> time, factor;
-  for (++line; line < lines.size(); ++line) {
-    if (lines[line].starts_with('#')) {
-      continue;
-    }
-    const std::vector<std::string> fields = split_fields(lines[line]);
-    if (fields.size() != 2) {
-      fail_at_line(file, line + 1, "two numbers time,factor are expected, found \"" + lines[line] + "\"");
-    }
-    time.push_back(parse_number(fields[0], file, line + 1));
-    factor.push_back(parse_number(fields[1], file, line + 1));
-    if (const std::string fault = fault_of_row(time, factor, time.size() - 1); !fault.empty()) {
-      fail_at_line(file, line + 1, fault);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    time.push_back(table.rows[i][0]);
+    factor.push_back(table.rows[i][1]);
+    if (const std::string fault = fault_of_row(time, factor, i); !fault.empty()) {
+      fail_at_line(file, table.line[i], fault);
     }
   }
   try {
