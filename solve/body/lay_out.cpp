@@ -89,7 +89,8 @@ ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamic
   for (int k = 1; k <= levels; ++k) {
     const double fraction = static_cast<double>(k) / levels;
     DrainedFluid fluid = *model.fluid;
-    // A covered body stays covered: of its points at the surface, taken for cubes, a part may stand above the top.
+    // A covered body stays covered: of what points at the surface stand for, taken for boxes, a part may be above the
+    // top.
     const bool covered = fluid.level <= top;
     fluid.level = covered ? -std::numeric_limits<double>::infinity() : top + fraction * (fluid.level - top);
     fluid.gravity_of_image = fluid.gravity + fraction * (fluid.gravity_of_image - fluid.gravity);
@@ -97,7 +98,7 @@ ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamic
     for (double& f : total) {
       f *= fraction;
     }
-    add_fluid_force(fluid, model.materials, parts.points, parts.point_rows, total);
+    add_fluid_force(fluid, model.materials, model.cells, parts.points, parts.point_rows, total);
   }
   return ExternalForce(std::move(at_levels));
 }

@@ -16,12 +16,13 @@ const Eigen::Vector3d down(0, -9.81, 0);
 
 struct Cube {
   NodeCloud cloud = test::irregular_box(6, side);
-  IntegrationPoints points = integration_points(test::box_cells(7, side), 8, nullptr, {1});
+  BackgroundCells cells = test::box_cells(7, side);
+  IntegrationPoints points = integration_points(cells, 8, nullptr, {1});
   ShapeRows rows = ShapeFunctions(cloud.positions, cloud.spacing, {}).evaluate(points.positions, true);
 
   NodalVectors force(const DrainedFluid& fluid, const std::map<std::int32_t, Material>& materials) const {
     NodalVectors total(4 * cloud.size(), 0.0);
-    add_fluid_force(fluid, materials, points, rows, total);
+    add_fluid_force(fluid, materials, cells, points, rows, total);
     return total;
   }
 };
