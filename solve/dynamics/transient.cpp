@@ -110,7 +110,8 @@ class Transient {
     // between the midpoints of the steps before and after the force, where the velocities are
     const double h = step_before_ > 0 ? (step_before_ + step_) / 2 : step_;
     const double ch = options_.damping * h;
-    const double time = motion_.time + step_;
+    time_of_forces_ = motion_.time;
+    const double time = time_of_forces_ + step_;
     motion_.step(laws_, mass(), 2 * h * step_ / (2 + ch), (2 - ch) / (2 + ch), time, course_.curve.at(time));
     step_before_ = step_;
     if (options_.time_step == 0 && !is_at_the_end() && jacobian_range(motion_.scratch).least_ratio < least_ratio) {
@@ -120,6 +121,7 @@ class Transient {
 
   void look() {
     if (motion_.look(laws_, mass(), most_imbalance_)) {
+      motion_.result.history.back().time = time_of_forces_;
       follow_stiffness();
     }
   }
@@ -160,6 +162,7 @@ class Transient {
   double most_imbalance_;
   double step_ = 0;  // s
   double step_before_ = 0;
+  double time_of_forces_ = 0;  // s; a look sees the state before the step, with the velocities about it
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace brainshift::solve {
 /// A row of history.csv.
 struct HistoryRow {
   int step = 0;
-  double time = 0;               ///< relaxation: share of the load's curve, 0 to 1; transient: s
+  double time = 0;               ///< relaxation: share of the load's curve, 0 to 1; transient: s, before the step
   double external_work = 0;      ///< mJ
   double strain_energy = 0;      ///< mJ
   double kinetic_energy = 0;     ///< mJ, fictitious in dynamic relaxation
@@ -36,7 +36,7 @@ struct CutSurface {
 /// The displacement on the way to the end state.
 struct Snapshot {
   int step = 0;
-  double time = 0;                     ///< as in HistoryRow
+  double time = 0;                     ///< after the step: share of the load's curve, or s
   Points displacement = Points(0, 3);  ///< mm, in the cloud's order, then the nodes that a cut added
   Points positions = Points(0, 3);     ///< undeformed, mm; fewer than the solution's where a cut has added nodes since
   CutFacets cut = {};                  ///< as far as it had come

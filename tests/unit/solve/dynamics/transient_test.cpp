@@ -42,6 +42,11 @@ TEST(Transient, NothingHoldsABodyInFreeFall) {
     const SolveResult result = solve(model, options);
     EXPECT_TRUE(result.measures.converged) << result.failure;
     EXPECT_EQ(result.solution.reaction_force.norm(), 0);
+    const double mass = model.materials[1].density * 1e-9 * side * (plane == Plane::none ? side * side : 50);  // kg
+    for (const HistoryRow& row : result.history) {
+      const double speed = model.gravity.norm() * row.time * row.time / (2 * end), energy = 500 * mass * speed * speed;
+      EXPECT_NEAR(row.kinetic_energy, energy, 0.01 * energy + 1e-9) << row.time;
+    }
     const Eigen::RowVector3d fallen = 1000 * model.gravity * end * end / 6;  // ∬ g t/T, mm
     return (result.solution.displacement.rowwise() - fallen).rowwise().norm().maxCoeff() / fallen.norm();
   };
