@@ -65,7 +65,7 @@ TEST(PointExtents, OfSimplicesAndOfTurnedCubesHoldTheVolumeAboveALevel) {
     }
   }
   const Eigen::Vector3d diagonal = Eigen::Vector3d(1, 1, 1).normalized();
-  const double depth = 30;  // below the corner: the plane cuts off a corner of depth³ √3 / 2
+  const double depth = 20;  // below the corner: the plane cuts off a corner of depth³ √3 / 2
   EXPECT_NEAR(volume_above(std::sqrt(3) * side - depth, diagonal, test::box_cells(n - 1, side), 8) /
                   (std::sqrt(3) / 2 * std::pow(depth, 3)),
               1, 0.01);
