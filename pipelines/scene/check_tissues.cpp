@@ -8,7 +8,6 @@
 
 #include "pipelines/scene/scene_fault.hpp"
 #include "pipelines/scene/scene_labels.hpp"
-#include "pipelines/scene/tissue_table.hpp"
 #include "segmentation/labels/label_table.hpp"
 #include "solve/material/check_material.hpp"
 
@@ -141,13 +140,7 @@ void check_tissues(const Scene& scene) {
 }
 
 void check_material(const Tissue& tissue) {
-  const std::string name = "the material of label " + std::to_string(tissue.label);
-  if (tissue.material.law != solve::Law::ogden && !tissue.material.ogden.empty()) {
-    throw std::invalid_argument(name + " has the Ogden terms " + find_option(tissue_options(), "ogden")->get(tissue) +
-                                " but follows the law " + find_option(tissue_options(), "law")->get(tissue) +
-                                "; set the law to ogden, or ogden to nothing");
-  }
-  solve::check_material(name, tissue.material);
+  solve::check_material("the material of label " + std::to_string(tissue.label), tissue.material);
 }
 
 }  // namespace brainshift::pipelines

@@ -9,8 +9,7 @@ namespace brainshift::pipelines {
 /// Throws std::invalid_argument naming file and line, what was found and what to do.
 void check_tissues(const Scene& scene);
 
-/// Throws std::invalid_argument, one sentence, when the material has Ogden terms under another law or is one that
-/// solve::check_material refuses.
+/// Throws std::invalid_argument, one sentence, when the material is one that solve::check_material refuses.
 void check_material(const Tissue& tissue);
 
 }  // namespace brainshift::pipelines

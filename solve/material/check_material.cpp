@@ -26,6 +26,10 @@ bool is_positive(double value) {
   return value > 0 && std::isfinite(value);
 }
 
+std::string written(const Material& material, const char* constant) {
+  return find_option(material_options(), constant)->get(material);
+}
+
 void check_constant(const std::string& name, const Material& material, const char* constant) {
   const Option<Material>& option = *find_option(material_options(), constant);
   require(option.holds(material), name, ": ", refusal(option, option.get(material)));
@@ -67,6 +71,9 @@ void check_own(const std::string& name, const Material& material) {
 }  // namespace
 
 void check_material(const std::string& name, const Material& material) {
+  require(material.law == Law::ogden || material.ogden.empty(), name, " has the Ogden terms ",
+          written(material, "ogden"), " but follows the law ", written(material, "law"),
+          "; set the law to ogden, or ogden to nothing");
   if (material.law == Law::own) {
     check_own(name, material);
   } else if (material.law == Law::ogden) {

@@ -81,6 +81,9 @@ TEST(CheckMaterial, SaysWhatIsWrongWithOgdenTerms) {
             "positive");
   EXPECT_EQ(of(std::vector<OgdenTerm>(7, {100, 2})),
             "the material of label 2 has 7 Ogden terms; at most 6 are supported");
+  EXPECT_EQ(complaint({.ogden = {{842, -4.7}}}),
+            "the material of label 2 has the Ogden terms 842,-4.7 but follows the law neo_hookean; set the law to "
+            "ogden, or ogden to nothing");
 }
 
 TEST(CheckMaterial, SaysWhatIsWrongWithPronyTerms) {
