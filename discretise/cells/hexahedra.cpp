@@ -118,8 +118,6 @@ Outcome examine(const Box& box, const Lattice& lattice, const BodySide& side) {
 void add_vertices(const std::vector<Box>& boxes, const Lattice& lattice, BackgroundCells& cells) {
   const Fine lines = subdivisions * lattice.size + 1;
   const auto key = [&](const Fine& f) { return (f.z() * lines.y() + f.y()) * lines.x() + f.x(); };
-  constexpr int vtk_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                    {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   std::vector<std::int64_t> corners;
   corners.reserve(8 * boxes.size());
   for (const Box& box : boxes) {

@@ -30,6 +30,10 @@ constexpr int corner_count(CellKind kind) {
   return 0;
 }
 
+/// Where the corners of a hexahedron lie along its edges, 0 or 1, in VTK's order; the first four are a quadrilateral's.
+inline constexpr int vtk_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                         {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+
 /// The part of a cut cell that lies inside the body, split in eight: volumes and centroids, so that integration points
 /// never lie outside.
 struct InsideOctants {

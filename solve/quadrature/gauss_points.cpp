@@ -108,6 +108,19 @@ Corners corners_of(const BackgroundCells& cells, std::size_t cell) {
   return corners;
 }
 
+Eigen::Vector3d place_in(const Corners& corners, const Eigen::Array3d& local) {
+  const int axes = corners.rows() == 8 ? 3 : 2;
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  for (int k = 0; k < corners.rows(); ++k) {
+    double weight = 1;
+    for (int axis = 0; axis < axes; ++axis) {
+      weight *= vtk_corner[k][axis] == 1 ? local[axis] : 1 - local[axis];
+    }
+    x += weight * corners.row(k).transpose();
+  }
+  return x;
+}
+
 WeightedPoint inside_point(const InsideOctants& part) {
   WeightedPoint whole{Eigen::Vector3d::Zero(), 0};
   for (int octant = 0; octant < 8; ++octant) {

@@ -18,6 +18,9 @@ struct WeightedPoint {
 
 Corners corners_of(const BackgroundCells& cells, std::size_t cell);
 
+/// The place of a hexahedron or quadrilateral at local coordinates in [0, 1] along its edges, by its multilinear map.
+Eigen::Vector3d place_in(const Corners& corners, const Eigen::Array3d& local);
+
 /// The centroid of the inside part of a cut cell, with its volume.
 WeightedPoint inside_point(const InsideOctants& part);
 

@@ -25,22 +25,6 @@ struct LatticePlace {
   std::size_t octant;
 };
 
-/// Of a hexahedron or quadrilateral at local coordinates in [0, 1].
-Eigen::Vector3d place_in(const Corners& corners, const Eigen::Array3d& local) {
-  constexpr int vtk_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                    {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  const int axes = corners.rows() == 8 ? 3 : 2;
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  for (int k = 0; k < corners.rows(); ++k) {
-    double weight = 1;
-    for (int axis = 0; axis < axes; ++axis) {
-      weight *= vtk_corner[k][axis] == 1 ? local[axis] : 1 - local[axis];
-    }
-    x += weight * corners.row(k).transpose();
-  }
-  return x;
-}
-
 std::vector<LatticePlace> lattice_of(const Corners& corners) {
   const bool solid = corners.rows() == 8;
   const int side = solid ? 8 : 16;  // places

@@ -2,32 +2,19 @@
 #include "solve/quadrature/split_cell.hpp"
 
 #include <Eigen/Geometry>
-#include <cstdlib>
 
 namespace brainshift::solve {
 
 namespace {
 
-/// Where the multilinear map of a hexahedron or quadrilateral takes (i, j, k) halves of its edges.
-Eigen::RowVector3d halfway(const Corners& corners, int i, int j, int k) {
-  constexpr int at[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
-  Eigen::RowVector3d x = Eigen::RowVector3d::Zero();
-  for (int c = 0; c < corners.rows(); ++c) {
-    const int distance[3] = {std::abs(at[c][0] - i), std::abs(at[c][1] - j), std::abs(at[c][2] - k)};
-    const double weight = (2 - distance[0]) / 2.0 * (2 - distance[1]) / 2.0;
-    x += weight * (corners.rows() == 8 ? (2 - distance[2]) / 2.0 : 1.0) * corners.row(c);
-  }
-  return x;
-}
-
 std::vector<Corners> split_multilinear(const Corners& corners) {
-  constexpr int step[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   std::vector<Corners> parts;
   for (int part = 0; part < corners.rows(); ++part) {
+    const Eigen::Array3i low(part & 1, (part >> 1) & 1, (part >> 2) & 1);
     Corners of_part(corners.rows(), 3);
     for (int c = 0; c < corners.rows(); ++c) {
-      of_part.row(c) =
-          halfway(corners, (part & 1) + step[c][0], ((part >> 1) & 1) + step[c][1], ((part >> 2) & 1) + step[c][2]);
+      const Eigen::Array3i halves = low + Eigen::Map<const Eigen::Array3i>(vtk_corner[c]);
+      of_part.row(c) = place_in(corners, halves.cast<double>() / 2).transpose();
     }
     parts.push_back(of_part);
   }
