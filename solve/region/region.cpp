@@ -7,6 +7,7 @@
 
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/cut/resection.hpp"
+#include "solve/interface/unfit_parts.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/gauss_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
@@ -156,7 +157,7 @@ SolveResult solve_whole(const Model& model, SolveOptions options, double seconds
 }  // namespace
 
 void check_region(const Model& model, const SolveOptions& options) {
-  const std::pair<bool, const char*> refused[] = {
+  const std::vector<UnfitPart> unfit = {
       {options.dynamics == Dynamics::transient, "transient dynamics: waves run through the whole body"},
       {!model.gravity.isZero() || model.fluid, "gravity: it moves the whole body"},
       {model.conditions.force.rows() > 0 || model.body_force, "forces: take prescribed displacements alone"},
@@ -165,12 +166,7 @@ void check_region(const Model& model, const SolveOptions& options) {
       {model.septum.has_value(), "a septum"},
       {model.resection.has_value(), "a resection: the rest of the body relaxes"},
       {model.plane != Plane::none, "a plane problem"}};
-  for (const auto& [given, what] : refused) {
-    if (given) {
-      throw std::invalid_argument("a region does not go with " + std::string(what) +
-                                  "; solve the whole body, with region 0");
-    }
-  }
+  refuse_unfit("a region does not go", unfit, "solve the whole body, with region 0");
 }
 
 SolveResult solve_region(const Model& model, const SolveOptions& given, const Progress& progress) {
