@@ -148,6 +148,11 @@ std::vector<double> array(const std::filesystem::path& file, vtkFieldData& data,
   return values;
 }
 
+Points vectors(const std::filesystem::path& file, vtkFieldData& data, const char* name, std::size_t rows) {
+  const std::vector<double> values = array(file, data, name, rows, 3);
+  return Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
+}
+
 std::vector<std::int32_t> whole_number_array(const std::filesystem::path& file, vtkFieldData& data, const char* name,
                                              std::size_t rows, const std::string& what) {
   const std::vector<double> values = array(file, data, name, rows);

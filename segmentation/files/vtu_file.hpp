@@ -46,7 +46,10 @@ void add_array(vtkFieldData& data, const char* name, std::span<const std::uint8_
 std::vector<double> array(const std::filesystem::path& file, vtkFieldData& data, const char* name, std::size_t rows,
                           int components = 1);
 
-/// The same, for whole numbers in the range of int32; else throws, naming file and row (called `what`).
+/// The same of three values a row.
+Points vectors(const std::filesystem::path& file, vtkFieldData& data, const char* name, std::size_t rows);
+
+/// The same as array(), for whole numbers in the range of int32; else throws, naming file and row (called `what`).
 std::vector<std::int32_t> whole_number_array(const std::filesystem::path& file, vtkFieldData& data, const char* name,
                                              std::size_t rows, const std::string& what);
 

@@ -15,12 +15,6 @@ namespace brainshift::solve {
 
 namespace {
 
-Points vectors(const std::filesystem::path& file, vtkUnstructuredGrid& grid, const char* name) {
-  const auto nodes = static_cast<std::size_t>(grid.GetNumberOfPoints());
-  const std::vector<double> values = vtu::array(file, *grid.GetPointData(), name, nodes, 3);
-  return Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
-}
-
 Eigen::SparseMatrix<double> rows_of(const Eigen::SparseMatrix<double>& matrix, const std::vector<std::int32_t>& rows) {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = matrix;
   Eigen::SparseMatrix<double, Eigen::RowMajor> some(static_cast<Eigen::Index>(rows.size()), matrix.cols());
@@ -102,9 +96,11 @@ Conditions subset(const Conditions& conditions, const std::vector<std::int32_t>&
 
 Conditions read_conditions(const std::filesystem::path& file) {
   const auto grid = vtu::read(file);
-  const Conditions conditions{.displacement = vectors(file, *grid, "prescribed_displacement"),
-                              .force = vectors(file, *grid, "force")};
-  naming(file.string(), [&] { check_conditions(conditions, static_cast<std::size_t>(grid->GetNumberOfPoints())); });
+  const auto nodes = static_cast<std::size_t>(grid->GetNumberOfPoints());
+  vtkPointData& data = *grid->GetPointData();
+  const Conditions conditions{.displacement = vtu::vectors(file, data, "prescribed_displacement", nodes),
+                              .force = vtu::vectors(file, data, "force", nodes)};
+  naming(file.string(), [&] { check_conditions(conditions, nodes); });
   return conditions;
 }
 

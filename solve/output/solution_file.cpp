@@ -20,11 +20,6 @@ namespace {
 
 constexpr std::array bases = {Basis::linear, Basis::quadratic, Basis::modified_quadratic};
 
-Points vectors(const std::filesystem::path& file, vtkPointData& data, const char* name, std::size_t nodes) {
-  const std::vector<double> values = vtu::array(file, data, name, nodes, 3);
-  return Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(values.size() / 3), 3);
-}
-
 void check_range(const std::filesystem::path& file, const std::string& name, double value, double highest) {
   if (!(value >= 0 && value <= highest)) {
     refuse(file, name + " is " + write_number(value) + "; 0 to " + write_number(highest) + " is expected.");
@@ -155,14 +150,14 @@ Solution read_solution(const std::filesystem::path& file) {
   }
   const auto nodes = static_cast<std::size_t>(solution.positions.rows());
   vtkPointData& data = *grid->GetPointData();
-  solution.displacement = vectors(file, data, "displacement", nodes);
+  solution.displacement = vtu::vectors(file, data, "displacement", nodes);
   const std::size_t least = solution.shape.planar ? 3 : 4;
   if (nodes < least || solution.displacement.rows() == 0) {
     refuse(file, "it has no point array `displacement` of three components over at least " + std::to_string(least) +
                      " nodes.");
   }
   check_displacement(file, solution);
-  solution.reaction_force = vectors(file, data, "reaction_force", nodes);
+  solution.reaction_force = vtu::vectors(file, data, "reaction_force", nodes);
   if (solution.reaction_force.rows() == 0) {
     solution.reaction_force = Points::Zero(solution.positions.rows(), 3);
   }
