@@ -2,13 +2,12 @@
 #include "register/device/register_on_device.hpp"
 
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "register/device/fields_on_device.hpp"
 #include "register/warp/warp.hpp"
-#include "solve/device/device_fault.hpp"
+#include "solve/device/where_asked.hpp"
 #include "solve/output/solution_file.hpp"
 
 namespace brainshift::registration::device {
@@ -68,25 +67,13 @@ void register_on(const Backend& backend, const RegisterInput& input, const Image
 
 bool register_if_asked(const RegisterInput& input, const Images& images, const RegisterOptions& options,
                        const BrainZones& zones, const Progress& progress, Registration& result) {
-  if (options.device == solve::Device::cpu) {
-    return false;
-  }
-  const bool only_gpu = options.device == solve::Device::cuda;
-  if (const std::string why = why_not_on_gpu(input); !why.empty()) {
-    if (only_gpu) {
-      throw std::invalid_argument("register's device cuda: " + why + "; take cpu, or auto");
-    }
-    return false;
-  }
-  try {
+  const auto on_gpu = [&] {
     register_on(*gpu(), input, images, options, zones, progress, result);
     return true;
-  } catch (const solve::device::DeviceFault&) {
-    if (only_gpu) {
-      throw;
-    }
-    return false;
-  }
+  };
+  return solve::device::where_asked(
+             options.device, "register's device", [&] { return why_not_on_gpu(input); }, progress, on_gpu)
+      .has_value();
 }
 
 }  // namespace brainshift::registration::device

@@ -24,8 +24,8 @@ void register_on(const Backend& backend, const RegisterInput& input, const Image
                  const RegisterOptions& options, const BrainZones& zones, const Progress& progress,
                  Registration& result);
 
-/// That on the GPU where the options ask for it. False: it is to be done on the CPU. Throws std::invalid_argument where
-/// the options want nothing else and it cannot be.
+/// That on the GPU where the options ask for it. False: it is to be done on the CPU. Throws as
+/// solve::device::where_asked() does.
 bool register_if_asked(const RegisterInput& input, const Images& images, const RegisterOptions& options,
                        const BrainZones& zones, const Progress& progress, Registration& result);
 

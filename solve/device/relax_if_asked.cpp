@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/device/relax_if_asked.hpp"
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "solve/device/backend.hpp"
 #include "solve/device/device_body.hpp"
-#include "solve/device/device_fault.hpp"
 #include "solve/device/relax_on_device.hpp"
+#include "solve/device/where_asked.hpp"
 #include "solve/dynamics/relaxation.hpp"
 
 namespace brainshift::solve::device {
@@ -53,26 +52,11 @@ std::string why_not_there(const Backend* backend, const Body& body, const Course
 std::optional<SteppingResult> relax_where_asked(const Backend* backend, const Body& body, const Course& course,
                                                 const SolveOptions& options, const Progress& progress,
                                                 const std::function<Relaxed(const Backend&)>& relax) {
-  if (options.device == Device::cpu) {
-    return std::nullopt;
-  }
-  if (const std::string why = why_not_there(backend, body, course, options); !why.empty()) {
-    if (options.device == Device::cuda) {
-      throw std::invalid_argument("device cuda: " + why + "; take cpu, or auto");
-    }
-    report(progress, 0, "on the processor: " + why);
-    return std::nullopt;
-  }
-  try {
+  const auto why_not = [&] { return why_not_there(backend, body, course, options); };
+  return where_asked(options.device, "device", why_not, progress, [&] {
     Relaxed relaxed = relax(*backend);
     return relaxed.slow ? go_on(std::move(relaxed.result), course, options, progress) : std::move(relaxed.result);
-  } catch (const DeviceFault& fault) {
-    if (options.device == Device::cuda) {
-      throw;
-    }
-    report(progress, 0, std::string("once more on the processor: ") + fault.what());
-    return std::nullopt;
-  }
+  });
 }
 
 std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,

@@ -16,8 +16,7 @@ SteppingResult go_on(SteppingResult left, const Course& course, SolveOptions opt
 
 /// A relaxation on a device where the options ask for one that can, and on from there on the CPU where it is slow;
 /// nothing: all is to be done on the CPU. backend: nullptr: there is none. relax: does it there; leaves the body alone
-/// where it throws DeviceFault. Throws std::invalid_argument where the options want nothing but the GPU and it cannot
-/// be, and DeviceFault where they do and it fails.
+/// where it throws DeviceFault. Throws as where_asked() does.
 std::optional<SteppingResult> relax_where_asked(const Backend* backend, const Body& body, const Course& course,
                                                 const SolveOptions& options, const Progress& progress,
                                                 const std::function<Relaxed(const Backend&)>& relax);
