@@ -147,13 +147,13 @@ void FaceContact::apply(NodalVectors& parameters) {
   shift(parameters);
 }
 
-FaceContact::Measures FaceContact::measure(const NodalVectors& parameters) const {
+FaceMeasures FaceContact::measure(const NodalVectors& parameters) const {
   constexpr double touch = 0.01;  // of the spacing
   FaceGaps gaps = gaps_;
   gaps.move(places(parameters));
-  Measures measures;
+  FaceMeasures measures;
   for (Eigen::Index f = 0; f < push_.size(); ++f) {
-    measures.touching += gaps.gaps()[f] < touch * gaps.spacing(f) ? 1 : 0;
+    measures.touching_nodes += gaps.gaps()[f] < touch * gaps.spacing(f) ? 1 : 0;
     measures.largest_overlap = std::max(measures.largest_overlap, -gaps.presence(f) * gaps.gaps()[f]);
   }
   return measures;

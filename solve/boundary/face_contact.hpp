@@ -8,6 +8,7 @@
 
 #include "solve/arrays/nodal_vectors.hpp"
 #include "solve/boundary/face_gaps.hpp"
+#include "solve/interface/result.hpp"
 #include "solve/shape/shape_rows.hpp"
 
 namespace brainshift::solve {
@@ -48,11 +49,7 @@ class FaceContact {
   /// Parts faces that overlap.
   void apply(NodalVectors& parameters);
 
-  struct Measures {
-    std::size_t touching = 0;    ///< face nodes that overlap, or are within a hundredth of the spacing of it
-    double largest_overlap = 0;  ///< mm more than undeformed, times the presence of what is overlapped
-  };
-  Measures measure(const NodalVectors& parameters) const;
+  FaceMeasures measure(const NodalVectors& parameters) const;
 
  private:
   FaceContact(std::span<const std::int32_t> nodes, FaceGaps gaps, const ShapeRows& rows, Eigen::Index all);

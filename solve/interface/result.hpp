@@ -53,7 +53,7 @@ struct StressStrainRow {
 /// What became of the contact of faces, at the end.
 struct FaceMeasures {
   std::size_t touching_nodes = 0;  ///< that overlap the opposite face or are within a hundredth of the spacing of it
-  double largest_overlap = 0;      ///< mm more than undeformed
+  double largest_overlap = 0;      ///< mm more than undeformed, times the presence of what is overlapped
 };
 
 /// What cutting took.

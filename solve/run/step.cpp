@@ -54,8 +54,7 @@ CutMeasures measure_cut(const CutBody& cut, const SteppingResult& stepped, std::
   measures.added_nodes = cut.cloud.size() - nodes;
   measures.extent = extent(cut.facets()) - extent(cut.septum);
   if (stepped.body.face_contact) {
-    const FaceContact::Measures touch = stepped.body.face_contact->measure(stepped.parameters);
-    measures.faces = {touch.touching, touch.largest_overlap};
+    measures.faces = stepped.body.face_contact->measure(stepped.parameters);
   }
   return measures;
 }
@@ -76,8 +75,7 @@ double deformed_volume(const Surface& wall, const Solution& solution) {
 
 void measure_wall(const Surface& wall, const SteppingResult& stepped, const Solution& solution,
                   ResectionMeasures& measures) {
-  const FaceContact::Measures touch = stepped.body.wall_contact->measure(stepped.parameters);
-  measures.touch = {touch.touching, touch.largest_overlap};
+  measures.touch = stepped.body.wall_contact->measure(stepped.parameters);
   if (measures.volume) {  // the wall closes around the cavity
     measures.volume = deformed_volume(wall, solution);
   }
