@@ -6,7 +6,6 @@
 #include <functional>
 #include <numeric>
 #include <set>
-#include <stdexcept>
 #include <string>
 
 #include "solve/arrays/shared_work.hpp"
@@ -57,18 +56,11 @@ Eigen::SparseMatrix<double> compliance(const Measurement& measured, const Essent
   return root * root.transpose();
 }
 
-/// The nodes at which a component is prescribed. Throws std::invalid_argument where it is infinite.
-std::vector<std::int32_t> nodes_of_component(const Points& prescribed, int axis,
-                                             const std::vector<std::int32_t>& names) {
+/// The nodes at which a component is prescribed.
+std::vector<std::int32_t> nodes_of_component(const Points& prescribed, int axis) {
   std::vector<std::int32_t> nodes;
   for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
-    const double value = prescribed(a, axis);
-    if (std::isinf(value)) {
-      throw std::invalid_argument("the prescribed displacement of node " +
-                                  std::to_string(names[static_cast<std::size_t>(a)]) +
-                                  " is infinite; give millimetres, or NaN where it is free");
-    }
-    if (!std::isnan(value)) {
+    if (!std::isnan(prescribed(a, axis))) {
       nodes.push_back(static_cast<std::int32_t>(a));
     }
   }
@@ -124,7 +116,7 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
   };
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
-    c.node = nodes_of_component(prescribed, axis, names_);
+    c.node = nodes_of_component(prescribed, axis);
     c.shape = all_of(rows_of_conditions(c.node, rim, rim.rows, shape_at), prescribed.rows());
     c.extension = all_of(rows_of_conditions(c.node, rim, rim.extension, own_value), prescribed.rows());
     c.prescribed = c.extension * prescribed.col(axis);  // of free nodes no value is in it
@@ -162,7 +154,7 @@ bool EssentialConditions::prescribe(const Points& prescribed) {
     return false;
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (nodes_of_component(prescribed, static_cast<int>(axis), names_) != component_[axis].node) {
+    if (nodes_of_component(prescribed, static_cast<int>(axis)) != component_[axis].node) {
       return false;
     }
   }

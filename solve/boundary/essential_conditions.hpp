@@ -54,9 +54,8 @@ class EssentialConditions {
 
   /// Nothing is prescribed.
   EssentialConditions() = default;
-  /// prescribed (n × 3) mm, NaN: free. nodal_rows: shape functions at all nodes' positions. names: what the user calls
-  /// the nodes. rim: where nodes are held inside the rim of a patch. Throws std::invalid_argument, naming the node,
-  /// where a prescribed value is infinite.
+  /// prescribed (n × 3) mm, NaN: free, none infinite. nodal_rows: shape functions at all nodes' positions. names: what
+  /// the user calls the nodes. rim: where nodes are held inside the rim of a patch.
   EssentialConditions(const Points& prescribed, const ShapeRows& nodal_rows, std::vector<std::int32_t> names,
                       Imposition imposition = Imposition::exact, const PatchRim& rim = {});
 
@@ -67,7 +66,7 @@ class EssentialConditions {
                       const Measurement& measured, const ShapeRows& inner_rows, const PatchRim& rim = {});
 
   /// Prescribes other values, (n × 3) mm, and forgets all multipliers. Returns false, and does nothing, where they are
-  /// prescribed at other nodes, or these give way. Throws as the constructor does.
+  /// prescribed at other nodes, or these give way.
   bool prescribe(const Points& prescribed);
 
   /// Whether any of them are springs.

@@ -229,6 +229,7 @@ KeptRun keep(const Model& solved, const SolveOptions& given, const Points& displ
 }
 
 SolveResult update(KeptRun& run, const Conditions& given, const Progress& progress) {
+  check_conditions(given, static_cast<std::size_t>(run.displacement.rows()));
   Conditions load = with_all_rows(given, run.displacement.rows());
   check_same_opening(run.origin.prescribed, load.displacement);
   check_is_held(load, run.fine.body);

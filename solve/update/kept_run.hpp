@@ -27,10 +27,10 @@ KeptRun keep(const Model& model, const SolveOptions& options, const Points& disp
 /// none are known, from the state of the last load or of the run's own, whichever is nearer. Where other nodes of the
 /// surface are bonded, derivatives beside them are others, too (boundary_normals.hpp): the body is then laid out anew.
 /// Noise is weighed for each load anew, as a run does. The kept run is at rest under it afterwards. Stops as solve()
-/// does. Of the load's conditions forces are left aside: they stay the run's. Throws std::invalid_argument where it
-/// loads other nodes than the run did, by more than half, or other ones and made_from is not set, or has noise where
-/// the run had none; TooFewNodes where its conditions contradict each other; the kept run then is as it was. After
-/// another throw or a failure it must be read or made again.
+/// does. Of the load's conditions forces are left aside: they stay the run's. Throws as check_conditions() does;
+/// std::invalid_argument where it loads other nodes than the run did, by more than half, or other ones and made_from is
+/// not set, or has noise where the run had none; TooFewNodes where its conditions contradict each other; the kept run
+/// then is as it was. After another throw or a failure it must be read or made again.
 SolveResult update(KeptRun& kept, const Conditions& load, const Progress& progress = {});
 
 /// The largest change of a load, mm at a node, whose answers are as near to rest as they say (KeptRun::trusted); load:

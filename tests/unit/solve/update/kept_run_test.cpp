@@ -157,6 +157,9 @@ TEST(KeptRun, IsAsItWasAfterALoadThatItRefuses) {
   const Model own = uniaxial(0.9, 5);
   KeptRun run = kept(own);
   EXPECT_THROW(update(run, Points::Constant(own.cloud.positions.rows(), 3, std::nan(""))), std::invalid_argument);
+  Points endless = own.conditions.displacement;
+  endless(3, 1) = INFINITY;
+  EXPECT_NE(test::refusal([&] { update(run, endless); }).find("node 3 is infinite"), std::string::npos);
   const SolveResult back = update(run, own.conditions.displacement);
   EXPECT_LE(distance(back.solution.displacement, run.origin.displacement), tolerance);
 }
