@@ -189,10 +189,7 @@ std::vector<std::int32_t> nodes_at_septum(const Surface& septum, const OrderedCl
       nodes.push_back(static_cast<std::int32_t>(a));
     }
   }
-  std::erase_if(nodes, [&](std::int32_t a) {
-    const auto held = [&](int axis) { return cloud.conditions.is_prescribed(a, axis); };
-    return held(0) && held(1) && held(2);
-  });
+  std::erase_if(nodes, [&](std::int32_t a) { return cloud.conditions.is_held(a); });
   return nodes;
 }
 

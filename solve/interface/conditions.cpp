@@ -34,6 +34,10 @@ bool Conditions::is_prescribed(Eigen::Index node) const {
   return displacement.rows() > 0 && !displacement.row(node).array().isNaN().all();
 }
 
+bool Conditions::is_held(Eigen::Index node) const {
+  return displacement.rows() > 0 && !displacement.row(node).array().isNaN().any();
+}
+
 bool Conditions::is_pushed(Eigen::Index node) const {
   return force.rows() > 0 && !force.row(node).isZero();
 }

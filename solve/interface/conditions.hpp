@@ -49,6 +49,8 @@ struct Conditions {
   bool is_prescribed(Eigen::Index node, int axis) const;
   /// Whether any component is.
   bool is_prescribed(Eigen::Index node) const;
+  /// Whether all components are.
+  bool is_held(Eigen::Index node) const;
   /// Whether a force other than 0 acts at a node.
   bool is_pushed(Eigen::Index node) const;
 };

@@ -61,12 +61,6 @@ void say(const Points& linear, const Points& answered, Eigen::MatrixXd& covarian
   }
 }
 
-/// Whether all of a node's displacement is prescribed and none of it measured.
-bool is_held(const Conditions& conditions, Eigen::Index node) {
-  return conditions.displacement.rows() > 0 && conditions.displacement.row(node).allFinite() &&
-         !is_measured(conditions, node);
-}
-
 }  // namespace
 
 void add_posterior(const MeasuredPoints& measured, const Response& response, MeasuredFit& fit) {
@@ -100,7 +94,7 @@ Eigen::MatrixXd measured_covariance(const Model& model, const SolveOptions& opti
   Eigen::MatrixXd covariance = covariance_of(at_all, of_nodes.covariance(0, std::ssize(thinned.node)));
   say(values_of(at_all, of_nodes.mean()), answered_at(at_all, thinned, measured.shape, displacement), covariance);
   for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
-    if (is_held(model.conditions, a)) {
+    if (model.conditions.is_held(a) && !is_measured(model.conditions, a)) {
       covariance.row(a).setZero();  // a ball about it reaches past the body
     }
   }

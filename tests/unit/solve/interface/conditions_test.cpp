@@ -33,6 +33,8 @@ TEST(Conditions, SayWhatIsPrescribedWhere) {
   EXPECT_TRUE(conditions.is_prescribed(7, 1));
   EXPECT_FALSE(conditions.is_prescribed(7, 0));
   EXPECT_FALSE(conditions.is_prescribed(9));
+  EXPECT_TRUE(conditions.is_held(4));
+  EXPECT_FALSE(conditions.is_held(7)) << "it slides";
   EXPECT_TRUE(conditions.is_pushed(9));
   EXPECT_FALSE(conditions.is_pushed(7));
   EXPECT_EQ(prescribed_nodes(conditions), (Nodes{4, 7}));
@@ -43,6 +45,7 @@ TEST(Conditions, OfNoRowsPrescribeNothing) {
   const Conditions none;
   EXPECT_FALSE(none.is_prescribed(3));
   EXPECT_FALSE(none.is_prescribed(3, 1));
+  EXPECT_FALSE(none.is_held(3));
   EXPECT_FALSE(none.is_pushed(3));
   EXPECT_TRUE(prescribed_nodes(none).empty());
   EXPECT_EQ(count_loaded(none), 0U);
