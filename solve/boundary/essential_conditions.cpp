@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <set>
 #include <string>
 
@@ -90,12 +89,6 @@ ShapeRows rows_of_conditions(std::span<const std::int32_t> nodes, const PatchRim
   return rows;
 }
 
-EssentialConditions::RowMatrix all_of(const ShapeRows& rows, Eigen::Index nodes) {
-  std::vector<std::int32_t> all(rows.size());
-  std::iota(all.begin(), all.end(), 0);
-  return shape_matrix(rows, all, nodes);
-}
-
 Eigen::SparseMatrix<double, Eigen::RowMajor> stacked(const Eigen::SparseMatrix<double, Eigen::RowMajor>& above,
                                                      const Eigen::SparseMatrix<double, Eigen::RowMajor>& below) {
   Eigen::SparseMatrix<double, Eigen::RowMajor> both(above.rows() + below.rows(), above.cols());
@@ -117,8 +110,8 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];
     c.node = nodes_of_component(prescribed, axis);
-    c.shape = all_of(rows_of_conditions(c.node, rim, rim.rows, shape_at), prescribed.rows());
-    c.extension = all_of(rows_of_conditions(c.node, rim, rim.extension, own_value), prescribed.rows());
+    c.shape = shape_matrix(rows_of_conditions(c.node, rim, rim.rows, shape_at), prescribed.rows());
+    c.extension = shape_matrix(rows_of_conditions(c.node, rim, rim.extension, own_value), prescribed.rows());
     c.prescribed = c.extension * prescribed.col(axis);  // of free nodes no value is in it
     c.loaded = loaded_at(c.node, prescribed);
     c.multiplier = c.scratch = Eigen::VectorXd::Zero(c.prescribed.size());
@@ -135,7 +128,7 @@ EssentialConditions::EssentialConditions(const Points& prescribed, const ShapeRo
   constexpr double millijoule = 1e6;  // µN mm
   const double weight = millijoule * measured.weight;
   names_ = std::move(names);
-  const RowMatrix inner_shape = all_of(inner_rows, prescribed.rows());
+  const RowMatrix inner_shape = shape_matrix(inner_rows, prescribed.rows());
   same_compliance_ = same_columns(measured.sigma) && same_columns(measured.inner_sigma);
   for (int axis = 0; axis < 3; ++axis) {
     Component& c = component_[static_cast<std::size_t>(axis)];

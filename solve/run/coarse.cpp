@@ -41,9 +41,7 @@ std::vector<std::int32_t> by_importance(const NodeCloud& cloud, const Conditions
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> shape_at(const ShapeFunctions& shape, const Points& positions,
                                                       Eigen::Index nodes) {
-  std::vector<std::int32_t> all(static_cast<std::size_t>(positions.rows()));
-  std::iota(all.begin(), all.end(), 0);
-  return shape_matrix(shape.evaluate(positions, false), all, nodes);
+  return shape_matrix(shape.evaluate(positions, false), nodes);
 }
 
 /// Forces on all nodes, (n × 3) N, at the coarse ones: their sum and their moments stay. The coarse shape functions

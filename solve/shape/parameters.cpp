@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/IterativeLinearSolvers>
-#include <numeric>
 #include <stdexcept>
 
 #include "solve/shape/shape_matrix.hpp"
@@ -14,10 +13,7 @@ using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 }  // namespace
 
 Points parameters_from_displacement(const ShapeFunctions& shape, const Points& positions, const Points& displacement) {
-  std::vector<std::int32_t> nodes(static_cast<std::size_t>(positions.rows()));
-  std::iota(nodes.begin(), nodes.end(), 0);
-  return parameters_from_displacement(shape_matrix(shape.evaluate(positions, false), nodes, positions.rows()),
-                                      displacement);
+  return parameters_from_displacement(shape_matrix(shape.evaluate(positions, false), positions.rows()), displacement);
 }
 
 Points parameters_from_displacement(const RowMatrix& v, const Points& displacement) {

@@ -3,7 +3,9 @@
 
 #include <Eigen/SparseCore>
 #include <cstdint>
+#include <numeric>
 #include <span>
+#include <vector>
 
 #include "solve/shape/shape_functions.hpp"
 
@@ -23,6 +25,13 @@ inline Eigen::SparseMatrix<double, Eigen::RowMajor> shape_matrix(const ShapeRows
   }
   shape.setFromTriplets(entries.begin(), entries.end());
   return shape;
+}
+
+/// φ of all points of `rows`.
+inline Eigen::SparseMatrix<double, Eigen::RowMajor> shape_matrix(const ShapeRows& rows, Eigen::Index nodes) {
+  std::vector<std::int32_t> all(rows.size());
+  std::iota(all.begin(), all.end(), 0);
+  return shape_matrix(rows, all, nodes);
 }
 
 }  // namespace brainshift::solve
