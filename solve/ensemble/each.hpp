@@ -84,6 +84,23 @@ Numbers sum_of_each(std::size_t nodes, const Term& term) {
   return sum_over_nodes(nodes, term, none);
 }
 
+/// Sets the inverse masses of the members that are chosen, and calls visit(m, masses of member m) for each of them.
+template <class Visit>
+void invert_masses(const EachNumbers& mass, const Chosen& chosen, EachNumbers& inverse_mass, const Visit& visit) {
+  inverse_mass.resize(mass.size(), {});
+  std::vector<double> of_member(mass.size());
+  for (std::size_t m = 0; m < members; ++m) {
+    if (!chosen[m]) {
+      continue;
+    }
+    for (std::size_t a = 0; a < mass.size(); ++a) {
+      of_member[a] = mass[a].of[m];
+      inverse_mass[a].of[m] = 1 / of_member[a];
+    }
+    visit(m, of_member);
+  }
+}
+
 /// One member's vectors.
 inline NodalVectors member_of(const EachVectors& vectors, std::size_t member) {
   NodalVectors result(4 * vectors.size(), 0.0);

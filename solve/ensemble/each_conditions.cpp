@@ -2,6 +2,7 @@
 #include "solve/ensemble/each_conditions.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "solve/arrays/lanes.hpp"
@@ -94,16 +95,7 @@ void EachConditions::Factor::solve(std::size_t first, EachNumbers& x, EachNumber
 }
 
 void EachConditions::factorise(const EachNumbers& mass, double alpha, const Chosen& chosen) {
-  inverse_mass_.resize(mass.size(), {});
-  std::vector<double> of_member(mass.size());
-  for (std::size_t m = 0; m < members; ++m) {
-    if (!chosen[m]) {
-      continue;
-    }
-    for (std::size_t a = 0; a < mass.size(); ++a) {
-      of_member[a] = mass[a].of[m];
-      inverse_mass_[a].of[m] = 1 / of_member[a];
-    }
+  invert_masses(mass, chosen, inverse_mass_, [&](std::size_t m, std::span<const double> of_member) {
     essential_.factorise(of_member, alpha);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (of_all(axis).factor == nullptr) {
@@ -117,7 +109,7 @@ void EachConditions::factorise(const EachNumbers& mass, double alpha, const Chos
       factor = factor ? factor : std::make_shared<Factor>();
       factor->set(*of_all(axis).factor, m);
     }
-  }
+  });
 }
 
 void EachConditions::apply_to(std::size_t axis, std::size_t first, double fraction, EachVectors& parameters) {

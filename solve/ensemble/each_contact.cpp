@@ -2,6 +2,7 @@
 #include "solve/ensemble/each_contact.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "solve/arrays/shared_work.hpp"
 #include "solve/ensemble/each_distance.hpp"
@@ -52,22 +53,13 @@ EachContact::EachContact(const Contact& contact)
       touches_(contact.nodes().size(), 0) {}
 
 void EachContact::weigh(const EachNumbers& mass, const Chosen& chosen) {
-  inverse_mass_.resize(mass.size(), {});
   PushedNodes weighed = contact_.nodes();
-  std::vector<double> of_member(mass.size());
-  for (std::size_t m = 0; m < members; ++m) {
-    if (!chosen[m]) {
-      continue;
-    }
-    for (std::size_t a = 0; a < mass.size(); ++a) {
-      of_member[a] = mass[a].of[m];
-      inverse_mass_[a].of[m] = 1 / of_member[a];
-    }
+  invert_masses(mass, chosen, inverse_mass_, [&](std::size_t m, std::span<const double> of_member) {
     weighed.weigh(of_member);
     for (std::size_t i = 0; i < inverse_row_sum_.size(); ++i) {
       inverse_row_sum_[i].of[m] = weighed.inverse_row_sum()[i];
     }
-  }
+  });
 }
 
 void EachContact::find_push(std::size_t i, const Numbers& chosen, const EachVectors& parameters) {
