@@ -127,8 +127,7 @@ Discretisation discretise(const Surface& brain, const LabelMap* labels, const Di
   measures.dropped_cells = grid.dropped_cells;
   measures.dropped_volume = grid.dropped_volume;
   measures.spacing = demand.spacing;
-  measures.mean_spacing =
-      std::accumulate(cloud.spacing.begin(), cloud.spacing.end(), 0.0) / static_cast<double>(cloud.size());
+  measures.mean_spacing = mean_spacing(cloud);
   measures.smallest_distance_ratio = made.smallest_distance_ratio;
   measures.surface_volume = volume(brain);
   measures.cells_inside_volume = inside_volume(result.cells);

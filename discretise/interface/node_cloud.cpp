@@ -4,6 +4,7 @@
 #include <vtkPointData.h>
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -88,6 +89,10 @@ std::vector<std::int32_t> surface_nodes(const NodeCloud& cloud) {
     }
   }
   return nodes;
+}
+
+double mean_spacing(const NodeCloud& cloud) {
+  return std::accumulate(cloud.spacing.begin(), cloud.spacing.end(), 0.0) / static_cast<double>(cloud.size());
 }
 
 void write_node_cloud(const std::filesystem::path& file, const NodeCloud& cloud, std::span<const NodeVectors> vectors) {

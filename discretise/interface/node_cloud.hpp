@@ -26,6 +26,9 @@ void check_nodes(const NodeCloud& cloud);
 /// The nodes on the surface, ascending.
 std::vector<std::int32_t> surface_nodes(const NodeCloud& cloud);
 
+/// Mean over the nodes of their spacing, mm.
+double mean_spacing(const NodeCloud& cloud);
+
 /// Vectors at the nodes, (n × 3), under the name that they have in a file.
 struct NodeVectors {
   const char* name;

@@ -2,7 +2,6 @@
 #include "solve/cut/cut_body.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -80,10 +79,6 @@ void check(const Cut& cut, bool planar, const InsideBody& inside, double spacing
 }
 
 }  // namespace
-
-double mean_spacing(const NodeCloud& cloud) {
-  return std::accumulate(cloud.spacing.begin(), cloud.spacing.end(), 0.0) / static_cast<double>(cloud.size());
-}
 
 CutBody cut_body(const Model& model) {
   if (last_time(model.cuts) > model.curve.duration() * (1 + 1e-9)) {

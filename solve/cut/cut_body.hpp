@@ -33,9 +33,6 @@ struct CutBody {
 /// the body.
 CutBody cut_body(const Model& model);
 
-/// Of a cloud's nodes, mm.
-double mean_spacing(const NodeCloud& cloud);
-
 /// Takes a body's cuts to these facets, which go on where the last ones ended; the septum stays.
 void cut_further(CutFacets facets, CutBody& body);
 

@@ -12,7 +12,6 @@
 #include "segmentation/geometry/joined.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
 #include "solve/body/ordered_cloud.hpp"
-#include "solve/cut/cut_body.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/gauss_points.hpp"
 #include "solve/quadrature/integration_points.hpp"

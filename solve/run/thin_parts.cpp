@@ -12,7 +12,6 @@
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/body/check_model.hpp"
 #include "solve/body/ordered_cloud.hpp"
-#include "solve/cut/cut_body.hpp"
 
 namespace brainshift::solve {
 
