@@ -45,7 +45,8 @@ TEST(SolveEach, IsSolveWithEachOfTheConstants) {
   expect_each_as_alone(layered(), some_constants(layered()));
 }
 
-/// Where a tissue is three or thirty times as stiff as another, the body is another one; the order of the list is none.
+/// Where a tissue is ten times as stiff as another or more, the body is another one; constants of one body do not stand
+/// side by side.
 TEST(SolveEach, TakesContrastsThatMakeOtherBodies) {
   const Model model = layered();
   std::vector<Constants> constants(5, Constants{.materials = model.materials});
