@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sourced by demo.sh, tests/run.sh and package.sh: installs what a fresh Debian 12 lacks, and builds.
+# Sourced by the scripts that build, as demo.sh and tests/run.sh: installs what a fresh Debian 12 lacks, and builds.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 

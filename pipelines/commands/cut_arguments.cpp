@@ -7,6 +7,7 @@
 #include "pipelines/commands/table_option.hpp"
 #include "pipelines/scene/rupture_text.hpp"
 #include "pipelines/scene/scene_table.hpp"
+#include "segmentation/files/surface_file.hpp"
 #include "solve/cut/cut_path.hpp"
 
 namespace brainshift::pipelines {
@@ -30,7 +31,8 @@ solve::Cut read_path(const std::string& text, const solve::CutTiming& timing) {
 
 void add_cut_options(CLI::App& command, Scene& scene, CutArguments& arguments) {
   repeated(command.add_option("--cut", arguments.files,
-                              "a cut; again for each: a sheet (.vtp, .stl), with --plane a path (.csv, x,y[,time])"),
+                              "a cut; again for each: a sheet (" + std::string(listed_surface_endings) +
+                                  "), with --plane a path (.csv, x,y[,time])"),
            "FILE");
   repeated(command.add_option("--cut-path", arguments.paths, "a cut of a plane problem; again for each"),
            "'x,y; x,y; ...'");

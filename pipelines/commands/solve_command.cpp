@@ -10,6 +10,7 @@
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/check_tissues.hpp"
 #include "pipelines/scene/tissue_table.hpp"
+#include "segmentation/files/surface_file.hpp"
 #include "segmentation/options/values.hpp"
 #include "solve/material/named_materials.hpp"
 
@@ -190,7 +191,7 @@ void add_solve_command(CLI::App& program, const Settings& settings) {
   command->add_option("--skull", arguments->job.skull, "the skull's inner surface, for contact")->type_name("FILE");
   command
       ->add_option("--septum", arguments->job.septum,
-                   "a rigid sheet inside the body, along which tissue slides: .vtp, .stl, .ply, .obj")
+                   "a rigid sheet inside the body, along which tissue slides: " + std::string(listed_surface_endings))
       ->type_name("FILE");
   command
       ->add_option("--plane", arguments->plane,

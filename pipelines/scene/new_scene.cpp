@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 #include <string_view>
 
@@ -237,8 +236,7 @@ class Writer {
   }
 
   void write_pair(const fs::path& before, const fs::path& after) {
-    const std::set<std::string> of_surfaces = {".vtp", ".stl", ".ply", ".obj"};
-    if (of_surfaces.contains(in_lower_case(before.extension().string()))) {
+    if (std::ranges::count(surface_endings, in_lower_case(before.extension().string())) > 0) {
       read_surface(before);
       read_surface(after);
       take(before, "the exposed cortex before, with " + after.string() + " after");

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "segmentation/files/surface_file.hpp"
 #include "solve/cut/read_cut.hpp"
 
 namespace brainshift::pipelines {
@@ -42,9 +43,11 @@ solve::Cut read_cut(const CutFile& cut, solve::Plane plane) {
   const bool planar = plane != solve::Plane::none;
   if (read.is_path() != planar) {
     throw std::invalid_argument(
-        read.name + (planar ? ": this is a sheet, but a plane problem is cut along paths (.csv, x,y)"
-                            : ": this is a path, which cuts a plane problem ('brainshift solve --plane'); a body in "
-                              "space is cut along sheets (.vtp, .stl)"));
+        read.name +
+        (planar ? ": this is a sheet, but a plane problem is cut along paths (.csv, x,y)"
+                : ": this is a path, which cuts a plane problem ('brainshift solve --plane'); a body in space is cut "
+                  "along sheets (" +
+                      std::string(listed_surface_endings) + ")"));
   }
   return read;
 }

@@ -3,6 +3,7 @@
 
 #include "discretise/interface/option_table.hpp"
 #include "register/interface/option_table.hpp"
+#include "segmentation/files/surface_file.hpp"
 #include "segmentation/interface/option_table.hpp"
 #include "segmentation/labels/label_table.hpp"
 #include "solve/interface/option_table.hpp"
@@ -91,7 +92,7 @@ Element image_element() {
               "tumour", MEMBER(image.tumour),
               "label map of the tumour, on any grid: BraTS numbers (oedema stays parenchyma), or a mask"),
           file_option<Scene>("surface", MEMBER(image.surface),
-                             "brain surface in place of labels: .vtp, .stl, .ply, .obj"),
+                             "brain surface in place of labels: " + std::string(listed_surface_endings)),
           labels_option<Scene>(
               "other_labels", MEMBER(image.other_labels),
               "labels of the map that are not tissue of the brain; every label that is not here needs a "
@@ -122,21 +123,23 @@ OptionTable<Scene> load_options() {
 }
 
 OptionTable<Scene> field_load_options() {
-  return {required(file_option<Scene>("file", MEMBER(load->field->file),
-                                      "displacements, mm, as an image of vectors (.nii, .nii.gz, .nrrd, .mha), or an "
-                                      "ITK transform (.h5, .tfm, .txt, .mat), also one of several; of a pair, as ANTs "
-                                      "writes a warp and an affine, make one first")),
-          file_option<Scene>("where", MEMBER(load->field->where),
-                             "the opening: a surface over it (.vtp, .stl, .ply, .obj), or markups about it or on it "
+  return {
+      required(file_option<Scene>("file", MEMBER(load->field->file),
+                                  "displacements, mm, as an image of vectors (.nii, .nii.gz, .nrrd, .mha), or an "
+                                  "ITK transform (.h5, .tfm, .txt, .mat), also one of several; of a pair, as ANTs "
+                                  "writes a warp and an affine, make one first")),
+      file_option<Scene>("where", MEMBER(load->field->where),
+                         "the opening: a surface over it (" + std::string(listed_surface_endings) +
+                             "), or markups about it or on it "
                              "(.mrk.json, .fcsv); absent: all of the brain's surface where the file is defined, a "
                              "field or B-spline in its grid, an affine transform everywhere, several where all are"),
-          choice_option<Scene>("moves", MEMBER(load->field->moves),
-                               {{"by_name", FieldLoad::Moves::by_name},
-                                {"points", FieldLoad::Moves::points},
-                                {"image", FieldLoad::Moves::image}},
-                               "what the file takes from preop to intraop: points (it leads from preop places to "
-                               "intraop ones) or the image (it resamples, and leads back); by_name: it is named, or "
-                               "has a .json beside it, as this program writes them")};
+      choice_option<Scene>("moves", MEMBER(load->field->moves),
+                           {{"by_name", FieldLoad::Moves::by_name},
+                            {"points", FieldLoad::Moves::points},
+                            {"image", FieldLoad::Moves::image}},
+                           "what the file takes from preop to intraop: points (it leads from preop places to "
+                           "intraop ones) or the image (it resamples, and leads back); by_name: it is named, or "
+                           "has a .json beside it, as this program writes them")};
 }
 
 std::vector<Element> load_elements() {
@@ -283,8 +286,8 @@ std::vector<Element> make_elements() {
                           &Scene::septa, {}));
   elements.push_back(part("septum", "The same from a surface.", &Scene::septum,
                           {required(file_option<Scene>("file", MEMBER(septum->file),
-                                                       "sheet of triangles: .vtp, .stl, .ply, .obj; it may branch and "
-                                                       "end inside the brain"))}));
+                                                       "sheet of triangles: " + std::string(listed_surface_endings) +
+                                                           "; it may branch and end inside the brain"))}));
   elements.push_back(resection_element());
   elements.push_back(
       part("landmarks", "Points to move with the brain.", &Scene::landmarks,
@@ -308,8 +311,9 @@ std::vector<Element> make_elements() {
 OptionTable<CutFile> make_cut_options() {
   OptionTable<CutFile> options = {
       required(file_option<CutFile>("file", &CutFile::file,
-                                    "the sheet, a surface: .vtp, .stl, .ply, .obj; a .vtp may say in the point array "
-                                    "time when the cut gets to each point"))};
+                                    "the sheet, a surface: " + std::string(listed_surface_endings) +
+                                        "; a .vtp may say in the point array "
+                                        "time when the cut gets to each point"))};
   append(options, of_whole<CutFile>(solve::cut_timing_options(), &CutFile::timing));
   return options;
 }
