@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <fstream>
 #include <future>
-#include <iterator>
 #include <stdexcept>
 
 #include "pipelines/checksum/sha256.hpp"
 #include "register/files/register_fields.hpp"
+#include "segmentation/files/read_text.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/options/values.hpp"
 #include "solve/output/solution_file.hpp"
@@ -66,11 +66,6 @@ auto read_if_there(const fs::path& file, const Read& read) {
   return !file.empty() && fs::exists(file) ? std::optional<Content>(read(file)) : std::nullopt;
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 }  // namespace
 
 RunData read_run(const fs::path& run_folder) {
@@ -100,9 +95,9 @@ RunData read_run(const fs::path& run_folder) {
   run.brain = read_if_there(made("segment/brain.vtp"), [](const fs::path& file) { return read_surface(file); });
   run.solution = read_if_there(made("solve/solution.vtu"), [](const fs::path& file) { return read_solution(file); });
   run.septum = read_if_there(made("solve/septum.vtp"), [](const fs::path& file) { return read_surface(file); });
-  run.history = text_of(made("solve/history.csv"));
-  run.load = text_of(made("solve/load.csv"));
-  run.uncertainty = text_of(made("solve/uncertainty.csv"));
+  run.history = read_text(made("solve/history.csv"));
+  run.load = read_text(made("solve/load.csv"));
+  run.uncertainty = read_text(made("solve/uncertainty.csv"));
   if (const fs::path file = made("solve/uncertainty.vtu"); run.solution && fs::exists(file)) {
     run.deviation = registration::read_deviations(file);
   }

@@ -4,8 +4,6 @@
 #include <expat.h>
 
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -14,6 +12,7 @@
 #include <type_traits>
 
 #include "segmentation/files/deflated.hpp"
+#include "segmentation/files/read_text.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift::registration {
@@ -85,8 +84,7 @@ void look_at_element(void* user_data, const XML_Char* name, const XML_Char** att
 }  // namespace
 
 void check_gii_claims(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string text = read_text(file);
   Claims claims{.most = static_cast<double>(most_deflated) * static_cast<double>(text.size())};
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr),
                                                                                              XML_ParserFree);

@@ -18,17 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct PlyProperty {
-  std::string name, type;
-  std::size_t offset;  ///< bytes from the beginning of its row
-};
-
-/// Of the element "vertex", which comes first in the file.
+/// The rows of the vertices, which come first in the file.
 struct PlyVertices {
   std::string format;
   std::size_t rows = 0;
   std::size_t row_bytes = 0;
   std::vector<PlyProperty> properties;
+  std::vector<std::size_t> offsets;  ///< of a property: bytes from the beginning of its row
   std::size_t header_lines = 0;
 
   std::size_t place_of(const fs::path& file, const char* name) const {
@@ -41,13 +37,23 @@ struct PlyVertices {
   }
 };
 
-void add_property(const fs::path& file, const std::vector<std::string_view>& words, PlyVertices& vertices) {
-  const auto bytes = words.size() == 3 ? bytes_of_ply_type(std::string(words[1])) : std::nullopt;
-  if (!bytes) {
-    refuse(file, "a property of its vertices is no single number; save the model without it");
+PlyVertices vertices_of(const fs::path& file, const PlyHeader& header) {
+  if (header.elements.empty() || header.elements.front().name != "vertex") {
+    refuse(file, "its vertices do not come first; save it again with another program");
   }
-  vertices.properties.push_back({std::string(words[2]), std::string(words[1]), vertices.row_bytes});
-  vertices.row_bytes += *bytes;
+  const PlyElement& element = header.elements.front();
+  PlyVertices vertices{.format = header.format,
+                       .rows = static_cast<std::size_t>(element.rows),
+                       .properties = element.properties,
+                       .offsets = {}};
+  for (const PlyProperty& property : element.properties) {
+    if (property.count_bytes) {
+      refuse(file, "a property of its vertices is no single number; save the model without it");
+    }
+    vertices.offsets.push_back(vertices.row_bytes);
+    vertices.row_bytes += property.bytes;
+  }
+  return vertices;
 }
 
 /// Says in the header that more numbers stand behind those of each vertex.
@@ -61,40 +67,23 @@ void write_added(const PlyVertices& vertices, const std::vector<PointValues>& ad
   }
 }
 
-/// Copies the header line by line.
-PlyVertices take_header(const fs::path& file, std::istream& in, const std::vector<PointValues>& added, OutStream& out) {
-  PlyVertices vertices;
-  std::string line, element;
-  bool found = false;
-  while (std::getline(in, line)) {
+/// Copies the header line by line and counts its lines.
+void copy_header(std::istream& in, const std::vector<PointValues>& added, PlyVertices& vertices, OutStream& out) {
+  std::string line;
+  int elements = 0;
+  bool ends = false;
+  while (!ends && std::getline(in, line)) {
     const std::vector<std::string_view> words = words_in(line);
-    const std::string_view keyword = words.empty() ? std::string_view() : words.front();
-    if (vertices.header_lines++ == 0 && keyword != "ply") {
-      break;
-    }
-    if (element == "vertex" && (keyword == "element" || keyword == "end_header")) {
+    const bool begins = !words.empty() && words.front() == "element";
+    ends = !words.empty() && words.front() == "end_header";
+    if (elements == 1 && (begins || ends)) {
       write_added(vertices, added, out);
     }
+    elements += begins ? 1 : 0;
     const std::string with_end = line + "\n";
     out.write(with_end.data(), with_end.size());
-    if (keyword == "format" && words.size() > 1) {
-      vertices.format = words[1];
-    } else if (keyword == "element" && words.size() > 2) {
-      if (!found && words[1] != "vertex") {
-        refuse(file, "its vertices do not come first; save it again with another program");
-      }
-      vertices.rows = found
-                          ? vertices.rows
-                          : static_cast<std::size_t>(parse_number(std::string(words[2]), file, vertices.header_lines));
-      element = words[1];
-      found = true;
-    } else if (keyword == "property" && element == "vertex") {
-      add_property(file, words, vertices);
-    } else if (keyword == "end_header" && found) {
-      return vertices;
-    }
+    ++vertices.header_lines;
   }
-  refuse(file, "is no .ply model, or its header is damaged; copy it again");
 }
 
 void move_text(const fs::path& file, const PlyVertices& vertices, const std::array<std::size_t, 3>& places,
@@ -121,7 +110,7 @@ void move_bytes(const fs::path& file, const PlyVertices& vertices, const std::ar
     in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     std::array<Number, 3> x{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      std::memcpy(&x[axis], bytes.data() + vertices.properties[places[axis]].offset, sizeof(Number));
+      std::memcpy(&x[axis], bytes.data() + vertices.offsets[places[axis]], sizeof(Number));
     }
     swap_if(swapped, x);
     const Eigen::Vector3d here(x[0], x[1], x[2]);
@@ -133,7 +122,7 @@ void move_bytes(const fs::path& file, const PlyVertices& vertices, const std::ar
     x = {static_cast<Number>(moved[0]), static_cast<Number>(moved[1]), static_cast<Number>(moved[2])};
     swap_if(swapped, x);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      std::memcpy(bytes.data() + vertices.properties[places[axis]].offset, &x[axis], sizeof(Number));
+      std::memcpy(bytes.data() + vertices.offsets[places[axis]], &x[axis], sizeof(Number));
     }
     out.write(bytes.data(), bytes.size());
     for (const PointValues& each : mover.finite_values(place.transpose())) {
@@ -155,11 +144,11 @@ void copy_rest(std::istream& in, OutStream& out) {
 
 void warp_ply(const fs::path& in, PointMover& mover, const fs::path& out) {
   check_readable(in);
-  check_ply_claims(in);
+  PlyVertices vertices = vertices_of(in, check_ply_claims(in));
   const Eigen::Vector3d to_lps = axes_to_lps(frame_in_header(in));
   std::ifstream stream(in, std::ios::binary);
   OutStream moved(out);
-  const PlyVertices vertices = take_header(in, stream, mover.finite_values(Points(0, 3)), moved);
+  copy_header(stream, mover.finite_values(Points(0, 3)), vertices, moved);
   const std::array<std::size_t, 3> places = {vertices.place_of(in, "x"), vertices.place_of(in, "y"),
                                              vertices.place_of(in, "z")};
   const auto all_are = [&](const char* a, const char* b) {

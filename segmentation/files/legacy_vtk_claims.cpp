@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
+#include "segmentation/files/read_text.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift {
@@ -47,8 +46,7 @@ bool are_whole(std::istream& in, bool binary, std::int64_t cells, std::int64_t n
 }  // namespace
 
 void check_legacy_vtk_claims(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::string text = read_text(file);
   const bool binary = text.find("\nBINARY") < text.find("\nDATASET");
   for (const char* keyword : {"\nVERTICES ", "\nLINES ", "\nPOLYGONS ", "\nTRIANGLE_STRIPS ", "\nCELLS "}) {
     const std::size_t place = text.find(keyword);

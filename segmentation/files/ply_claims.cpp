@@ -3,47 +3,44 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <optional>
 #include <sstream>
-#include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
+#include "segmentation/files/read_text.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift {
 namespace {
 
-struct PlyProperty {
-  std::size_t bytes = 0;                   ///< of a number
-  std::optional<std::size_t> count_bytes;  ///< of a list: of its count
-};
-
-struct PlyElement {
-  std::uint64_t rows = 0;
-  std::vector<PlyProperty> properties;
-};
-
-struct PlyHeader {
-  std::string format;
-  std::vector<PlyElement> elements;
-};
+/// Of a number, by the name of its type; none for an unknown name.
+std::optional<std::size_t> bytes_of_ply_type(const std::string& name) {
+  static const std::map<std::string, std::size_t> bytes = {{"char", 1},  {"int8", 1},    {"uchar", 1},  {"uint8", 1},
+                                                           {"short", 2}, {"int16", 2},   {"ushort", 2}, {"uint16", 2},
+                                                           {"int", 4},   {"int32", 4},   {"uint", 4},   {"uint32", 4},
+                                                           {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
+  const auto found = bytes.find(name);
+  return found == bytes.end() ? std::nullopt : std::optional(found->second);
+}
 
 /// None where the line is no property.
 std::optional<PlyProperty> read_property(std::istringstream& words) {
-  std::string type, count, item;
-  words >> type;
-  if (type != "list") {
-    const auto bytes = bytes_of_ply_type(type);
-    return bytes ? std::optional(PlyProperty{.bytes = *bytes, .count_bytes = {}}) : std::nullopt;
+  PlyProperty property;
+  std::string count;
+  words >> property.type;
+  const bool is_list = property.type == "list";
+  if (is_list) {
+    words >> count >> property.type;
+    property.count_bytes = bytes_of_ply_type(count);
   }
-  words >> count >> item;
-  const auto bytes = bytes_of_ply_type(item), count_bytes = bytes_of_ply_type(count);
-  return bytes && count_bytes ? std::optional(PlyProperty{.bytes = *bytes, .count_bytes = count_bytes}) : std::nullopt;
+  words >> property.name;
+  const auto bytes = bytes_of_ply_type(property.type);
+  if (!bytes || property.count_bytes.has_value() != is_list) {
+    return std::nullopt;
+  }
+  property.bytes = *bytes;
+  return property;
 }
 
 /// Takes the header off the text. None where it is none.
@@ -54,7 +51,7 @@ std::optional<PlyHeader> take_header(std::string_view& text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::istringstream words{std::string(text.substr(0, end))};
     text.remove_prefix(std::min(end + 1, text.size()));
-    std::string keyword, name;
+    std::string keyword;
     words >> keyword;
     if (first != (keyword == "ply")) {
       return std::nullopt;
@@ -67,7 +64,7 @@ std::optional<PlyHeader> take_header(std::string_view& text) {
       words >> header.format;
     } else if (keyword == "element") {
       PlyElement& element = header.elements.emplace_back();
-      words >> name >> element.rows;
+      words >> element.name >> element.rows;
     } else if (keyword == "property") {
       const auto property = read_property(words);
       if (!property || header.elements.empty()) {
@@ -154,20 +151,10 @@ bool has_all(Rows rows, const std::vector<PlyElement>& elements) {
 
 }  // namespace
 
-std::optional<std::size_t> bytes_of_ply_type(const std::string& name) {
-  static const std::map<std::string, std::size_t> bytes = {{"char", 1},  {"int8", 1},    {"uchar", 1},  {"uint8", 1},
-                                                           {"short", 2}, {"int16", 2},   {"ushort", 2}, {"uint16", 2},
-                                                           {"int", 4},   {"int32", 4},   {"uint", 4},   {"uint32", 4},
-                                                           {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
-  const auto found = bytes.find(name);
-  return found == bytes.end() ? std::nullopt : std::optional(found->second);
-}
-
-void check_ply_claims(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+PlyHeader check_ply_claims(const std::filesystem::path& file) {
+  const std::string content = read_text(file);
   std::string_view text = content;
-  const auto header = take_header(text);
+  auto header = take_header(text);
   if (!header) {
     refuse(file, "is no .ply file, or its header is damaged; copy it again");
   }
@@ -177,6 +164,7 @@ void check_ply_claims(const std::filesystem::path& file) {
   if (!whole) {
     refuse(file, "ends before what its header and lists promise; copy it again");
   }
+  return *std::move(header);
 }
 
 }  // namespace brainshift

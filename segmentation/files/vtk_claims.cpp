@@ -6,12 +6,11 @@
 #include <cctype>
 #include <charconv>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 
 #include "segmentation/files/deflated.hpp"
+#include "segmentation/files/read_text.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift {
@@ -128,8 +127,7 @@ void check_blocks(const fs::path& file, std::string_view text) {
 }  // namespace
 
 void check_vtk_claims(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string text = read_text(file);
   check_sizes(file, text);
   check_blocks(file, text);
 }
