@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <map>
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 #include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/readable_file.hpp"
@@ -171,65 +171,31 @@ LabelTable table_of_segments(const fs::path& file) {
 }  // namespace
 
 std::uint16_t class_of_name(const std::string& name) {
-  struct Word {
-    std::string_view word;
+  struct Words {
     std::uint16_t tissue;
+    std::vector<std::string_view> words;
   };
-  // The first that fits counts.
-  constexpr auto words = std::to_array<Word>({{"stripped", default_label::parenchyma},  // "skull-stripped brain"
-                                              {"ctx", default_label::parenchyma},       // "ctx-lh-unknown"
-                                              {"background", 0},
-                                              {"unknown", 0},
-                                              {"exterior", 0},
-                                              {"tumor", default_label::tumour},
-                                              {"tumors", default_label::tumour},
-                                              {"tumour", default_label::tumour},
-                                              {"tumours", default_label::tumour},
-                                              {"glioma", default_label::tumour},
-                                              {"gliomas", default_label::tumour},
-                                              {"metastasis", default_label::tumour},
-                                              {"metastases", default_label::tumour},
-                                              {"meningioma", default_label::tumour},
-                                              {"meningiomas", default_label::tumour},
-                                              {"glioblastoma", default_label::tumour},
-                                              {"gbm", default_label::tumour},
-                                              {"gtv", default_label::tumour},
-                                              {"mass", default_label::tumour},
-                                              {"enhancing", default_label::tumour},
-                                              {"necrosis", default_label::tumour},
-                                              {"field", default_label::parenchyma},     // "frontal eye field"
-                                              {"fields", default_label::parenchyma},    // "premotor eye fields"
-                                              {"fusiform", default_label::parenchyma},  // "fusiform face complex"
-                                              {"air", 0},
-                                              {"skin", 0},
-                                              {"scalp", 0},
-                                              {"eye", 0},
-                                              {"eyes", 0},
-                                              {"face", 0},
-                                              {"mandible", 0},
-                                              {"dura", 0},
-                                              {"muscle", 0},
-                                              {"fat", 0},
-                                              {"skull", default_label::skull},
-                                              {"bone", default_label::skull},
-                                              {"cranium", default_label::skull},
-                                              {"calvarium", default_label::skull},
-                                              {"ventricle", default_label::ventricles},
-                                              {"ventricles", default_label::ventricles},
-                                              {"ventricular", default_label::ventricles},
-                                              {"vent", default_label::ventricles},
-                                              {"choroid", default_label::ventricles},
-                                              {"csf", default_label::csf},
-                                              {"fluid", default_label::csf},
-                                              {"cerebrospinal", default_label::csf},
-                                              {"extracerebral", 0}});
+  // The first group with a word of the name counts.
+  static const Words groups[] = {
+      {default_label::parenchyma, {"stripped", "ctx"}},  // "skull-stripped brain", "ctx-lh-unknown"
+      {0, {"background", "unknown", "exterior"}},
+      {default_label::tumour,
+       {"tumor", "tumors", "tumour", "tumours", "glioma", "gliomas", "metastasis", "metastases", "meningioma",
+        "meningiomas", "glioblastoma", "gbm", "gtv", "mass", "enhancing", "necrosis"}},
+      // "frontal eye field", "premotor eye fields", "fusiform face complex"
+      {default_label::parenchyma, {"field", "fields", "fusiform"}},
+      {0, {"air", "skin", "scalp", "eye", "eyes", "face", "mandible", "dura", "muscle", "fat"}},
+      {default_label::skull, {"skull", "bone", "cranium", "calvarium"}},
+      {default_label::ventricles, {"ventricle", "ventricles", "ventricular", "vent", "choroid"}},
+      {default_label::csf, {"csf", "fluid", "cerebrospinal"}},
+      {0, {"extracerebral"}}};
   const auto in_name = words_of(name);
   if (in_name == std::vector<std::string>{"head"}) {  // not that of the hippocampus
     return 0;
   }
-  for (const Word& known : words) {
-    if (std::find(in_name.begin(), in_name.end(), known.word) != in_name.end()) {
-      return known.tissue;
+  for (const auto& [tissue, words] : groups) {
+    if (std::ranges::find_first_of(in_name, words) != in_name.end()) {
+      return tissue;
     }
   }
   return default_label::parenchyma;
