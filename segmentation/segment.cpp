@@ -26,18 +26,13 @@
 namespace brainshift::segmentation {
 namespace {
 
-std::vector<std::uint16_t> present_labels(const LabelMap& labels, const std::vector<std::uint16_t>& wanted) {
-  std::vector<std::uint16_t> present;
-  for (const std::uint16_t label : wanted) {
-    if (std::find(labels.voxels.begin(), labels.voxels.end(), label) != labels.voxels.end()) {
-      present.push_back(label);
-    }
-  }
-  return present;
+std::vector<std::uint16_t> present_labels(const LabelMap& labels, std::vector<std::uint16_t> wanted) {
+  std::erase_if(wanted, [&](std::uint16_t label) { return !has_label(labels, label); });
+  return wanted;
 }
 
 void check_present(const LabelMap& labels, std::uint16_t label) {
-  if (std::find(labels.voxels.begin(), labels.voxels.end(), label) == labels.voxels.end()) {
+  if (!has_label(labels, label)) {
     throw std::invalid_argument("label " + std::to_string(label) +
                                 " counts as brain but no voxel of the label map carries it; name the brain's labels, " +
                                 "as in --brain-labels 1 or <tissue label=\"1\" .../>, or correct the image");
@@ -96,7 +91,7 @@ std::vector<MeasuredSurface> extract_all(const std::vector<Body>& bodies, double
 // Of labels that a table told: what is labelled and not brain may bound the skull's inside.
 Mask cavity_in_labels(const LabelMap& labels, const Mask& brain, double reach, std::vector<std::string>& notes) {
   constexpr std::uint16_t outer = default_label::skin;
-  if (std::find(labels.voxels.begin(), labels.voxels.end(), outer) == labels.voxels.end()) {
+  if (!has_label(labels, outer)) {
     return {};
   }
   Mask space = bounded_space(labels, outer, brain, reach);
@@ -128,7 +123,7 @@ std::vector<std::uint16_t> still_there(const LabelMap& labels, const std::vector
                                        std::vector<std::string>& notes) {
   std::vector<std::uint16_t> there;
   for (const std::uint16_t label : tissues) {
-    if (std::find(labels.voxels.begin(), labels.voxels.end(), label) != labels.voxels.end()) {
+    if (has_label(labels, label)) {
       there.push_back(label);
     } else {
       notes.push_back("label " + std::to_string(label) + " lies apart from the brain: it gets no surface");
@@ -209,8 +204,8 @@ void note_dropped(Segmentation& result, double loose, std::size_t pieces, double
   constexpr double much = 0.02;
   if (loose > worth_saying) {
     std::ostringstream text;
-    text << (loose > much * all ? "warning: " : "") << std::fixed << std::setprecision(1) << "dropped " << loose / 1000
-         << " ml of tissue (" << 100 * loose / all << " %) in " << pieces
+    text << (loose > much * all ? "warning: " : "") << std::fixed << std::setprecision(1) << "dropped "
+         << in_millilitres(loose) << " of tissue (" << 100 * loose / all << " %) in " << pieces
          << " piece(s) that hang together with no part of the brain; if they belong to it, join them to it";
     result.notes.push_back(text.str());
   }
@@ -290,19 +285,16 @@ void note_ventricles(Segmentation& result, double brain_volume) {
   constexpr std::uint16_t ventricles[] = {default_label::ventricles};
   constexpr double many_ventricles = 0.2;  // of the brain's volume; beyond most hydrocephalus
   const double found = volume(mask_of(*result.labels, ventricles));
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(1);
   if (found < few_ventricles * brain_volume) {
-    text << "warning: only " << found / 1000
-         << " ml of ventricles were told apart in the T1, where adults have 10 to 60; the others count as parenchyma. "
-            "Look at the labels in the report, or give a label map";
+    result.notes.push_back(
+        "warning: only " + in_millilitres(found) +
+        " of ventricles were told apart in the T1, where adults have 10 to 60; the others count as parenchyma. Look at "
+        "the labels in the report, or give a label map");
   } else if (found > many_ventricles * brain_volume) {
-    text << "warning: " << found / 1000
-         << " ml count as ventricles, where adults have 10 to 60; is the image a T1, in which fluid is dark? "
-            "Look at the labels in the report, or give a label map";
-  }
-  if (!text.str().empty()) {
-    result.notes.push_back(text.str());
+    result.notes.push_back(
+        "warning: " + in_millilitres(found) +
+        " count as ventricles, where adults have 10 to 60; is the image a T1, in which fluid is dark? Look at the "
+        "labels in the report, or give a label map");
   }
 }
 

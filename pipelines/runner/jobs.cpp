@@ -34,7 +34,7 @@ void need_same_grid(const ImageGeometry& t1, const fs::path& t1_file, const std:
 /// Of what was taken out.
 void need_labels(const std::vector<std::int32_t>& asked, const std::optional<LabelMap>& labels, const fs::path& file) {
   for (const std::int32_t label : asked) {
-    if (labels && std::ranges::find(labels->voxels, label) == labels->voxels.end()) {
+    if (labels && !has_label(*labels, label)) {
       refuse(file, "no voxel has the label " + std::to_string(label) + ", which was resected");
     }
   }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "pipelines/scene/scene_labels.hpp"
+#include "pipelines/scene/tissue_table.hpp"
 #include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/points_file.hpp"
 #include "segmentation/files/refuse.hpp"
@@ -125,9 +126,7 @@ class Writer {
   void look_at_classes(const ImageInputs& image, const std::string& table) {
     const auto volumes = sg::label_volumes(read_labels(image, {.by_class = true, .joined = {}}).map);
     std::string classes;
-    for (const auto& [label, name] :
-         {std::pair(own::parenchyma, "parenchyma"), std::pair(own::ventricles, "ventricles"),
-          std::pair(own::tumour, "tumour"), std::pair(own::csf, "fluid"), std::pair(own::skull, "skull")}) {
+    for (const auto& [label, name] : sg::classes_in_skull) {
       if (const auto found = volumes.find(label); found != volumes.end()) {
         classes += std::string(classes.empty() ? "" : ", ") + name + " " + in_whole_millilitres(found->second);
       }
@@ -202,12 +201,11 @@ class Writer {
       return;
     }
     xml_.OpenElement("tissues");
-    for (const auto& [label, material] : {std::pair(own::parenchyma, "brain"), std::pair(own::ventricles, "ventricle"),
-                                          std::pair(own::tumour, "tumour")}) {
+    for (const auto& [label, name] : sg::brain_classes) {
       if (volumes_.contains(label) || (label == own::tumour && !files_.tumour.empty())) {
         xml_.OpenElement("tissue");
         xml_.PushAttribute("label", int{label});
-        xml_.PushAttribute("material", material);
+        xml_.PushAttribute("material", usual_material(label).c_str());
         xml_.CloseElement();
       }
     }

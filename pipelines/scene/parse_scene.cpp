@@ -9,7 +9,9 @@
 #include "pipelines/scene/read_elements.hpp"
 #include "pipelines/scene/read_sequence.hpp"
 #include "pipelines/scene/scene_table.hpp"
+#include "pipelines/scene/tissue_table.hpp"
 #include "segmentation/files/readable_file.hpp"
+#include "segmentation/labels/label_table.hpp"
 #include "solve/material/named_materials.hpp"
 
 namespace brainshift::pipelines {
@@ -17,28 +19,20 @@ namespace {
 
 /// Classes that the scene does not name have their usual materials, unless it names tissues by number.
 void complete_tissues(Scene& scene) {
-  namespace label = segmentation::default_label;
   const bool numbered = std::any_of(scene.tissues.begin(), scene.tissues.end(),
                                     [](const Tissue& tissue) { return tissue.tissue_class == 0; });
   const bool image = !scene.image.labels.empty() || !scene.image.brain_mask.empty();
   if (numbered || !image || !is_ours(scene, StageId::segment)) {
     return;
   }
-  struct Usual {
-    std::uint16_t label;
-    const char* name;
-    const char* material;
-  };
-  for (const Usual& usual :
-       {Usual{label::parenchyma, "parenchyma", "brain"}, Usual{label::ventricles, "ventricles", "ventricle"},
-        Usual{label::tumour, "tumour", "tumour"}}) {
-    const auto same = [&usual](const Tissue& tissue) { return tissue.label == usual.label; };
+  for (const auto& usual : segmentation::brain_classes) {
+    const auto same = [&usual](const Tissue& tissue) { return tissue.label == usual.number; };
     if (std::none_of(scene.tissues.begin(), scene.tissues.end(), same)) {
       Tissue tissue;
-      tissue.label = tissue.tissue_class = usual.label;
+      tissue.label = tissue.tissue_class = usual.number;
       tissue.name = usual.name;
-      tissue.named_material = usual.material;
-      tissue.material = solve::named_material(usual.material).value();
+      tissue.named_material = usual_material(usual.number);
+      tissue.material = solve::named_material(tissue.named_material).value();
       scene.tissues.push_back(std::move(tissue));
     }
   }

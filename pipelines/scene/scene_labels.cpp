@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/labels/segmentation_file.hpp"
@@ -60,20 +61,15 @@ sg::LabelTable with_outer_labels(sg::LabelTable table, const sg::LabelVolumes& v
 
 // What a table's file makes of the map's numbers: "parenchyma 1 7, ventricles 4".
 std::string classes_of(const sg::LabelVolumes& volumes, const sg::LabelTable& table) {
-  namespace label = sg::default_label;
   std::string text;
-  for (const auto& [tissue, name] : std::map<std::uint16_t, std::string>{{label::parenchyma, "parenchyma"},
-                                                                         {label::ventricles, "ventricles"},
-                                                                         {label::tumour, "tumour"},
-                                                                         {label::csf, "fluid"},
-                                                                         {label::skull, "skull"}}) {
+  for (const auto& [tissue, name] : sg::classes_in_skull) {
     sg::LabelVolumes of_class;
     for (const auto& [number, volume] : volumes) {
       if (const auto found = table.classes.find(number); found != table.classes.end() && found->second == tissue) {
         of_class.emplace(number, volume);
       }
     }
-    text += of_class.empty() ? "" : (text.empty() ? "" : ", ") + name + " " + numbers_of(of_class);
+    text += of_class.empty() ? "" : (text.empty() ? "" : ", ") + std::string(name) + " " + numbers_of(of_class);
   }
   return text;
 }
@@ -144,8 +140,10 @@ bool are_named(const ImageInputs& image) {
 }  // namespace
 
 std::map<std::uint16_t, std::string> label_names(const Scene& scene) {
-  namespace label = sg::default_label;
-  std::map<std::uint16_t, std::string> names = {{label::csf, "fluid"}, {label::skull, "skull"}, {label::skin, "skin"}};
+  std::map<std::uint16_t, std::string> names;
+  for (const auto& [number, name] : std::span(sg::label_classes).subspan(sg::brain_classes.size())) {
+    names[number] = name;
+  }
   const bool own_numbers = !scene.image.labels.empty() && !label_reading(scene).by_class;
   if (own_numbers) {
     // What is not of the brain has its usual meaning only where the scene leaves it at that.
@@ -154,7 +152,9 @@ std::map<std::uint16_t, std::string> label_names(const Scene& scene) {
       names[*scene.image.skull_label] = "skull";
     }
   } else {
-    names.insert({{label::parenchyma, "parenchyma"}, {label::ventricles, "ventricles"}, {label::tumour, "tumour"}});
+    for (const auto& [number, name] : sg::brain_classes) {
+      names[number] = name;
+    }
   }
   for (const Tissue& tissue : scene.tissues) {
     if (own_numbers) {

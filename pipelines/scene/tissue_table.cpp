@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipelines/scene/tissue_table.hpp"
 
-#include "segmentation/interface/options.hpp"
+#include "segmentation/labels/label_table.hpp"
 #include "solve/material/material_options.hpp"
 #include "solve/material/named_materials.hpp"
 
@@ -31,11 +31,11 @@ Option<Tissue> material_option() {
 }
 
 detail::NamedValues<std::uint16_t> tissue_classes() {
-  namespace label = segmentation::default_label;
-  return {{"none", std::uint16_t{0}},
-          {"parenchyma", label::parenchyma},
-          {"ventricles", label::ventricles},
-          {"tumour", label::tumour}};
+  detail::NamedValues<std::uint16_t> classes = {{"none", std::uint16_t{0}}};
+  for (const auto& [number, name] : segmentation::brain_classes) {
+    classes.emplace_back(name, number);
+  }
+  return classes;
 }
 
 Option<Tissue> label_option() {
@@ -64,6 +64,11 @@ OptionTable<Tissue> make_tissue_options() {
 const OptionTable<Tissue>& tissue_options() {
   static const OptionTable<Tissue> options = make_tissue_options();
   return options;
+}
+
+std::string usual_material(std::uint16_t tissue_class) {
+  namespace label = segmentation::default_label;
+  return tissue_class == label::ventricles ? "ventricle" : tissue_class == label::tumour ? "tumour" : "brain";
 }
 
 bool names_tissue(const std::string& option) {

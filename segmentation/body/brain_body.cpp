@@ -144,7 +144,7 @@ bool encloses(const LabelMap& labels, std::uint16_t skull, const Mask& brain) {
 }
 
 Mask skull_cavity(const LabelMap& labels, std::uint16_t skull, const Mask& brain) {
-  if (std::find(labels.voxels.begin(), labels.voxels.end(), skull) == labels.voxels.end()) {
+  if (!has_label(labels, skull)) {
     throw std::invalid_argument("label " + std::to_string(skull) +
                                 " is named but no voxel of the label map carries it; correct the label or the image");
   }

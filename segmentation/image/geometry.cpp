@@ -34,6 +34,10 @@ bool same_geometry(const ImageGeometry& a, const ImageGeometry& b) {
   return true;
 }
 
+bool has_label(const LabelMap& labels, std::int32_t label) {
+  return std::ranges::find(labels.voxels, label) != labels.voxels.end();
+}
+
 std::uint16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world) {
   return label_at_index(labels, labels.geometry.to_index(world));
 }

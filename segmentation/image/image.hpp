@@ -58,6 +58,9 @@ std::uint16_t label_at(const LabelMap& labels, const Eigen::Vector3d& world);
 /// The same at voxel indices, which need not be whole.
 std::uint16_t label_at_index(const LabelMap& labels, const Eigen::Vector3d& index);
 
+/// Whether any voxel carries the label.
+bool has_label(const LabelMap& labels, std::int32_t label);
+
 /// The labels on another grid: the nearest at each of its voxels, 0 where the map does not reach. Where several are as
 /// near, as on a grid half a voxel away, the one that most of them are.
 LabelMap on_grid(const LabelMap& labels, const ImageGeometry& grid);

@@ -1,15 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "segmentation/image/image.hpp"
+#include "segmentation/interface/options.hpp"
 
 namespace brainshift::segmentation {
+
+/// A class of default_label, and its name.
+struct LabelClass {
+  std::uint16_t number;
+  const char* name;
+};
+inline constexpr std::array<LabelClass, 6> label_classes = {{{default_label::parenchyma, "parenchyma"},
+                                                             {default_label::ventricles, "ventricles"},
+                                                             {default_label::tumour, "tumour"},
+                                                             {default_label::csf, "fluid"},
+                                                             {default_label::skull, "skull"},
+                                                             {default_label::skin, "skin"}}};
+/// Those of the brain, and those with the skull and the fluid in it.
+inline constexpr std::span<const LabelClass> brain_classes(label_classes.data(), 3);
+inline constexpr std::span<const LabelClass> classes_in_skull(label_classes.data(), 5);
 
 /// What the numbers of a label map stand for: a class of default_label, or 0 for what is not brain.
 struct LabelTable {

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "segmentation/files/refuse.hpp"
-#include "segmentation/interface/options.hpp"
 #include "segmentation/labels/label_table.hpp"
 
 namespace brainshift::segmentation {
@@ -111,7 +110,6 @@ Overlaid overlaid(const fs::path& file, std::span<const Segment> segments, bool 
 
 // "parenchyma (Brain), tumour (Core, Oedema)".
 std::string classes_of(std::span<const Segment> segments) {
-  constexpr std::array names = {"not brain", "skull", "parenchyma", "fluid", "ventricles", "tumour"};
   std::string text;
   for (std::size_t rank = order.size(); rank-- > 0;) {
     std::string of_class;
@@ -121,7 +119,9 @@ std::string classes_of(std::span<const Segment> segments) {
       }
     }
     if (!of_class.empty()) {
-      text += (text.empty() ? "" : ", ") + std::string(names[rank]) + " (" + of_class + ")";
+      const auto known = std::ranges::find(label_classes, order[rank], &LabelClass::number);
+      text += std::string(text.empty() ? "" : ", ") + (known == label_classes.end() ? "not brain" : known->name) +
+              " (" + of_class + ")";
     }
   }
   return text;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/tissue/tumour.hpp"
 
-#include <iomanip>
-#include <sstream>
-
 #include "segmentation/interface/options.hpp"
+#include "segmentation/labels/label_table.hpp"
 
 namespace brainshift::segmentation {
 
@@ -30,11 +28,10 @@ std::string outside_body(const LabelMap& tumour_mask, const Mask& body) {
   if (!(lost > much * all)) {
     return {};
   }
-  std::ostringstream text;
-  text << "warning: " << std::fixed << std::setprecision(1) << lost / 1000 << " of the tumour mask's " << all / 1000
-       << " ml hang together with no part of the brain and are left out; is it the mask of this image, in its frame? "
-          "If so, join it to the brain's labels or mask";
-  return text.str();
+  return "warning: " + in_millilitres(lost) + " of the tumour mask's " + in_millilitres(all) +
+         " hang together with no part of the brain and are left out; is it the mask of this image, in its frame? If "
+         "so, "
+         "join it to the brain's labels or mask";
 }
 
 }  // namespace brainshift::segmentation

@@ -54,7 +54,7 @@ TEST(Segment, VentriclesThatAT1DoesNotShowAreWarnedOf) {
   input.t1 = drawn.t1;
   const Segmentation result = segment(input, two_labels());
   ASSERT_EQ(result.notes.size(), 1U);
-  EXPECT_NE(result.notes.front().find("warning: only 0.0 ml of ventricles"), std::string::npos) << result.notes.front();
+  EXPECT_NE(result.notes.front().find("warning: only 0 ml of ventricles"), std::string::npos) << result.notes.front();
 }
 
 TEST(Segment, ABrainThatTheFieldOfViewCutsOffIsClosedThereAndWarnedOf) {
