@@ -94,11 +94,8 @@ solve::Material material_of(const py::handle& given) {
     if (const auto material = solve::named_material(name)) {
       return *material;
     }
-    std::string names;
-    for (const std::string& known : solve::material_names()) {
-      names += (names.empty() ? "" : ", ") + known;
-    }
-    throw std::invalid_argument("there is no material '" + name + "'; there are: " + names);
+    throw std::invalid_argument("there is no material '" + name +
+                                "'; there are: " + with_commas(solve::material_names()));
   }
   solve::Material material;
   set_options(solve::material_options(), py::kwargs(given.cast<py::dict>()), material);

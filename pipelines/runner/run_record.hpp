@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "pipelines/runner/jobs.hpp"
 #include "pipelines/runner/plan.hpp"
 
 namespace brainshift::pipelines {

@@ -4,7 +4,6 @@
 #include "pipelines/runner/artefacts.hpp"
 #include "pipelines/runner/enough_memory.hpp"
 #include "pipelines/runner/folder_lock.hpp"
-#include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/own_folder.hpp"
 #include "pipelines/runner/peak_memory.hpp"
 #include "pipelines/runner/plan.hpp"

@@ -3,7 +3,6 @@
 
 #include "pipelines/checksum/sha256.hpp"
 #include "pipelines/runner/impose.hpp"
-#include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/load_warnings.hpp"
 #include "pipelines/runner/measure_warnings.hpp"
 #include "pipelines/runner/measures.hpp"

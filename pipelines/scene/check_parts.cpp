@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "pipelines/scene/scene_fault.hpp"
-#include "pipelines/scene/scene_table.hpp"
 #include "segmentation/septa/septa.hpp"
 #include "solve/cut/septum.hpp"
 #include "solve/load/craniotomy_load.hpp"

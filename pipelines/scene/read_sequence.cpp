@@ -133,12 +133,12 @@ void refuse_unknown_states(const std::vector<std::string>& overrides, const Scen
   for (const std::string& text : overrides) {
     const auto names = [&](const Scene& state) { return text.starts_with("sequence." + state.state->name + "."); };
     if (is_of_a_state(text) && std::ranges::none_of(scene.states, names)) {
-      std::string states;
+      std::vector<std::string> states;
       for (const Scene& state : scene.states) {
-        states += (states.empty() ? "" : ", ") + state.state->name;
+        states.push_back(state.state->name);
       }
       Where{scene.source, 0, ""}.fail("'" + text + "' is not sequence.STATE.PATH=VALUE; the scene's states are: " +
-                                      (states.empty() ? "none" : states));
+                                      (states.empty() ? "none" : with_commas(states)));
     }
   }
 }

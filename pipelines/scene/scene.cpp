@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/options/values.hpp"
 #include "solve/cut/read_cut.hpp"
 
 namespace brainshift::pipelines {
@@ -21,14 +22,14 @@ bool is_stage(std::string_view name) {
 }
 
 StageId stage_from_name(std::string_view name) {
-  std::string names;
+  std::vector<std::string> names;
   for (const StageId stage : all_stages) {
     if (stage_name(stage) == name) {
       return stage;
     }
-    names += (names.empty() ? "" : ", ") + std::string(stage_name(stage));
+    names.emplace_back(stage_name(stage));
   }
-  throw std::invalid_argument("there is no stage '" + std::string(name) + "'; the stages are " + names);
+  throw std::invalid_argument("there is no stage '" + std::string(name) + "'; the stages are " + with_commas(names));
 }
 
 solve::LoadCurve load_curve(const Loading& loading) {

@@ -15,6 +15,7 @@
 #include "pipelines/scene/check_scene.hpp"
 #include "pipelines/scene/describe_scene.hpp"
 #include "pipelines/scene/parse_scene.hpp"
+#include "pipelines/tradeoff/own_stages.hpp"
 #include "segmentation/files/make_folder.hpp"
 #include "segmentation/options/values.hpp"
 #include "solve/load/craniotomy_load.hpp"
@@ -83,12 +84,7 @@ class Sweeper {
       throw std::invalid_argument(place(scene.source, "sequence") +
                                   ": settings are varied of one state; leave <sequence> out");
     }
-    for (const StageId stage : {StageId::discretise, StageId::solve}) {
-      if (!scene.commands[index_of(stage)].empty()) {
-        throw std::invalid_argument(place(scene.source, std::string(stage_name(stage)) + ".command") +
-                                    ": the stage is an external command, whose settings cannot be varied");
-      }
-    }
+    need_own_stages(scene, "whose settings cannot be varied");
     return scene;
   }
 

@@ -9,12 +9,12 @@
 #include <stdexcept>
 
 #include "pipelines/runner/artefacts.hpp"
-#include "pipelines/runner/json_text.hpp"
 #include "pipelines/runner/own_folder.hpp"
 #include "pipelines/runner/peak_memory.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/runner/stage_record.hpp"
+#include "pipelines/tradeoff/own_stages.hpp"
 #include "segmentation/files/make_folder.hpp"
 #include "solve/output/field_difference.hpp"
 #include "solve/output/solution_file.hpp"
@@ -45,12 +45,7 @@ void check(const Scene& scene, const Tolerance& wanted, const RunOptions& option
                                 ": --tolerance refines one state; leave <sequence> out to find the cloud, then run "
                                 "the sequence on it");
   }
-  for (const StageId stage : {StageId::discretise, StageId::solve}) {
-    if (!scene.commands[index_of(stage)].empty()) {
-      throw std::invalid_argument(place(scene.source, std::string(stage_name(stage)) + ".command") +
-                                  ": the stage is an external command, which --tolerance cannot refine");
-    }
-  }
+  need_own_stages(scene, "which --tolerance cannot refine");
 }
 
 /// What the trade-off shows to suit any tolerance: its front consists of these, only nodes and stop differ (README.md).
