@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "segmentation/image/voxels.hpp"
 #include "segmentation/options/values.hpp"
 
 namespace brainshift::pipelines {
@@ -47,15 +48,9 @@ std::vector<Landmark> make_landmarks(const Head& head, const Opening& opening) {
 
 // Calls set(offset, index) for every voxel.
 template <class Set>
-void for_each_voxel(const ImageGeometry& geometry, const Set& set) {
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < geometry.size.z(); ++k) {
-    for (int j = 0; j < geometry.size.y(); ++j) {
-      for (int i = 0; i < geometry.size.x(); ++i) {
-        set(geometry.offset(i, j, k), Vector3d(i, j, k));
-      }
-    }
-  }
+void for_each_index(const ImageGeometry& geometry, const Set& set) {
+  for_each_voxel_in_parallel(geometry.size,
+                             [&](int i, int j, int k) { set(geometry.offset(i, j, k), Vector3d(i, j, k)); });
 }
 
 }  // namespace
@@ -91,7 +86,7 @@ Phantom make_phantom(const PhantomOptions& options) {
 
 LabelMap sample_labels(const Phantom& phantom) {
   LabelMap labels{.geometry = phantom.geometry, .voxels = std::vector<std::uint16_t>(phantom.geometry.voxel_count())};
-  for_each_voxel(phantom.geometry, [&](std::size_t offset, const Vector3d& index) {
+  for_each_index(phantom.geometry, [&](std::size_t offset, const Vector3d& index) {
     labels.voxels[offset] = tissue_at(phantom.head, phantom.geometry.to_world(index));
   });
   return labels;
@@ -99,7 +94,7 @@ LabelMap sample_labels(const Phantom& phantom) {
 
 ScalarImage sample_t1(const Phantom& phantom, std::uint64_t seed) {
   ScalarImage t1{.geometry = phantom.geometry, .voxels = std::vector<float>(phantom.geometry.voxel_count())};
-  for_each_voxel(phantom.geometry, [&](std::size_t offset, const Vector3d& index) {
+  for_each_index(phantom.geometry, [&](std::size_t offset, const Vector3d& index) {
     double sum = 0;
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3d shift((corner & 1) - 0.5, ((corner >> 1) & 1) - 0.5, ((corner >> 2) & 1) - 0.5);

@@ -15,6 +15,7 @@
 #include "pipelines/report/canvas.hpp"
 #include "register/field/nodal_values.hpp"
 #include "segmentation/geometry/grid_cell.hpp"
+#include "segmentation/image/voxels.hpp"
 
 namespace brainshift::pipelines {
 
@@ -49,14 +50,9 @@ ImageGeometry part_around(const Surface& brain, const ImageGeometry& grid, const
 template <class T, class Value>
 std::vector<T> on_voxels(const ImageGeometry& grid, const Value& value) {
   std::vector<T> values(grid.voxel_count());
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < grid.size.z(); ++k) {
-    for (int j = 0; j < grid.size.y(); ++j) {
-      for (int i = 0; i < grid.size.x(); ++i) {
-        values[grid.offset(i, j, k)] = static_cast<T>(value(grid.to_world({i * 1.0, j * 1.0, k * 1.0})));
-      }
-    }
-  }
+  for_each_voxel_in_parallel(grid.size, [&](int i, int j, int k) {
+    values[grid.offset(i, j, k)] = static_cast<T>(value(grid.to_world({i * 1.0, j * 1.0, k * 1.0})));
+  });
   return values;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "segmentation/image/voxels.hpp"
 #include "segmentation/options/values.hpp"
 
 namespace brainshift::pipelines {
@@ -34,16 +35,12 @@ Bulk bulk_of(const Surface& surface) {
 Bulk bulk_of(const LabelMap& labels, const std::vector<std::int32_t>& counted) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0;
-  for (int k = 0; k < labels.geometry.size.z(); ++k) {
-    for (int j = 0; j < labels.geometry.size.y(); ++j) {
-      for (int i = 0; i < labels.geometry.size.x(); ++i) {
-        if (std::ranges::find(counted, labels.at(i, j, k)) != counted.end()) {
-          sum += Eigen::Vector3d(i, j, k);
-          ++count;
-        }
-      }
+  for_each_voxel(labels.geometry.size, [&](int i, int j, int k) {
+    if (std::ranges::find(counted, labels.at(i, j, k)) != counted.end()) {
+      sum += Eigen::Vector3d(i, j, k);
+      ++count;
     }
-  }
+  });
   return {labels.geometry.to_world(sum / count), count * labels.geometry.spacing.prod()};
 }
 

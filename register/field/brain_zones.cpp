@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/field/brain_zones.hpp"
+#include "segmentation/image/voxels.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -45,19 +46,14 @@ BrainZones brain_zones(const Surface& brain, const ImageGeometry& geometry, doub
   if (wall != nullptr) {
     zones.wall.emplace(*wall);
   }
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int k = 0; k < geometry.size.z(); ++k) {
-    for (int j = 0; j < geometry.size.y(); ++j) {
-      for (int i = 0; i < geometry.size.x(); ++i) {
-        const Eigen::Vector3d place = geometry.to_world(Eigen::Vector3d(i, j, k));
-        Zone& zone = zones.zone[geometry.offset(i, j, k)];
-        zone = zone_at(zones.outside.value(place), zones.shell, fade);
-        if (zones.wall && zone == Zone::brain && zones.wall->value(place) < 0) {
-          zone = Zone::cavity;
-        }
-      }
+  for_each_voxel_in_parallel(geometry.size, [&](int i, int j, int k) {
+    const Eigen::Vector3d place = geometry.to_world(Eigen::Vector3d(i, j, k));
+    Zone& zone = zones.zone[geometry.offset(i, j, k)];
+    zone = zone_at(zones.outside.value(place), zones.shell, fade);
+    if (zones.wall && zone == Zone::brain && zones.wall->value(place) < 0) {
+      zone = Zone::cavity;
     }
-  }
+  });
   if (std::find(zones.zone.begin(), zones.zone.end(), Zone::brain) == zones.zone.end()) {
     throw std::invalid_argument(
         "the brain's surface encloses no voxel of the image; are both of the same head and in the same frame?");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/field/jacobian.hpp"
+#include "segmentation/image/voxels.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -29,15 +30,10 @@ ScalarImage jacobian(const VectorImage& forward) {
   const ImageGeometry& g = forward.geometry;
   const Eigen::Matrix3d index_from_world = (g.direction * g.spacing.asDiagonal()).inverse();
   ScalarImage result{g, std::vector<float>(g.voxel_count())};
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < g.size.z(); ++k) {
-    for (int j = 0; j < g.size.y(); ++j) {
-      for (int i = 0; i < g.size.x(); ++i) {
-        const Eigen::Matrix3d by_world = gradient_by_index(forward, {i, j, k}) * index_from_world;
-        result.at(i, j, k) = static_cast<float>((Eigen::Matrix3d::Identity() + by_world).determinant());
-      }
-    }
-  }
+  for_each_voxel_in_parallel(g.size, [&](int i, int j, int k) {
+    const Eigen::Matrix3d by_world = gradient_by_index(forward, {i, j, k}) * index_from_world;
+    result.at(i, j, k) = static_cast<float>((Eigen::Matrix3d::Identity() + by_world).determinant());
+  });
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "register/field/field_sampler.hpp"
 #include "register/field/nearest_node.hpp"
+#include "segmentation/image/voxels.hpp"
 
 namespace brainshift::registration {
 
@@ -23,20 +24,15 @@ std::vector<float> inverse_errors(const VectorImage& forward, const VectorImage&
   const ImageGeometry& g = forward.geometry;
   const FieldSampler back(resampling);
   std::vector<float> by_voxel(g.voxel_count());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int k = 0; k < g.size.z(); ++k) {
-    for (int j = 0; j < g.size.y(); ++j) {
-      for (int i = 0; i < g.size.x(); ++i) {
-        const std::size_t offset = g.offset(i, j, k);
-        if (zone[offset] == Zone::brain) {
-          const auto& f = forward.voxels[offset];
-          const Eigen::Vector3d u(f[0], f[1], f[2]);
-          const Eigen::Vector3d y = Eigen::Vector3d(i, j, k) + back.index_from_world() * u;
-          by_voxel[offset] = static_cast<float>((u + back.value(y)).norm());
-        }
-      }
+  for_each_voxel_in_parallel(g.size, [&](int i, int j, int k) {
+    const std::size_t offset = g.offset(i, j, k);
+    if (zone[offset] == Zone::brain) {
+      const auto& f = forward.voxels[offset];
+      const Eigen::Vector3d u(f[0], f[1], f[2]);
+      const Eigen::Vector3d y = Eigen::Vector3d(i, j, k) + back.index_from_world() * u;
+      by_voxel[offset] = static_cast<float>((u + back.value(y)).norm());
     }
-  }
+  });
   std::vector<float> errors;
   for (std::size_t v = 0; v < zone.size(); ++v) {
     if (zone[v] == Zone::brain) {

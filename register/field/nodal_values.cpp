@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "segmentation/image/voxels.hpp"
 
 namespace brainshift::registration {
 
@@ -79,14 +80,10 @@ Eigen::MatrixXd nodal_values_at(const Solution& solution, const Eigen::MatrixXd&
 ScalarImage nodal_values_on(const Solution& solution, const std::vector<double>& values, bool moved,
                             const ImageGeometry& grid) {
   Points places(static_cast<Eigen::Index>(grid.voxel_count()), 3);
-  for (int k = 0; k < grid.size.z(); ++k) {
-    for (int j = 0; j < grid.size.y(); ++j) {
-      for (int i = 0; i < grid.size.x(); ++i) {
-        places.row(static_cast<Eigen::Index>(grid.offset(i, j, k))) =
-            grid.to_world({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
-      }
-    }
-  }
+  for_each_voxel(grid.size, [&](int i, int j, int k) {
+    places.row(static_cast<Eigen::Index>(grid.offset(i, j, k))) =
+        grid.to_world({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+  });
   const KnownNodes nodes{places_of_nodes(solution, moved), solution.spacing, as_vector(values)};
   constexpr double diagonal = coarse_voxel * std::numbers::sqrt3;
   const Eigen::VectorXd at_voxels = look_up(nodes, places, {.value = 0, .reach = diagonal});

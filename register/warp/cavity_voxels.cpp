@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/warp/cavity_voxels.hpp"
+#include "segmentation/image/voxels.hpp"
 
 #include <algorithm>
 
@@ -12,17 +13,13 @@ std::vector<std::size_t> cavity_voxels(const BrainZones& zones, const Cavity& ca
     return labels != nullptr && std::ranges::find(cavity.labels, labels->voxels[voxel]) != cavity.labels.end();
   };
   std::vector<std::size_t> voxels;
-  for (int k = 0; k < geometry.size.z(); ++k) {
-    for (int j = 0; j < geometry.size.y(); ++j) {
-      for (int i = 0; i < geometry.size.x(); ++i) {
-        const std::size_t voxel = geometry.offset(i, j, k);
-        if (zones.zone[voxel] == Zone::cavity ||
-            (went(voxel) && zones.wall->value(geometry.to_world(Eigen::Vector3d(i, j, k))) < diagonal)) {
-          voxels.push_back(voxel);
-        }
-      }
+  for_each_voxel(geometry.size, [&](int i, int j, int k) {
+    const std::size_t voxel = geometry.offset(i, j, k);
+    if (zones.zone[voxel] == Zone::cavity ||
+        (went(voxel) && zones.wall->value(geometry.to_world(Eigen::Vector3d(i, j, k))) < diagonal)) {
+      voxels.push_back(voxel);
     }
-  }
+  });
   return voxels;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/warp/recognise_labels.hpp"
+#include "segmentation/image/voxels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,16 +33,12 @@ double share_in_patches(const ScalarImage& image, float background) {
     }
     return alone;
   };
-  for (int k = 0; k < size.z(); ++k) {
-    for (int j = 0; j < size.y(); ++j) {
-      for (int i = 0; i < size.x(); ++i) {
-        if (image.at(i, j, k) != background) {
-          ++inside;
-          in_patches += is_in_patch({i, j, k}) ? 1 : 0;
-        }
-      }
+  for_each_voxel(size, [&](int i, int j, int k) {
+    if (image.at(i, j, k) != background) {
+      ++inside;
+      in_patches += is_in_patch({i, j, k}) ? 1 : 0;
     }
-  }
+  });
   return inside == 0 ? 1 : static_cast<double>(in_patches) / static_cast<double>(inside);
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "segmentation/image/image.hpp"
+#include "segmentation/image/voxels.hpp"
 
 namespace brainshift {
 
@@ -20,15 +21,11 @@ Mask mask_of(const LabelMap& labels);
 template <class Visit>
 void for_each_inside(const Mask& mask, const Visit& visit) {
   const Eigen::Array3i size = mask.geometry.size;
-  for (int k = 0; k < size.z(); ++k) {
-    for (int j = 0; j < size.y(); ++j) {
-      for (int i = 0; i < size.x(); ++i) {
-        if (mask.at(i, j, k) != 0) {
-          visit(Eigen::Array3i(i, j, k));
-        }
-      }
+  for_each_voxel(size, [&](int i, int j, int k) {
+    if (mask.at(i, j, k) != 0) {
+      visit(Eigen::Array3i(i, j, k));
     }
-  }
+  });
 }
 
 std::size_t count(const Mask& mask);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "segmentation/image/mask.hpp"
+#include "segmentation/image/voxels.hpp"
 
 namespace brainshift::segmentation {
 namespace {
@@ -38,14 +39,10 @@ ScalarImage smoothed(const ScalarImage& t1) {
 ScalarImage part_of(const ScalarImage& t1, const ImageGeometry& part) {
   const Eigen::Array3i lower = t1.geometry.to_index(part.origin).array().round().cast<int>();
   ScalarImage result{part, std::vector<float>(part.voxel_count())};
-  for (int k = 0; k < part.size.z(); ++k) {
-    for (int j = 0; j < part.size.y(); ++j) {
-      for (int i = 0; i < part.size.x(); ++i) {
-        const Eigen::Array3i from = (lower + Eigen::Array3i(i, j, k)).max(0).min(t1.geometry.size - 1);
-        result.at(i, j, k) = t1.at(from.x(), from.y(), from.z());
-      }
-    }
-  }
+  for_each_voxel(part.size, [&](int i, int j, int k) {
+    const Eigen::Array3i from = (lower + Eigen::Array3i(i, j, k)).max(0).min(t1.geometry.size - 1);
+    result.at(i, j, k) = t1.at(from.x(), from.y(), from.z());
+  });
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <sstream>
 
+#include "segmentation/image/voxels.hpp"
 #include "segmentation/interface/options.hpp"
 
 namespace brainshift::segmentation {
@@ -150,20 +151,16 @@ std::vector<std::uint16_t> enclosed_labels(const LabelMap& labels,
     }
   };
   const Eigen::Array3i size = labels.geometry.size;
-  for (int k = 0; k < size.z(); ++k) {
-    for (int j = 0; j < size.y(); ++j) {
-      for (int i = 0; i < size.x(); ++i) {
-        for (int axis = 0; axis < 3; ++axis) {
-          Eigen::Array3i next(i, j, k);
-          if (++next[axis] < size[axis]) {
-            const std::uint16_t here = labels.at(i, j, k), there = labels.at(next.x(), next.y(), next.z());
-            note_face(here, there);
-            note_face(there, here);
-          }
-        }
+  for_each_voxel(size, [&](int i, int j, int k) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Eigen::Array3i next(i, j, k);
+      if (++next[axis] < size[axis]) {
+        const std::uint16_t here = labels.at(i, j, k), there = labels.at(next.x(), next.y(), next.z());
+        note_face(here, there);
+        note_face(there, here);
       }
     }
-  }
+  });
   std::vector<std::uint16_t> enclosed;
   for (std::size_t number = 1; number < all_numbers; ++number) {
     if (touches_brain[number] != 0 && touches_else[number] == 0 &&

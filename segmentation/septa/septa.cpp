@@ -14,6 +14,7 @@
 
 #include "segmentation/files/vtk_bridge.hpp"
 #include "segmentation/image/mask.hpp"
+#include "segmentation/image/voxels.hpp"
 #include "segmentation/interface/options.hpp"
 #include "segmentation/labels/label_table.hpp"
 
@@ -93,19 +94,15 @@ void check_sides(const Parts& parts) {
 /// Calls back with each pair of voxels that share a face, and the axis from the first to the second.
 template <class Use>
 void for_each_face(const ImageGeometry& grid, const Use& use) {
-  for (int k = 0; k < grid.size.z(); ++k) {
-    for (int j = 0; j < grid.size.y(); ++j) {
-      for (int i = 0; i < grid.size.x(); ++i) {
-        const std::array<int, 3> here = {i, j, k};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          std::array<int, 3> there = here;
-          if (++there[axis] < grid.size[static_cast<Eigen::Index>(axis)]) {
-            use(here, grid.offset(i, j, k), grid.offset(there[0], there[1], there[2]), axis);
-          }
-        }
+  for_each_voxel(grid.size, [&](int i, int j, int k) {
+    const std::array<int, 3> here = {i, j, k};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::array<int, 3> there = here;
+      if (++there[axis] < grid.size[static_cast<Eigen::Index>(axis)]) {
+        use(here, grid.offset(i, j, k), grid.offset(there[0], there[1], there[2]), axis);
       }
     }
-  }
+  });
 }
 
 /// Gives what surrounds the parts to the nearest, step by step.

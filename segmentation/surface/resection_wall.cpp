@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "segmentation/geometry/point_tree.hpp"
+#include "segmentation/image/voxels.hpp"
 #include "segmentation/options/values.hpp"
 
 namespace brainshift::segmentation {
@@ -23,13 +24,8 @@ int reach_of(const ImageGeometry& grid) {
 
 template <class Visit>
 void for_voxels(const ImageGeometry& grid, const Visit& visit) {
-  for (int k = 0; k < grid.size.z(); ++k) {
-    for (int j = 0; j < grid.size.y(); ++j) {
-      for (int i = 0; i < grid.size.x(); ++i) {
-        visit(grid.offset(i, j, k), grid.to_world(Eigen::Vector3d(i, j, k)));
-      }
-    }
-  }
+  for_each_voxel(grid.size,
+                 [&](int i, int j, int k) { visit(grid.offset(i, j, k), grid.to_world(Eigen::Vector3d(i, j, k))); });
 }
 
 Points centres_of(const Mask& mask) {
