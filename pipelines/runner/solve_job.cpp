@@ -25,9 +25,11 @@ void write_measured(const SolveJob& job, const SolveInput& input, const solve::S
   }
   const Load& how = job.load.value();
   const solve::MeasuredFit& fit = *result.measures.measured;
-  warn(warnings_of(solve::outliers(solve::thinned_body(input.model, input.options.shape), input.model.conditions),
-                   !how.robust && !how.registration_unknown && !how.field),
-       said);
+  if (!how.field) {  // what sinks moves as the rest of the surface does not, and nobody can take a place out of a field
+    warn(warnings_of(solve::outliers(solve::thinned_body(input.model, input.options.shape), input.model.conditions),
+                     !how.robust && !how.registration_unknown),
+         said);
+  }
   if (input.registration) {
     solve::write_rigid(out / "registration_error.tfm", *input.registration);
     said.measures["registration_angle_deg"] = input.registration->angle();
