@@ -23,14 +23,7 @@ struct LayOutExtras {
 /// contradict each other; std::invalid_argument on a skull that is no closed surface.
 Body lay_out(const Model& model, const SolveOptions& options, const BodyParts& parts, LayOutExtras extras);
 
-/// Forces on the parameters of a body of these parts. In a transient run the fluid's level sinks with the load's curve,
-/// from the top of the body on; to rest only where it ends counts.
-ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamics dynamics);
-
 /// The laws of a body that comes to rest in space, were its tissues of these materials, by label.
 PointLaws laws_with(const Body& body, const std::map<std::int32_t, Material>& materials);
-
-/// The laws as stepping needs them: at rest relaxed materials have relaxed.
-PointLaws point_laws(const MaterialTable& table, Plane plane, Dynamics dynamics);
 
 }  // namespace brainshift::solve

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "solve/arrays/shared_work.hpp"
+#include "solve/body/forces.hpp"
 #include "solve/body/lay_out.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/device/device_fault.hpp"

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "segmentation/progress/stopwatch.hpp"
+#include "solve/body/forces.hpp"
 #include "solve/body/lay_out.hpp"
 #include "solve/device/each/device_ensemble.hpp"
 #include "solve/device/each/relax_together.hpp"

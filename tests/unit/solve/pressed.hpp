@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "solve/body/forces.hpp"
 #include "solve/body/lay_out.hpp"
 #include "solve/dynamics/relaxation.hpp"
 #include "solve/ensemble/relax_together.hpp"
