@@ -11,6 +11,7 @@
 #include "segmentation/geometry/finer.hpp"
 #include "segmentation/geometry/joined.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
+#include "solve/body/contact_nodes.hpp"
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/gauss_points.hpp"
@@ -22,8 +23,6 @@ namespace brainshift::solve {
 namespace {
 
 using discretise::Scanlines;
-
-constexpr double on_wall = 1e-3;  // of the spacing: a node is on the wall that is so near to it
 
 /// A place in the part that a cell has in the body.
 Eigen::Vector3d place_in(const BackgroundCells& cells, std::size_t cell) {
@@ -63,7 +62,7 @@ KeptNodes kept_nodes(const NodeCloud& cloud, const Surface& surface, const Scanl
   KeptNodes nodes;
   for (std::size_t a = 0; a < cloud.size(); ++a) {
     const Eigen::Vector3d x = cloud.positions.row(static_cast<Eigen::Index>(a));
-    const bool at_wall = (tree.nearest(x).position - x).norm() <= on_wall * cloud.spacing[a];
+    const bool at_wall = is_on_wall(tree.nearest(x), x, cloud.spacing[a]);
     if (at_wall || !wall.inside(x)) {
       nodes.stay.push_back(static_cast<std::int32_t>(a));
       nodes.at_wall.push_back(at_wall ? 1 : 0);
