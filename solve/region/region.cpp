@@ -13,6 +13,7 @@
 #include "solve/quadrature/integration_points.hpp"
 #include "solve/quadrature/taken_cells.hpp"
 #include "solve/run/coarse.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/step.hpp"
 #include "solve/run/whole_body.hpp"
 #include "solve/shape/node_supports.hpp"

@@ -2,8 +2,6 @@
 #include "solve/run/prepare.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "solve/body/check_discretisation.hpp"
@@ -15,7 +13,6 @@
 #include "solve/cut/boundary_normals.hpp"
 #include "solve/cut/cut_patches.hpp"
 #include "solve/cut/resection.hpp"
-#include "solve/dynamics/relaxation.hpp"
 #include "solve/measured/inner_rows.hpp"
 #include "solve/quadrature/adaptive_points.hpp"
 #include "solve/quadrature/cell_points.hpp"
@@ -134,50 +131,6 @@ void check_rupture(const Model& model, Dynamics dynamics) {
   }
 }
 
-/// Derivatives rounded to single precision err by 1e-7 of a strain, which K answers, and a stiff part hands on to a
-/// soft one: the bound of the error no longer holds beyond these (measured: tests/extremes, precision).
-constexpr double most_bulk_in_single = 400;         // K / µ of a material
-constexpr double most_contrast_in_single = 1000;    // largest over least µ
-constexpr double most_of_both_in_single = 4e4;      // largest K over least µ
-constexpr double most_of_both_under_forces = 1000;  // the same where a stiff part may weigh on soft tissue
-constexpr double farthest_in_single = 0.5;          // what is imposed, over the size of the body: half turns
-constexpr double finest_in_single = 1e-5;           // error that may be left, over the size of the body
-
-/// The largest component that is prescribed, mm.
-double largest_imposed(const Model& model) {
-  double imposed = 0;
-  for (const double u : model.conditions.displacement.reshaped()) {
-    imposed = std::max(imposed, std::isnan(u) ? 0 : std::abs(u));
-  }
-  return imposed;
-}
-
-/// The error that relaxation may leave open, mm, as far as the load says it beforehand.
-double error_wanted(double imposed, double tolerance) {
-  return imposed > 0 ? std::min(tolerance, open_part * imposed) : tolerance;
-}
-
-/// Fluid that drains weighs, too, but single serves all the same: 60 % of a phantom's brain above it, whose ventricles
-/// make K / µ 33,000, is 0.001 mm off what double gives, at a bound of 0.009 mm.
-bool bears_forces(const Model& model) {
-  return !model.gravity.isZero() || model.conditions.force.rows() > 0 || model.body_force;
-}
-
-bool single_serves(const Model& model, double tolerance) {
-  double bulk = 0, stiffest = 0, softest = std::numeric_limits<double>::infinity();
-  for (const auto& [label, material] : model.materials) {
-    bulk = std::max(bulk, bulk_modulus(material) / shear_modulus(material));
-    stiffest = std::max(stiffest, bulk_modulus(material));
-    softest = std::min(softest, shear_modulus(material));
-  }
-  const Points& x = model.cloud.positions;
-  const double size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff();
-  const double imposed = largest_imposed(model);
-  return bulk <= most_bulk_in_single && stiffness_contrast(model.materials) <= most_contrast_in_single &&
-         stiffest <= (bears_forces(model) ? most_of_both_under_forces : most_of_both_in_single) * softest &&
-         imposed <= farthest_in_single * size && error_wanted(imposed, tolerance) >= finest_in_single * size;
-}
-
 /// Of a cavity with a wall that something presses in.
 std::optional<WallLoad> wall_load(const Model& model, const ShapeFunctions& shape) {
   constexpr double piece = 0.5;  // of the spacing
@@ -252,24 +205,52 @@ int make_consistent(const Model& model, const SolveOptions& options, const std::
       .iterations;
 }
 
-}  // namespace
-
-SolveOptions completed(SolveOptions options, const Model& model) {
-  options.shape.planar = model.plane != Plane::none;
-  if (!single_serves(model, options.tolerance)) {
-    options.precision = Precision::double_precision;
+/// The body where it is cut or has a septum, as at the start.
+std::optional<CutBody> parted(const Model& model) {
+  if (model.cuts.empty() && !model.rupture && !model.septum) {
+    return std::nullopt;
   }
-  return options;
+  return cut_body(model);
 }
+
+/// Shape functions at the nodes and at all places that are no integration points. held: pinned_nodes().
+void evaluate_at_places(const Model& model, const ShapeFunctions& shape, std::span<const std::int32_t> held,
+                        BodyParts& parts) {
+  parts.nodal_rows = shape.evaluate(parts.cloud.positions, false);
+  if (!held.empty()) {
+    parts.nodal_rows = with_pinned(parts.nodal_rows, held);
+  }
+  if (parts.cloud.conditions.measured) {
+    parts.inner_rows = inner_rows(shape, parts.cloud.conditions.measured->inner);
+  }
+  parts.wall_load = wall_load(model, shape);
+}
+
+/// The integration points that a resection leaves.
+AdaptivePoints points_of_rest(const Model& model, const ShapeFunctions& shape, const SolveOptions& options) {
+  const std::optional<BackgroundCells> completed = with_missing_octants(model.cells, model.boundary, model.cloud);
+  AdaptivePoints placed = place_points(model, completed ? *completed : model.cells, shape, options);
+  if (model.resection) {
+    leave_out(*model.resection, placed);
+  }
+  return placed;
+}
+
+/// Of a body that comes to rest and may be in parts. A face of a cut may hold the other.
+void check_parts(const Model& model, const OrderedCloud& cloud, const ShapeRows& point_rows, bool is_parted) {
+  const bool may_part = is_parted || model.resection || (is_pushed(model) && !model.skull);
+  if (may_part && !model.face_contact) {
+    check_parts_held(cloud, point_rows, model);
+  }
+}
+
+}  // namespace
 
 Prepared prepare(const Model& model, const SolveOptions& options, std::span<const std::uint8_t> pinned,
                  SolveMeasures& measures, const Progress& progress, bool keep_parts) {
   check_model(model);
   check_rupture(model, options.dynamics);
-  std::optional<CutBody> cut;
-  if (!model.cuts.empty() || model.rupture || model.septum) {
-    cut = cut_body(model);
-  }
+  std::optional<CutBody> cut = parted(model);
   const std::shared_ptr<const Visibility> visibility = cut ? cut->visibility : nullptr;
   BodyParts parts;
   parts.cloud = order_nodes(cut ? cut->cloud : model.cloud, cut ? cut->conditions : model.conditions);
@@ -279,22 +260,10 @@ Prepared prepare(const Model& model, const SolveOptions& options, std::span<cons
   report(progress, 0, "evaluating shape functions");
   const ShapeFunctions shape(parts.cloud.positions, parts.cloud.spacing, options.shape, visibility);
   const std::vector<std::int32_t> held = pinned_nodes(parts.cloud, pinned);
-  parts.nodal_rows = shape.evaluate(parts.cloud.positions, false);
-  if (!held.empty()) {
-    parts.nodal_rows = with_pinned(parts.nodal_rows, held);
-  }
-  if (parts.cloud.conditions.measured) {
-    parts.inner_rows = inner_rows(shape, parts.cloud.conditions.measured->inner);
-  }
-  parts.wall_load = wall_load(model, shape);
-  const std::optional<BackgroundCells> completed = with_missing_octants(model.cells, model.boundary, model.cloud);
-  AdaptivePoints placed = place_points(model, completed ? *completed : model.cells, shape, options);
-  if (model.resection) {
-    leave_out(*model.resection, placed);
-  }
-  const bool may_part = visibility || model.resection || (is_pushed(model) && !model.skull);
-  if (may_part && !model.face_contact && options.dynamics == Dynamics::relaxation) {  // a face may hold the other
-    check_parts_held(parts.cloud, placed.rows, model);
+  evaluate_at_places(model, shape, held, parts);
+  AdaptivePoints placed = points_of_rest(model, shape, options);
+  if (options.dynamics == Dynamics::relaxation) {
+    check_parts(model, parts.cloud, placed.rows, visibility != nullptr);
   }
   parts.points = std::move(placed.points);
   parts.point_rows = std::move(placed.rows);

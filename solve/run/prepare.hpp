@@ -29,7 +29,4 @@ struct Prepared {
 Prepared prepare(const Model& model, const SolveOptions& options, std::span<const std::uint8_t> pinned,
                  SolveMeasures& measures, const Progress& progress, bool keep_parts = false);
 
-/// The options with what the model says of them.
-SolveOptions completed(SolveOptions options, const Model& model);
-
 }  // namespace brainshift::solve

@@ -18,6 +18,7 @@
 #include "solve/ensemble/relax_together.hpp"
 #include "solve/run/attempt.hpp"
 #include "solve/run/coarse.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/pressed_body.hpp"
 #include "solve/run/whole_body.hpp"

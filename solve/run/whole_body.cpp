@@ -9,7 +9,7 @@
 
 #include "solve/cut/resection.hpp"
 #include "solve/run/attempt.hpp"
-#include "solve/run/prepare.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/pressed_body.hpp"
 
 namespace brainshift::solve {

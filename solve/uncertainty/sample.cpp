@@ -5,7 +5,7 @@
 #include "solve/ensemble/each.hpp"
 #include "solve/interface/unfit_parts.hpp"
 #include "solve/measured/weight.hpp"
-#include "solve/run/prepare.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/together.hpp"
 
 namespace brainshift::solve {

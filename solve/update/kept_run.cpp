@@ -14,6 +14,7 @@
 #include "solve/device/backend.hpp"
 #include "solve/device/kept_on_device.hpp"
 #include "solve/dynamics/relaxation.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/measured.hpp"
 #include "solve/run/measured_covariance.hpp"
 #include "solve/run/prepare.hpp"

@@ -42,6 +42,7 @@
 #include "solve/output/solution_file.hpp"
 #include "solve/run/attempt.hpp"
 #include "solve/run/coarse.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/update/kept_run.hpp"
 #include "tests/benchmark/problems.hpp"

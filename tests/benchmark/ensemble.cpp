@@ -25,6 +25,7 @@
 #include "solve/ensemble/relax_together.hpp"
 #include "solve/force/largest_eigenvalue.hpp"
 #include "solve/run/coarse.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/run/together.hpp"
 #include "solve/run/whole_body.hpp"

@@ -7,6 +7,7 @@
 
 #include "solve/dynamics/motion.hpp"
 #include "solve/force/stiffness_bound.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/prepare.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/models.hpp"

@@ -13,6 +13,7 @@
 #include "segmentation/files/surface_file.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/force/internal_force.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/prepare.hpp"
 #include "solve/shape/shape_functions.hpp"
 #include "tests/unit/segmentation/shapes.hpp"

@@ -11,6 +11,7 @@
 #include "solve/ensemble/relax_together.hpp"
 #include "solve/interface/constants.hpp"
 #include "solve/material/named_materials.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/prepare.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/models.hpp"

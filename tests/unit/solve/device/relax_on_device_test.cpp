@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "solve/device/relax_if_asked.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/shape/nodal_displacement.hpp"
 #include "solve/shape/too_few_nodes.hpp"
 #include "tests/unit/scratch_folder.hpp"

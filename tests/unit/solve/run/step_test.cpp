@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "solve/arrays/nodal_vectors.hpp"
+#include "solve/run/completed.hpp"
 #include "tests/unit/expect_parts.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/cut_bodies.hpp"

@@ -6,7 +6,7 @@
 #include "solve/device/backend.hpp"
 #include "solve/device/device_fault.hpp"
 #include "solve/run/coarse.hpp"
-#include "solve/run/prepare.hpp"
+#include "solve/run/completed.hpp"
 #include "solve/run/whole_body.hpp"
 #include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/models.hpp"
