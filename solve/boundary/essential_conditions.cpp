@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -95,6 +96,19 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> stacked(const Eigen::SparseMatrix<d
   both.topRows(above.rows()) = above;
   both.bottomRows(below.rows()) = below;
   return both;
+}
+
+/// Where a system is singular: the condition of its least pivot. Nothing: it is not.
+std::optional<std::size_t> repeated_condition(const EssentialConditions::Factor& factor,
+                                              const Eigen::SparseMatrix<double>& system) {
+  Eigen::Index worst = 0;
+  const auto& [ldlt, pivot] = factor;
+  const Eigen::VectorXd diagonal = ldlt.permutationP() * system.diagonal();
+  const Eigen::VectorXd pivots = pivot.cwiseQuotient(diagonal);
+  if (ldlt.info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot) {
+    return std::nullopt;
+  }
+  return static_cast<std::size_t>(ldlt.permutationPinv().indices()[worst]);
 }
 
 }  // namespace
@@ -222,15 +236,10 @@ void EssentialConditions::factorise(std::span<const double> mass, double alpha) 
       system += c.compliance / alpha;
     }
     auto factor = std::make_shared<Factor>(system);
-    Eigen::Index worst = 0;
-    const auto& [ldlt, pivot] = *factor;
-    const Eigen::VectorXd diagonal = ldlt.permutationP() * system.diagonal();
-    const Eigen::VectorXd pivots = pivot.cwiseQuotient(diagonal);
-    if (!(ldlt.info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot)) {
-      const auto at = static_cast<std::size_t>(ldlt.permutationPinv().indices()[worst]);
+    if (const std::optional<std::size_t> at = repeated_condition(*factor, system)) {
       throw TooFewNodes("the prescribed displacements contradict or repeat each other at " +
-                        (at < c.node.size() ? "node " + std::to_string(names_[static_cast<std::size_t>(c.node[at])])
-                                            : "inner measured point " + std::to_string(at - c.node.size() + 1)) +
+                        (*at < c.node.size() ? "node " + std::to_string(names_[static_cast<std::size_t>(c.node[*at])])
+                                             : "inner measured point " + std::to_string(*at - c.node.size() + 1)) +
                         ": too many constrained nodes lie too near it; constrain fewer or add free nodes");
     }
     c.factor = std::move(factor);
