@@ -8,7 +8,7 @@
 
 #include "pipelines/checksum/sha256.hpp"
 #include "register/files/register_fields.hpp"
-#include "segmentation/files/read_text.hpp"
+#include "segmentation/files/bytes_of_file.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/options/values.hpp"
 #include "solve/output/solution_file.hpp"
@@ -95,9 +95,9 @@ RunData read_run(const fs::path& run_folder) {
   run.brain = read_if_there(made("segment/brain.vtp"), [](const fs::path& file) { return read_surface(file); });
   run.solution = read_if_there(made("solve/solution.vtu"), [](const fs::path& file) { return read_solution(file); });
   run.septum = read_if_there(made("solve/septum.vtp"), [](const fs::path& file) { return read_surface(file); });
-  run.history = read_text(made("solve/history.csv"));
-  run.load = read_text(made("solve/load.csv"));
-  run.uncertainty = read_text(made("solve/uncertainty.csv"));
+  run.history = bytes_of_file(made("solve/history.csv"));
+  run.load = bytes_of_file(made("solve/load.csv"));
+  run.uncertainty = bytes_of_file(made("solve/uncertainty.csv"));
   if (const fs::path file = made("solve/uncertainty.vtu"); run.solution && fs::exists(file)) {
     run.deviation = registration::read_deviations(file);
   }

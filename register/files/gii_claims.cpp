@@ -11,8 +11,8 @@
 #include <string>
 #include <type_traits>
 
+#include "segmentation/files/bytes_of_file.hpp"
 #include "segmentation/files/deflated.hpp"
-#include "segmentation/files/read_text.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift::registration {
@@ -84,7 +84,7 @@ void look_at_element(void* user_data, const XML_Char* name, const XML_Char** att
 }  // namespace
 
 void check_gii_claims(const fs::path& file) {
-  const std::string text = read_text(file);
+  const std::string text = bytes_of_file(file);
   Claims claims{.most = static_cast<double>(most_deflated) * static_cast<double>(text.size())};
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(XML_ParserCreate(nullptr),
                                                                                              XML_ParserFree);

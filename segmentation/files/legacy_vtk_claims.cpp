@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "segmentation/files/read_text.hpp"
+#include "segmentation/files/bytes_of_file.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift {
@@ -46,7 +46,7 @@ bool are_whole(std::istream& in, bool binary, std::int64_t cells, std::int64_t n
 }  // namespace
 
 void check_legacy_vtk_claims(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+  const std::string text = bytes_of_file(file);
   const bool binary = text.find("\nBINARY") < text.find("\nDATASET");
   for (const char* keyword : {"\nVERTICES ", "\nLINES ", "\nPOLYGONS ", "\nTRIANGLE_STRIPS ", "\nCELLS "}) {
     const std::size_t place = text.find(keyword);

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "segmentation/files/read_text.hpp"
+#include "segmentation/files/bytes_of_file.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift {
@@ -152,7 +152,7 @@ bool has_all(Rows rows, const std::vector<PlyElement>& elements) {
 }  // namespace
 
 PlyHeader check_ply_claims(const std::filesystem::path& file) {
-  const std::string content = read_text(file);
+  const std::string content = bytes_of_file(file);
   std::string_view text = content;
   auto header = take_header(text);
   if (!header) {

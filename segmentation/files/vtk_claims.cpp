@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "segmentation/files/bytes_of_file.hpp"
 #include "segmentation/files/deflated.hpp"
-#include "segmentation/files/read_text.hpp"
 #include "segmentation/files/refuse.hpp"
 
 namespace brainshift {
@@ -127,7 +127,7 @@ void check_blocks(const fs::path& file, std::string_view text) {
 }  // namespace
 
 void check_vtk_claims(const fs::path& file) {
-  const std::string text = read_text(file);
+  const std::string text = bytes_of_file(file);
   check_sizes(file, text);
   check_blocks(file, text);
 }

@@ -9,7 +9,7 @@
 namespace brainshift {
 
 /// All bytes of a file as they stand; none where it cannot be opened.
-inline std::string read_text(const std::filesystem::path& file) {
+inline std::string bytes_of_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
