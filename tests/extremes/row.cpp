@@ -5,15 +5,14 @@
 #include <stdexcept>
 
 #include "segmentation/progress/stopwatch.hpp"
+#include "tests/verification/table_program.hpp"
 
 namespace brainshift::extremes {
 
 namespace {
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
+  return table_number("%.2g", value);
 }
 
 std::string listed(const std::vector<Measured>& measured, bool bounds) {
@@ -61,16 +60,6 @@ bool right(Must must, const Ending& ending, const std::vector<Measured>& measure
   }
 }
 
-std::string quoted(const std::string& text) {
-  return '"' + text + '"';
-}
-
-std::string seconds_of(const Row& row) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", row.seconds);
-  return text;
-}
-
 }  // namespace
 
 Ending run(const solve::Model& model, const solve::SolveOptions& options) {
@@ -103,7 +92,7 @@ std::string markdown_table(const std::vector<Row>& rows) {
       "| --- | --- | --- | --- | --- | --- |\n";
   for (const Row& row : rows) {
     text += "| " + row.what + " | " + row.must + " | " + row.did + " | " + (row.holds ? "yes" : "**no**") + " | " +
-            row.reference + " | " + seconds_of(row) + " |\n";
+            row.reference + " | " + table_number("%.1f", row.seconds) + " |\n";
   }
   return text;
 }
@@ -111,8 +100,9 @@ std::string markdown_table(const std::vector<Row>& rows) {
 std::string csv_table(const std::vector<Row>& rows) {
   std::string text = "case,must,did,holds,reference,seconds\n";
   for (const Row& row : rows) {
-    text += quoted(row.what) + ',' + quoted(row.must) + ',' + quoted(row.did) + ',' + (row.holds ? "yes" : "no") + ',' +
-            quoted(row.reference) + ',' + seconds_of(row) + '\n';
+    text += table_quoted(row.what) + ',' + table_quoted(row.must) + ',' + table_quoted(row.did) + ',' +
+            (row.holds ? "yes" : "no") + ',' + table_quoted(row.reference) + ',' + table_number("%.1f", row.seconds) +
+            '\n';
   }
   return text;
 }

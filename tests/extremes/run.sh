@@ -7,13 +7,6 @@
 #
 #   bash tests/extremes/run.sh [--out DIR] [CASE ...]
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/../../pipelines/setup.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../table.sh"
 
-out=$root/build/extremes
-if [ "${1:-}" = --out ]; then
-  out=${2:?usage: bash tests/extremes/run.sh [--out DIR] [CASE ...]}
-  shift 2
-fi
-install_packages >&2
-build "$root/build" extremes -DCMAKE_BUILD_TYPE=Release >&2
-"$root/build/tests/extremes/extremes" --out "$out" "$@"
+run_table extremes extremes "$@"

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipelines/report/plot.hpp"
@@ -41,10 +42,7 @@ struct Outcome {
 /// small: minutes become seconds, for the tests; the bounds are then wider where the case says so.
 using Case = std::function<Outcome(bool small)>;
 
-struct NamedCase {
-  std::string name;
-  Case run;
-};
+using NamedCase = std::pair<std::string, Case>;
 
 /// All cases, in the table's order.
 const std::vector<NamedCase>& all_cases();

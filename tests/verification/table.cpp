@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdio>
-
 #include "tests/verification/figures.hpp"
+#include "tests/verification/table_program.hpp"
 
 namespace brainshift::verification {
 
 namespace {
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  return table_number("%.3g", value);
 }
 
 std::string bound_of(const Figure& figure) {
@@ -19,16 +16,6 @@ std::string bound_of(const Figure& figure) {
     text += (text.empty() ? "≤ " : ", ≤ ") + number(*figure.most);
   }
   return text.empty() ? "–" : text;
-}
-
-std::string seconds_of(const Figure& figure) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", figure.seconds);
-  return text;
-}
-
-std::string quoted(const std::string& text) {
-  return '"' + text + '"';
 }
 
 }  // namespace
@@ -40,8 +27,8 @@ std::string markdown_table(const std::vector<Row>& rows) {
   for (const auto& [name, f] : rows) {
     text += "| " + name + " | " + f.quantity + " | " + (f.published.empty() ? "–" : f.published) + " | " +
             number(f.ours) + ' ' + f.unit + " | " + bound_of(f) + " | " +
-            (f.most || f.least ? (f.holds() ? "yes" : "**no**") : "–") + " | " + f.reference + " | " + seconds_of(f) +
-            " |\n";
+            (f.most || f.least ? (f.holds() ? "yes" : "**no**") : "–") + " | " + f.reference + " | " +
+            table_number("%.1f", f.seconds) + " |\n";
   }
   return text;
 }
@@ -49,9 +36,9 @@ std::string markdown_table(const std::vector<Row>& rows) {
 std::string csv_table(const std::vector<Row>& rows) {
   std::string text = "case,quantity,published,ours,unit,bound,holds,reference,seconds\n";
   for (const auto& [name, f] : rows) {
-    text += quoted(name) + ',' + quoted(f.quantity) + ',' + quoted(f.published) + ',' + number(f.ours) + ',' +
-            quoted(f.unit) + ',' + quoted(bound_of(f)) + ',' + (f.holds() ? "yes" : "no") + ',' + quoted(f.reference) +
-            ',' + seconds_of(f) + '\n';
+    text += table_quoted(name) + ',' + table_quoted(f.quantity) + ',' + table_quoted(f.published) + ',' +
+            number(f.ours) + ',' + table_quoted(f.unit) + ',' + table_quoted(bound_of(f)) + ',' +
+            (f.holds() ? "yes" : "no") + ',' + table_quoted(f.reference) + ',' + table_number("%.1f", f.seconds) + '\n';
   }
   return text;
 }
