@@ -80,15 +80,7 @@ Solution solution(double wanted) {
     const double flat = std::sqrt(1 - z * z);
     nodes.push_back(half_axes.cwiseProduct(Eigen::Vector3d(flat * std::cos(turn), flat * std::sin(turn), z)));
   }
-  Solution result;
-  result.positions.resize(std::ssize(nodes), 3);
-  result.displacement.resize(std::ssize(nodes), 3);
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    result.positions.row(static_cast<Eigen::Index>(n)) = nodes[n].transpose();
-    result.displacement.row(static_cast<Eigen::Index>(n)) = moved(nodes[n]).transpose();
-  }
-  result.spacing.assign(nodes.size(), spacing);
-  return result;
+  return builders::solution_at(nodes, spacing, moved);
 }
 
 ImageGeometry grid(int size) {

@@ -11,6 +11,7 @@
 #include <ctime>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "solve/run/step.hpp"
 #include "tests/benchmark/heap.hpp"
 #include "tests/benchmark/problems.hpp"
+#include "tests/benchmark/step_times.hpp"
 #include "tests/unit/discretise/bodies.hpp"
 
 using namespace brainshift;
@@ -156,19 +158,11 @@ struct Case {
 
   /// Once through the steps.
   void run() {
-    std::vector<std::pair<int, double>> reports;
-    const auto note = [&](double, std::string_view what) {
-      const std::string text(what);
-      if (text.starts_with("step ")) {
-        reports.emplace_back(std::atoi(text.c_str() + 5), static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
-      }
-    };
-    const SolveResult result = step_to_end(model, options, prepared, measures, {}, note);
-    for (std::size_t i = 1; i < reports.size(); ++i) {
-      if (reports[i].first > reports[i - 1].first) {
-        seconds.push_back((reports[i].second - reports[i - 1].second) / (reports[i].first - reports[i - 1].first));
-      }
-    }
+    bench::StepTimes times;
+    const SolveResult result = step_to_end(model, options, prepared, measures, {}, [&](double, std::string_view what) {
+      times.note(what, static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
+    });
+    std::ranges::copy(times.seconds(), std::back_inserter(seconds));
     if (seconds.empty()) {
       throw std::runtime_error("too few steps to be timed: " + result.failure);
     }

@@ -25,6 +25,7 @@
 #include "solve/shape/shape_functions.hpp"
 #include "tests/benchmark/heap.hpp"
 #include "tests/benchmark/problems.hpp"
+#include "tests/benchmark/step_times.hpp"
 
 namespace {
 
@@ -78,19 +79,11 @@ double force_seconds(const Prepared& prepared) {
 double step_seconds(const bench::Problem& problem, Prepared prepared) {
   SolveOptions options = problem.options;
   options.max_steps = 60;
-  std::vector<std::pair<int, double>> reports;
+  bench::StepTimes times;
   const Stopwatch watch;
-  step_to_end(problem.model, options, std::move(prepared), {}, {}, [&](double, std::string_view what) {
-    if (what.starts_with("step ")) {
-      reports.emplace_back(std::atoi(std::string(what).c_str() + 5), watch.seconds());
-    }
-  });
-  std::vector<double> seconds;
-  for (std::size_t i = 1; i < reports.size(); ++i) {
-    if (reports[i].first > reports[i - 1].first) {
-      seconds.push_back((reports[i].second - reports[i - 1].second) / (reports[i].first - reports[i - 1].first));
-    }
-  }
+  step_to_end(problem.model, options, std::move(prepared), {}, {},
+              [&](double, std::string_view what) { times.note(what, watch.seconds()); });
+  std::vector<double> seconds = times.seconds();
   std::sort(seconds.begin(), seconds.end());
   return seconds.empty() ? 0 : seconds[seconds.size() / 2];
 }

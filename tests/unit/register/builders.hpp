@@ -53,6 +53,20 @@ inline Surface ball(const Eigen::Vector3d& middle, double r, int parallels = 16)
   return surface;
 }
 
+inline Solution solution_at(const std::vector<Eigen::Vector3d>& nodes, double spacing,
+                            const DisplacementOf& displacement) {
+  Solution result;
+  result.positions.resize(static_cast<Eigen::Index>(nodes.size()), 3);
+  result.displacement.resize(result.positions.rows(), 3);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    result.positions.row(static_cast<Eigen::Index>(n)) = nodes[n].transpose();
+    result.displacement.row(static_cast<Eigen::Index>(n)) = displacement(nodes[n]).transpose();
+  }
+  result.reaction_force = Points::Zero(result.positions.rows(), 3);
+  result.spacing.assign(nodes.size(), spacing);
+  return result;
+}
+
 /// Nodes in the brain, irregular, and their displacement.
 inline Solution solution(const DisplacementOf& displacement) {
   constexpr double spacing = 5;
@@ -75,16 +89,7 @@ inline Solution solution(const DisplacementOf& displacement) {
     const double flat = std::sqrt(1 - z * z);
     nodes.push_back(centre + radius * Eigen::Vector3d(flat * std::cos(turn), flat * std::sin(turn), z));
   }
-  Solution result;
-  result.positions.resize(static_cast<Eigen::Index>(nodes.size()), 3);
-  result.displacement.resize(result.positions.rows(), 3);
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    result.positions.row(static_cast<Eigen::Index>(n)) = nodes[n].transpose();
-    result.displacement.row(static_cast<Eigen::Index>(n)) = displacement(nodes[n]).transpose();
-  }
-  result.reaction_force = Points::Zero(result.positions.rows(), 3);
-  result.spacing.assign(nodes.size(), spacing);
-  return result;
+  return solution_at(nodes, spacing, displacement);
 }
 
 /// What is left of a solution at the nodes for which `kept` is true of their position.
