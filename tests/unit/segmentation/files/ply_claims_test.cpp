@@ -28,6 +28,22 @@ TEST(PlyClaims, OfAWholeFilePass) {
   EXPECT_EQ(fault_of(header("binary_big_endian", 1, "ushort") + vertex + "\0\3"s + corners), "");
 }
 
+TEST(PlyClaims, HandOutTheHeader) {
+  const ScratchFolder folder;
+  const PlyHeader read = check_ply_claims(folder.write("a.ply", header("ascii", 1, "uchar") + "1 2\n3 0 1 2\n"));
+  EXPECT_EQ(read.format, "ascii");
+  ASSERT_EQ(read.elements.size(), 2U);
+  const PlyElement &vertices = read.elements[0], &faces = read.elements[1];
+  EXPECT_TRUE(vertices.name == "vertex" && vertices.rows == 1 && faces.name == "face" && faces.rows == 1);
+  ASSERT_TRUE(vertices.properties.size() == 2 && faces.properties.size() == 1);
+  EXPECT_EQ(vertices.properties[1].name, "y");
+  EXPECT_EQ(vertices.properties[1].type, "double");
+  EXPECT_FALSE(vertices.properties[1].count_bytes);
+  EXPECT_EQ(faces.properties[0].name, "vertex_indices");
+  EXPECT_EQ(faces.properties[0].bytes, 4U);
+  EXPECT_EQ(faces.properties[0].count_bytes, 1U);
+}
+
 TEST(PlyClaims, AHeaderThatIsNoneIsRefused) {
   std::string no_element = header("ascii", 1, "uchar");
   no_element.replace(no_element.find("element"), 7, "emement");  // a library broke down on such a property
