@@ -88,7 +88,7 @@ TEST_F(BadCut, ResectionsThatMakeNoSense) {
 }
 
 TEST_F(BadCut, CutsOfASceneThatCannotBe) {
-  const std::string scene = contents_of(at("scene.xml"));
+  const std::string scene = bytes_of(at("scene.xml"));
   const auto with = [&](const std::string& cuts) {
     std::string text = scene;
     text.insert(text.find("<contact/>"), cuts + "\n");

@@ -51,7 +51,7 @@ inline ScalarImage ball_t1() {
 class BadInput : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scratch = std::make_unique<ScratchFolder>("bad_input");
+    scratch = std::make_unique<ScratchFolder>();
     write_image(at("labels.nii.gz"), ball_labels());
     write_image(at("t1.nii.gz"), ball_t1());
     write_load("load.csv", "LPS", 0);

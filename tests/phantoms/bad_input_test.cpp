@@ -21,7 +21,7 @@ TEST_F(BadInput, FilesThatAreMissingEmptyTruncatedOrNoImage) {
   write_text(at("empty.nii.gz"), "");
   write_text(at("text.nii.gz"), "this is no image\n");
   write_text(at("text.nii"), "this is no image\n");
-  const std::string whole = contents_of(at("labels.nii.gz"));
+  const std::string whole = bytes_of(at("labels.nii.gz"));
   write_text(at("truncated.nii.gz"), whole.substr(0, whole.size() / 2));
   for (const std::string file : {"missing.nii.gz", "empty.nii.gz", "text.nii.gz", "text.nii", "truncated.nii.gz"}) {
     expect_refused("brainshift segment --quiet --brain-labels 1 --labels " + at(file) + " --out " + at("out"), {file});
@@ -232,7 +232,7 @@ TEST_F(BadInput, APhantomWhereAPatientLies) {
   EXPECT_EQ(run_shell(phantom).code, 0) << "the same again";
   write_text(at("patient/t1.nii.gz"), "a patient's");
   expect_refused(phantom, {at("patient/t1.nii.gz"), "choose another folder"});
-  EXPECT_EQ(contents_of(at("patient/t1.nii.gz")), "a patient's");
+  EXPECT_EQ(bytes_of(at("patient/t1.nii.gz")), "a patient's");
 }
 
 TEST_F(BadInput, AFullDisk) {

@@ -39,7 +39,7 @@ bool comes_true(const Condition& condition) {
 
 /// Whether a process has ended, be it that nobody has asked for its end yet.
 bool ended(pid_t process) {
-  const std::string status = contents_of("/proc/" + std::to_string(process) + "/stat");
+  const std::string status = bytes_of("/proc/" + std::to_string(process) + "/stat");
   const std::size_t name_end = status.rfind(')');
   return name_end == std::string::npos || status.compare(name_end, 3, ") Z") == 0;
 }
@@ -58,7 +58,7 @@ Points displacement_by(const fs::path& file, const Points& places) {
 class Live : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scratch = std::make_unique<ScratchFolder>("live");
+    scratch = std::make_unique<ScratchFolder>();
     const fs::path head = *scratch / "head";
     const ProgramResult made = run_shell("brainshift phantom --size 40 --spacing 4.8 --out " + head.string());
     ASSERT_EQ(made.code, 0) << made.err;
@@ -81,7 +81,7 @@ class Live : public testing::Test {
     name.insert(0, 6 - name.size(), '0');
     return run() / "live" / name;
   }
-  static std::string said(const char* name) { return contents_of(*scratch / name); }
+  static std::string said(const char* name) { return bytes_of(*scratch / name); }
 
   /// The whole file at once, as a careful program writes it.
   static void give(double factor) {
@@ -95,7 +95,7 @@ class Live : public testing::Test {
     solve::CraniotomyLoad changed = load;
     changed.displacement *= factor;
     solve::write_craniotomy_csv(*scratch / "next.csv", changed);
-    const std::string text = contents_of(*scratch / "next.csv");
+    const std::string text = bytes_of(*scratch / "next.csv");
     const std::size_t half = text.find('\n', text.size() / 2) + 1, last = text.size() - 3;
     std::ofstream file(load_file(), std::ios::binary);
     for (const std::string& part : {text.substr(0, half), text.substr(half, last - half), text.substr(last)}) {
@@ -146,7 +146,7 @@ TEST_F(Live, AnswersEachChangePassesOverWhatIsBrokenAndGoesOnAfterAKill) {
   ASSERT_TRUE(comes_true([] { return said("err").find("passed over") != std::string::npos; }));
   give(0.95);
   ASSERT_TRUE(comes_true([] { return fs::exists(answer(2) / "warped.nii.gz"); })) << said("err");
-  EXPECT_NE(contents_of(answer(1) / transform), contents_of(answer(2) / transform));
+  EXPECT_NE(bytes_of(answer(1) / transform), bytes_of(answer(2) / transform));
 
   give(1.02);  // killed at any time of the answer, or before it
   std::this_thread::sleep_for(std::chrono::milliseconds(60));
@@ -169,13 +169,13 @@ TEST_F(Live, ASlowlyWrittenFileIsAnsweredOnceAndMovesNodesAsAnUpdateDoes) {
   start();
   give_slowly(1.2);
   ASSERT_TRUE(comes_true([] { return fs::exists(answer(1)); })) << said("err");
-  EXPECT_EQ(contents_of(answer(1) / "load.csv"), contents_of(load_file()));
+  EXPECT_EQ(bytes_of(answer(1) / "load.csv"), bytes_of(load_file()));
   const ProgramResult updated = run_shell("brainshift update " + run().string() + " --load " + load_file().string() +
                                           " --out " + (*scratch / "updated").string());
   ASSERT_EQ(updated.code, 0) << updated.err;
   give(1.1);
   ASSERT_TRUE(comes_true([] { return fs::exists(answer(2)); })) << said("err");
-  EXPECT_EQ(contents_of(answer(2) / "load.csv"), contents_of(load_file())) << "nothing else was answered";
+  EXPECT_EQ(bytes_of(answer(2) / "load.csv"), bytes_of(load_file())) << "nothing else was answered";
   EXPECT_EQ(said("err").find("passed over"), std::string::npos) << said("err");
   stop(SIGTERM);
 
@@ -209,7 +209,7 @@ TEST_F(Live, AFolderInPlaceOfTheLoadIsRefusedAtOnce) {
 }
 
 TEST_F(Live, AnImageThatIsAnotherOneNowIsRefused) {
-  const auto inputs = nlohmann::json::parse(contents_of(run() / "run.json"))["inputs"];
+  const auto inputs = nlohmann::json::parse(bytes_of(run() / "run.json"))["inputs"];
   const auto t1 = std::ranges::find(inputs, "image.t1", [](const auto& input) { return input["role"]; });
   ASSERT_NE(t1, inputs.end());
   const fs::path file = (*t1)["path"].get<std::string>(),

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 class Load : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scratch = std::make_unique<ScratchFolder>("load");
+    scratch = std::make_unique<ScratchFolder>();
     const ProgramResult head = run_shell("brainshift phantom --size 64 --spacing 3 --out " + at("head").string());
     ASSERT_EQ(head.code, 0) << head.err;
     const ProgramResult result = run(at("head/scene.xml"), at("truth"), "register");
@@ -51,7 +51,7 @@ class Load : public testing::Test {
   }
   /// The head's scene with another load, solved on the nodes of the truth.
   static ProgramResult solve_with(const std::string& load) {
-    std::string text = contents_of(at("head/scene.xml"));
+    std::string text = bytes_of(at("head/scene.xml"));
     const std::size_t from = text.find("<load>"), to = text.find("</load>");
     text.replace(from, to - from, load);
     write_text(at("head/other.xml"), text);
@@ -91,7 +91,7 @@ class Load : public testing::Test {
   }
   static std::string written(const std::string& name) { return at("truth/register/" + name).string(); }
   static double voxel_error() {
-    return nlohmann::json::parse(contents_of(at("truth/register/stage.json")))["entry"]["measures"]["fit_error_mm"];
+    return nlohmann::json::parse(bytes_of(at("truth/register/stage.json")))["entry"]["measures"]["fit_error_mm"];
   }
   /// The truth's forward field, off at each node by noise of its own, 1 mm along each axis: a voxel has its node's.
   static void write_noisy_field(const fs::path& file, unsigned seed) {
@@ -281,7 +281,7 @@ TEST_F(Load, OfAnUnknownRegistrationIsMetTogetherWithIt) {
   solve::CraniotomyLoad seen{places, tracker(places + shift) - places, {}};
   solve::write_craniotomy_csv(at("head/seen.csv"), seen);
   const Solution found = solved_with("<load noise=\"0.5\" registration=\"unknown\"><craniotomy file=\"seen.csv\"/>");
-  const auto entry = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"];
+  const auto entry = nlohmann::json::parse(bytes_of(at("other/solve/stage.json")))["entry"];
   EXPECT_EQ(entry.value("notes", nlohmann::json::array()).dump().find("out of the head"), std::string::npos)
       << "the patient moved, not the brain";
   const auto& measures = entry["measures"];
@@ -303,7 +303,7 @@ TEST_F(Load, OfAnotherFrameIsToldByTheTurnOfItsRegistration) {
   turned.leftCols(2) *= -1;
   solve::write_craniotomy_csv(at("head/turned.csv"), {cortex.positions, turned - cortex.positions, {}});
   solved_with("<load noise=\"0.5\" registration=\"unknown\"><craniotomy file=\"turned.csv\"/>");
-  const auto entry = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"];
+  const auto entry = nlohmann::json::parse(bytes_of(at("other/solve/stage.json")))["entry"];
   EXPECT_NE(entry["notes"].dump().find("degrees; are load and image in the same frame"), std::string::npos)
       << entry["notes"];
 }
@@ -313,7 +313,7 @@ TEST_F(Load, ThatIsRobustSaysWhichPointsCountForLess) {
   wrong.displacement.row(4) += Eigen::RowVector3d(10, 0, 0);
   solve::write_craniotomy_csv(at("head/some.csv"), wrong);
   solved_with("<load noise=\"0.5\" robust=\"yes\"><craniotomy file=\"some.csv\"/>");
-  const auto entry = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"];
+  const auto entry = nlohmann::json::parse(bytes_of(at("other/solve/stage.json")))["entry"];
   const std::string said = entry["notes"].dump();
   char place[64];
   std::snprintf(place, sizeof place, "(%.0f %.0f %.0f)", wrong.positions(4, 0), wrong.positions(4, 1),

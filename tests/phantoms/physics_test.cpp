@@ -24,7 +24,7 @@ constexpr double side = 20;  // mm
 
 class Physics : public testing::Test {
  protected:
-  static void SetUpTestSuite() { scratch = std::make_unique<ScratchFolder>("physics"); }
+  static void SetUpTestSuite() { scratch = std::make_unique<ScratchFolder>(); }
   static void TearDownTestSuite() { scratch.reset(); }
 
   static std::string at(const std::string& name) { return (*scratch / name).string(); }
@@ -41,7 +41,7 @@ class Physics : public testing::Test {
   }
   static auto history() { return read_table(at("out/history.csv")); }
   static nlohmann::json measures() {
-    return nlohmann::json::parse(contents_of(at("out/stage.json")))["entry"]["measures"];
+    return nlohmann::json::parse(bytes_of(at("out/stage.json")))["entry"]["measures"];
   }
 
   /// A box that stands on nodes that do not move.
@@ -92,7 +92,7 @@ TEST_F(Physics, TrianglesTakeThreePoints) {
   model.cells = test::rectangle_triangles(model.cloud, 9, 5);
   write_problem(model);
   solve("--material 1:1000,0.3 --plane strain --points-per-cell 3 --tolerance 1e-4");
-  const auto run = nlohmann::json::parse(contents_of(at("out/stage.json")))["entry"];
+  const auto run = nlohmann::json::parse(bytes_of(at("out/stage.json")))["entry"];
   EXPECT_EQ(run["sizes"]["integration_points"], 3 * 64);
 }
 
@@ -179,7 +179,7 @@ TEST_F(Physics, MaterialsMeanTheSameHoweverTheyAreTyped) {
   write_problem(model);
   const auto solution_of = [&](const std::string& material) {
     solve("--tolerance 0.01 --material " + material);
-    return contents_of(at("out/solution.vtu"));
+    return bytes_of(at("out/solution.vtu"));
   };
   EXPECT_EQ(solution_of("1:3000,0.49,1000"), solution_of("1:brain"));
   EXPECT_EQ(solution_of("1:brain"), solution_of("1:poisson_ratio=0.49,youngs_modulus=3000,law=neo_hookean"));

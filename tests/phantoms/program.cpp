@@ -2,7 +2,6 @@
 #include "tests/phantoms/program.hpp"
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -12,30 +11,14 @@ namespace brainshift {
 namespace fs = std::filesystem;
 
 ProgramResult run_shell(const std::string& command) {
-  const ScratchFolder scratch("shell");
+  const ScratchFolder scratch;
   const std::string script = "brainshift() { '" BRAINSHIFT_PROGRAM "' \"$@\"; }\n" + command + "\n";
   write_text(scratch / "script", script);
   const std::string line = "/bin/sh " + (scratch / "script").string() + " >" + (scratch / "out").string() + " 2>" +
                            (scratch / "err").string();
   const int status = std::system(line.c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, contents_of(scratch / "out"), contents_of(scratch / "err")};
-}
-
-ScratchFolder::ScratchFolder(const std::string& name)
-    : path_(fs::temp_directory_path() / ("brainshift_" + name + "_" + std::to_string(getpid()))) {
-  fs::remove_all(path_);
-  fs::create_directories(path_);
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::string contents_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return {code, bytes_of(scratch / "out"), bytes_of(scratch / "err")};
 }
 
 std::vector<std::map<std::string, double>> read_table(const fs::path& file) {

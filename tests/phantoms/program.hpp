@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "segmentation/files/write_text.hpp"
+#include "tests/unit/scratch_folder.hpp"
 
 namespace brainshift {
+
+using test::bytes_of;
+using test::ScratchFolder;
 
 struct ProgramResult {
   int code = 0;
@@ -19,22 +23,6 @@ struct ProgramResult {
 /// Runs `command` with /bin/sh, where "brainshift" stands for the program that was built.
 ProgramResult run_shell(const std::string& command);
 
-/// A folder for a test program's files, empty at first, removed at the end.
-class ScratchFolder {
- public:
-  explicit ScratchFolder(const std::string& name);
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string contents_of(const std::filesystem::path& file);
 /// The rows of a .csv, lines of comments left out: values by the names of their columns.
 std::vector<std::map<std::string, double>> read_table(const std::filesystem::path& file);
 

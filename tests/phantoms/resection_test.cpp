@@ -12,7 +12,7 @@
 namespace brainshift::resection_test {
 
 TEST(ResectedHead, IsSolvedAndRegistered) {
-  const ScratchFolder scratch("resection");
+  const ScratchFolder scratch;
   const pipelines::PhantomOptions head{.size = 44, .spacing = 4.0};
   pipelines::write_phantom(head, scratch / "head");
   const std::string scene = (scratch / "head/scene.xml").string(), folder = (scratch / "run").string();
@@ -20,7 +20,7 @@ TEST(ResectedHead, IsSolvedAndRegistered) {
                                          " --set resection.labels=3 --set register.cavity_label=24 --set "
                                          "discretise.tumour_factor=0.4 --set solve.gravity='0 4 0'");
   ASSERT_EQ(result.code, 0) << result.err;
-  const auto stages = nlohmann::json::parse(contents_of(folder + "/run.json"))["stages"];
+  const auto stages = nlohmann::json::parse(bytes_of(folder + "/run.json"))["stages"];
   const auto& resection = stages["solve"]["measures"]["resection"];
   EXPECT_EQ(stages["solve"]["sizes"]["nodes"].get<int>() + resection["removed_nodes"].get<int>(),
             stages["discretise"]["sizes"]["nodes"]);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "segmentation/image/image.hpp"
 #include "solve/output/solution_file.hpp"
 #include "tests/phantoms/program.hpp"
 
@@ -20,7 +21,7 @@ using nlohmann::json;
 class Run : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scratch = std::make_unique<ScratchFolder>("run");
+    scratch = std::make_unique<ScratchFolder>();
     const ProgramResult head = run_shell("brainshift phantom --size 40 --spacing 4.8 --out " + head_folder());
     ASSERT_EQ(head.code, 0) << head.err;
     const ProgramResult first = run(finished());
@@ -39,7 +40,7 @@ class Run : public testing::Test {
     fs::copy(finished(), *scratch / name, fs::copy_options::recursive);
     return *scratch / name;
   }
-  static json record(const fs::path& out) { return json::parse(contents_of(out / "run.json")); }
+  static json record(const fs::path& out) { return json::parse(bytes_of(out / "run.json")); }
   /// The status of each stage, in order: "done done kept ...".
   static std::string statuses(const fs::path& out) {
     const json stages = record(out)["stages"];
@@ -51,7 +52,7 @@ class Run : public testing::Test {
   }
   /// The head's scene with a stage added, under another name.
   static std::string scene_with(const std::string& name, const std::string& from, const std::string& to) {
-    std::string text = contents_of(head_folder() + "/scene.xml");
+    std::string text = bytes_of(head_folder() + "/scene.xml");
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos);
     text.replace(at, text.find("/>", at) + 2 - at, to);
@@ -133,10 +134,10 @@ TEST_F(Run, ExplainsNoLessMemoryThanEachStageHoldsAndAtMostHalfAbove) {
 
 TEST_F(Run, RunsNothingAgainThatHasNotChanged) {
   const fs::path out = copy_of_finished("unchanged");
-  const std::string before = contents_of(out / "solve/stage.json");
+  const std::string before = bytes_of(out / "solve/stage.json");
   ASSERT_EQ(run(out).code, 0);
   EXPECT_EQ(statuses(out), "kept kept kept kept kept");
-  EXPECT_EQ(contents_of(out / "solve/stage.json"), before);
+  EXPECT_EQ(bytes_of(out / "solve/stage.json"), before);
   ASSERT_EQ(run(out, "--threads 1").code, 0);
   EXPECT_EQ(statuses(out), "kept kept kept kept kept") << "results do not depend on the threads";
 }
@@ -159,7 +160,7 @@ TEST_F(Run, SolvesWithThePhysicsThatTheSceneNames) {
   EXPECT_EQ(statuses(out), "kept kept done done done");
   EXPECT_FALSE(record(out)["stages"]["solve"]["measures"].contains("error_bound_mm"));
   EXPECT_EQ(record(out)["options"]["tissues"]["1"]["ogden"], "842,-4.7");
-  EXPECT_NE(contents_of(out / "report/index.html").find("<h2>Energies</h2>"), std::string::npos);
+  EXPECT_NE(bytes_of(out / "report/index.html").find("<h2>Energies</h2>"), std::string::npos);
 }
 
 TEST_F(Run, UntilStopsAndTellsWhatIsOutdated) {
@@ -179,7 +180,7 @@ TEST_F(Run, ForceRunsEverythingAndGivesTheSameFiles) {
   ASSERT_EQ(run(out, "--force --until solve").code, 0);
   EXPECT_EQ(statuses(out).substr(0, 14), "done done done");
   for (const char* file : {"segment/brain.vtp", "discretise/nodes.vtu", "discretise/cells.vtu", "solve/solution.vtu"}) {
-    EXPECT_EQ(contents_of(out / file), contents_of(finished() / file)) << file;
+    EXPECT_EQ(bytes_of(out / file), bytes_of(finished() / file)) << file;
   }
 }
 
@@ -235,8 +236,8 @@ TEST_F(Run, AStageMayBeAnExternalCommand) {
   setenv("PROGRAM", BRAINSHIFT_PROGRAM, 1);
   const ProgramResult external = run(out, more, scene);
   ASSERT_EQ(external.code, 0) << external.err;
-  EXPECT_EQ(contents_of(out / "discretise/nodes.vtu"), contents_of(finished() / "discretise/nodes.vtu"));
-  EXPECT_EQ(contents_of(out / "solve/solution.vtu"), contents_of(finished() / "solve/solution.vtu"));
+  EXPECT_EQ(bytes_of(out / "discretise/nodes.vtu"), bytes_of(finished() / "discretise/nodes.vtu"));
+  EXPECT_EQ(bytes_of(out / "solve/solution.vtu"), bytes_of(finished() / "solve/solution.vtu"));
   ASSERT_EQ(run(out, more, scene).code, 0);
   EXPECT_EQ(statuses(out), "kept kept kept - -");
 }
@@ -289,7 +290,7 @@ TEST_F(Run, StagesAloneGiveWhatTheRunGave) {
   ASSERT_EQ(result.code, 0) << result.err;
   for (const char* file : {"/segment/brain.vtp", "/discretise/cells.vtu", "/solve/solution.vtu",
                            "/register/landmarks.csv", "/register/warped.nii.gz", "/register/warped_labels.nii.gz"}) {
-    EXPECT_EQ(contents_of(out + file), contents_of(r + file)) << file;
+    EXPECT_EQ(bytes_of(out + file), bytes_of(r + file)) << file;
   }
   EXPECT_TRUE(fs::exists(out + "/register/warped_brain.vtp"));
   const ProgramResult twice = run_shell("brainshift report " + r + " --out " + r + "/segment");
@@ -305,12 +306,12 @@ TEST_F(Run, AStageAloneDoesNotWriteOverItsUsersFiles) {
     label = label == 6 ? std::uint16_t{0} : label;
   }
   write_image(mine + labels, map);
-  const std::string before = contents_of(mine + labels);
+  const std::string before = bytes_of(mine + labels);
   const ProgramResult result = run_shell("brainshift segment --labels " + mine + labels +
                                          " --brain-labels 1 2 3 --skull-label 5 --edge-length 15 --out " + mine);
   EXPECT_EQ(result.code, 2);
   EXPECT_NE(result.err.find("another file of that name"), std::string::npos) << result.err;
-  EXPECT_EQ(contents_of(mine + labels), before);
+  EXPECT_EQ(bytes_of(mine + labels), before);
 }
 
 TEST_F(Run, ALoadOfMarkupsIsThatOfTheirDisplacements) {
@@ -364,7 +365,7 @@ TEST_F(Run, AReplacedSolutionIsSaidToBeOne) {
   EXPECT_EQ(statuses(out), "kept kept kept done done");
   EXPECT_NE(record(out)["stages"]["solve"]["notes"].dump().find("not as this stage made it: solution.vtu"),
             std::string::npos);
-  EXPECT_NE(contents_of(out / "report/index.html").find("not as this stage made it"), std::string::npos);
+  EXPECT_NE(bytes_of(out / "report/index.html").find("not as this stage made it"), std::string::npos);
 }
 
 TEST_F(Run, AFolderThatIsNotOursIsNotOverwritten) {
@@ -374,7 +375,7 @@ TEST_F(Run, AFolderThatIsNotOursIsNotOverwritten) {
   const ProgramResult result = run(out, "--quiet");
   EXPECT_EQ(result.code, 2);
   EXPECT_NE(result.err.find("not made by brainshift"), std::string::npos) << result.err;
-  EXPECT_EQ(contents_of(out / "segment/precious"), "mine");
+  EXPECT_EQ(bytes_of(out / "segment/precious"), "mine");
 }
 
 TEST_F(Run, ReportCanBeMadeAgain) {

@@ -19,7 +19,7 @@ class Septum : public bad_input::BadInput {
 
   /// The scene with an element before its contact, and options after the name.
   static std::string with(const std::string& element, const std::string& scene = "scene.xml") {
-    std::string text = contents_of(at(scene));
+    std::string text = bytes_of(at(scene));
     text.insert(text.find("<contact/>"), element + "\n");
     write_text(at("septum.xml"), text);
     return run_scene("septum.xml") + to_solution;
@@ -30,7 +30,7 @@ class Septum : public bad_input::BadInput {
     ASSERT_EQ(result.code, 0) << result.err;
   }
   static nlohmann::json measures() {
-    return nlohmann::json::parse(contents_of(at("out/solve/stage.json")))["entry"]["measures"];
+    return nlohmann::json::parse(bytes_of(at("out/solve/stage.json")))["entry"]["measures"];
   }
   /// Of the displacement behind the sheet, in the upper part of the ball.
   static double mean_beyond(double from) {

@@ -25,7 +25,7 @@ class Sequence : public bad_input::BadInput {
     write_image(at("tumour.nii.gz"), labels);
     write_scene(name, "t1.nii.gz", "tumour.nii.gz", "<craniotomy file=\"load.csv\"/>",
                 "<tissue label=\"1\"/><tissue label=\"3\"/>");
-    std::string text = contents_of(at(name));
+    std::string text = bytes_of(at(name));
     text.insert(text.find("</scene>"), "<stage name=\"register\" cavity_label=\"24\"/>" + more);
     write_text(at(name), text);
   }
@@ -47,10 +47,10 @@ TEST_F(Sequence, HasAnImageOfEachStateAndEndsWhereARunOfTheLastEnds) {
                                        "</state><state name=\"resected\">" + resected + "</state></sequence>");
   const ProgramResult ran = run_shell(run_scene("operation.xml") + " --until register" + options);
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const auto states = nlohmann::json::parse(contents_of(at("out/run.json")))["states"];
+  const auto states = nlohmann::json::parse(bytes_of(at("out/run.json")))["states"];
   EXPECT_EQ(states["drained"]["discretise"]["status"], "kept");
   EXPECT_GT(states["drained"]["solve"]["measures"]["moved_since_last_mm"], 0.1);
-  EXPECT_NE(contents_of(of("opened", "register/warped.nii.gz")), contents_of(of("drained", "register/warped.nii.gz")));
+  EXPECT_NE(bytes_of(of("opened", "register/warped.nii.gz")), bytes_of(of("drained", "register/warped.nii.gz")));
   EXPECT_EQ(std::ranges::count(image("drained"), 24), 0);
   EXPECT_GT(std::ranges::count(image("resected"), 24), 0);
   EXPECT_EQ(std::ranges::count(image("resected"), 3), 0);
@@ -61,7 +61,7 @@ TEST_F(Sequence, HasAnImageOfEachStateAndEndsWhereARunOfTheLastEnds) {
   const ProgramResult end =
       run_shell("brainshift run --quiet " + at("end.xml") + " --until solve --out " + at("end") + options);
   ASSERT_EQ(end.code, 0) << end.err;
-  const auto at_once = nlohmann::json::parse(contents_of(at("end/run.json")))["stages"];
+  const auto at_once = nlohmann::json::parse(bytes_of(at("end/run.json")))["stages"];
   EXPECT_EQ(at_once["discretise"]["status"], "kept") << "the state's own body";
   EXPECT_LT(states["resected"]["solve"]["sizes"]["steps"], at_once["solve"]["sizes"]["steps"]);
   const Points last = displacement(of("resected", "")), whole = displacement(at("end"));
@@ -80,7 +80,7 @@ TEST_F(Sequence, HasAnImageOfEachStateAndEndsWhereARunOfTheLastEnds) {
       run_shell(run_scene("operation.xml") + " --until register" + options + " --set solve.max_steps=20");
   EXPECT_EQ(failed.code, 3) << failed.err;
   for (const std::string state : {"drained", "resected"}) {
-    const auto stages = nlohmann::json::parse(contents_of(of(state, "run.json")))["stages"];
+    const auto stages = nlohmann::json::parse(bytes_of(of(state, "run.json")))["stages"];
     EXPECT_EQ(stages["register"]["status"], "outdated") << state << ": it went on from what has failed now";
     const ProgramResult warped =
         run_shell("brainshift warp " + at("out/states/" + state) + " " + at("t1.nii.gz") + " --out " + at("warped"));

@@ -18,7 +18,7 @@ using nlohmann::json;
 class Tolerance : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scratch = std::make_unique<ScratchFolder>("tolerance");
+    scratch = std::make_unique<ScratchFolder>();
     const ProgramResult head =
         run_shell("brainshift phantom --size 40 --spacing 4.8 --out " + (*scratch / "head").string());
     ASSERT_EQ(head.code, 0) << head.err;
@@ -31,14 +31,14 @@ class Tolerance : public testing::Test {
                      " --points-per-cell auto --basis linear --derivatives full --tolerance 0.1 " + more);
   }
   static std::vector<std::string> lines(const fs::path& file) {
-    std::istringstream text(contents_of(file));
+    std::istringstream text(bytes_of(file));
     std::vector<std::string> all;
     for (std::string line; std::getline(text, line);) {
       all.push_back(line);
     }
     return all;
   }
-  static json record(const fs::path& out) { return json::parse(contents_of(out / "run.json")); }
+  static json record(const fs::path& out) { return json::parse(bytes_of(out / "run.json")); }
 
   static std::unique_ptr<ScratchFolder> scratch;
 };
@@ -57,8 +57,8 @@ TEST_F(Tolerance, SweepMeasuresEachChoiceOnceAndCallsFailuresFailures) {
   EXPECT_NE(first.out.find("95 % of the brain"), std::string::npos) << first.out;
   EXPECT_GT(fs::file_size(out / "tradeoff_solve.svg"), 1000U);
   EXPECT_GT(fs::file_size(out / "tradeoff_run.svg"), 1000U);
-  const json coarse = json::parse(contents_of(out / "points/300-auto-0-linear-full-double-0.1.json"));
-  const json fine = json::parse(contents_of(out / "points/600-auto-0-linear-full-double-0.1.json"));
+  const json coarse = json::parse(bytes_of(out / "points/300-auto-0-linear-full-double-0.1.json"));
+  const json fine = json::parse(bytes_of(out / "points/600-auto-0-linear-full-double-0.1.json"));
   EXPECT_GT(fine["percentile_95_mm"], 0.0);
   EXPECT_LT(fine["percentile_95_mm"], coarse["percentile_95_mm"]);
   EXPECT_GT(fine["whole_seconds"], fine["solve_seconds"]);
@@ -96,7 +96,7 @@ TEST_F(Tolerance, RunReachesItAndSaysWhatItEstimated) {
   EXPECT_GT(last["estimated_error_95_mm"], 0.0);
   EXPECT_EQ(run["stages"]["solve"]["measures"]["estimated_error_95_mm"], last["estimated_error_95_mm"]);
   EXPECT_EQ(run["stages"]["solve"]["sizes"]["nodes"], last["nodes"]);
-  EXPECT_NE(contents_of(out / "report/index.html").find("estimated error"), std::string::npos);
+  EXPECT_NE(bytes_of(out / "report/index.html").find("estimated error"), std::string::npos);
 
   const auto made = fs::last_write_time(out / "solve/solution.vtu");
   ASSERT_EQ(run_shell(command).code, 0);

@@ -22,7 +22,7 @@ std::string quoted(const fs::path& path) {
 class Update : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scratch = std::make_unique<ScratchFolder>("update");
+    scratch = std::make_unique<ScratchFolder>();
     const fs::path head = *scratch / "head";
     const ProgramResult made = run_shell("brainshift phantom --size 40 --spacing 4.8 --out " + quoted(head));
     ASSERT_EQ(made.code, 0) << made.err;
@@ -54,7 +54,7 @@ class Update : public testing::Test {
                             const std::string& to) {
     fs::path copy = *scratch / name;
     fs::copy(run(), copy, fs::copy_options::recursive);
-    const std::string text = contents_of(copy / file);
+    const std::string text = bytes_of(copy / file);
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << file;
     write_text(copy / file, text.substr(0, at) + to + text.substr(at + from.size()));
@@ -69,15 +69,15 @@ std::unique_ptr<ScratchFolder> Update::scratch;
 solve::CraniotomyLoad Update::load;
 
 TEST_F(Update, IsAsARunFromTheBeginningAndLeavesTheRunAlone) {
-  const std::string before = contents_of(run() / "solve/solution.vtu");
+  const std::string before = bytes_of(run() / "solve/solution.vtu");
   const ProgramResult first = update(run(), "--load " + quoted(new_load()));
   ASSERT_EQ(first.code, 0) << first.err;
   const fs::path made = run() / "update/new/solve/solution.vtu";
-  const std::string answer = contents_of(made);
+  const std::string answer = bytes_of(made);
   const ProgramResult second = update(run(), "--load " + quoted(new_load()) + " --out " + quoted(*scratch / "again"));
   ASSERT_EQ(second.code, 0) << second.err;
-  EXPECT_EQ(answer, contents_of(*scratch / "again/solve/solution.vtu")) << "from the file that is kept";
-  EXPECT_EQ(before, contents_of(run() / "solve/solution.vtu"));
+  EXPECT_EQ(answer, bytes_of(*scratch / "again/solve/solution.vtu")) << "from the file that is kept";
+  EXPECT_EQ(before, bytes_of(run() / "solve/solution.vtu"));
   EXPECT_TRUE(half_written(run()).empty());
 
   const ProgramResult whole =
@@ -149,7 +149,7 @@ TEST_F(Update, TellsHowWellANoisyLoadKnowsTheLandmarks) {
 }
 
 TEST_F(Update, TakesARunWhoseNoiseWasTakenOut) {
-  const std::string text = contents_of(*scratch / "head/scene.xml");
+  const std::string text = bytes_of(*scratch / "head/scene.xml");
   const std::size_t at = text.find("<load>");
   ASSERT_NE(at, std::string::npos);
   write_text(*scratch / "head/noisy.xml", text.substr(0, at) + "<load noise=\"0.5\">" + text.substr(at + 6));
@@ -164,12 +164,12 @@ TEST_F(Update, TakesARunWhoseNoiseWasTakenOut) {
 TEST_F(Update, DamagedKeptFileIsMadeAgain) {
   ASSERT_EQ(update(run(), "").code, 0);
   const fs::path kept = run() / "update/kept.bin";
-  std::string bytes = contents_of(kept);
+  std::string bytes = bytes_of(kept);
   const std::string whole = bytes;
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   write_text(kept, bytes);
   ASSERT_EQ(update(run(), "").code, 0);
-  EXPECT_TRUE(contents_of(kept) == whole) << "the same bytes";
+  EXPECT_TRUE(bytes_of(kept) == whole) << "the same bytes";
 }
 
 TEST_F(Update, RefusesLoadsThatAreNone) {
@@ -181,7 +181,7 @@ TEST_F(Update, RefusesLoadsThatAreNone) {
   solve::write_craniotomy_csv(*scratch / "elsewhere.csv", elsewhere);
   expect_refused(update(run(), "--load " + quoted(*scratch / "elsewhere.csv")), "elsewhere");
 
-  const std::string text = contents_of(new_load());
+  const std::string text = bytes_of(new_load());
   write_text(*scratch / "half.csv", text.substr(0, text.size() - text.size() / 3) + ",");
   expect_refused(update(run(), "--load " + quoted(*scratch / "half.csv")), "half.csv");
   expect_refused(update(run(), "--load " + quoted(*scratch / "none.csv")), "none.csv");
@@ -211,7 +211,7 @@ TEST_F(Update, RefusesARunWhoseSceneOrFilesHaveChanged) {
   for (const char* name : {"scene.xml", "labels.nii.gz"}) {
     const fs::path file = *scratch / "head" / name, away = *scratch / "away";
     fs::rename(file, away);
-    std::string text = contents_of(away);
+    std::string text = bytes_of(away);
     const std::size_t young = text.find("youngs_modulus=\"3000\"");
     text = young == std::string::npos ? "other" : text.replace(young, 21, "youngs_modulus=\"60000\"");
     write_text(file, text);
@@ -245,12 +245,12 @@ TEST_F(Update, IsInDoublePrecisionWhereTheRunTookIt) {
   const ProgramResult ran = run_shell("brainshift run " + quoted(*scratch / "head/scene.xml") +
                                       " --until solve --out " + quoted(single) + " --set discretise.nodes=900 --quiet");
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const std::string text = contents_of(record), precision = "\"precision\": \"single\"";
+  const std::string text = bytes_of(record), precision = "\"precision\": \"single\"";
   ASSERT_NE(text.find(precision), std::string::npos);
   write_text(record, std::string(text).replace(text.find(precision), 0, "\"took\": \"double precision\", "));
   const ProgramResult updated = update(single, "--load " + quoted(new_load()));
   ASSERT_EQ(updated.code, 0) << updated.err;
-  EXPECT_NE(contents_of(single / "update/new/solve/stage.json").find("\"precision\": \"double\""), std::string::npos);
+  EXPECT_NE(bytes_of(single / "update/new/solve/stage.json").find("\"precision\": \"double\""), std::string::npos);
 }
 
 TEST_F(Update, SaysThatWhatItPreparedCannotBeKept) {
@@ -277,8 +277,8 @@ TEST_F(Update, WeighsNoiseAsARunFromTheBeginning) {
   const Points answer = read_solution(made / "solution.vtu").displacement;
   const Points solved = read_solution(*scratch / "whole_noisy/solve/solution.vtu").displacement;
   EXPECT_LT((answer - solved).rowwise().norm().maxCoeff(), 0.02);
-  EXPECT_NE(contents_of(made / "load.csv").find("sigma"), std::string::npos);
-  EXPECT_NE(contents_of(made / "stage.json").find("weight_mJ"), std::string::npos);
+  EXPECT_NE(bytes_of(made / "load.csv").find("sigma"), std::string::npos);
+  EXPECT_NE(bytes_of(made / "stage.json").find("weight_mJ"), std::string::npos);
 
   solve::CraniotomyLoad wrong = solve::read_craniotomy_csv(new_load());
   wrong.displacement(wrong.displacement.rows() / 2, 0) += 30;

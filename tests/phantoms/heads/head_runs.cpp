@@ -15,7 +15,7 @@ namespace {
 using pipelines::PhantomFrame;
 
 HeadRun make_run(const std::string& name, PhantomFrame frame, const std::string& more) {
-  static const ScratchFolder scratch("heads");
+  static const ScratchFolder scratch;
   const pipelines::PhantomOptions options{.size = 44, .spacing = 4.0, .frame = frame};
   const std::filesystem::path head = scratch / (name + "_head");
   const std::filesystem::path folder = scratch / name;
@@ -25,7 +25,7 @@ HeadRun make_run(const std::string& name, PhantomFrame frame, const std::string&
   if (result.code != 0) {
     throw std::runtime_error("the run ended with " + std::to_string(result.code) + ": " + result.err);
   }
-  return {folder, pipelines::make_phantom(options), nlohmann::json::parse(contents_of(folder / "run.json"))};
+  return {folder, pipelines::make_phantom(options), nlohmann::json::parse(bytes_of(folder / "run.json"))};
 }
 
 }  // namespace

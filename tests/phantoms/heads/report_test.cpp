@@ -69,7 +69,7 @@ ReadPicture read_png(const fs::path& file) {
 
 // The page is written as XML too, so an XML parser tells whether every tag is closed.
 std::vector<std::string> images_of_page(const fs::path& page) {
-  const std::string text = contents_of(page);
+  const std::string text = bytes_of(page);
   tinyxml2::XMLDocument document;
   EXPECT_EQ(document.Parse(text.c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
   std::vector<std::string> sources;
@@ -78,7 +78,7 @@ std::vector<std::string> images_of_page(const fs::path& page) {
 }
 
 TEST(Report, IsWellFormedAndHoldsItsPictures) {
-  const ScratchFolder scratch("page");
+  const ScratchFolder scratch;
   const auto sources = images_of_page(oblique_run().folder / "report/index.html");
   EXPECT_EQ(sources.size(), 17U);  // three planes of five, and the surface from two sides
   const std::string prefix = "data:image/png;base64,";
@@ -93,7 +93,7 @@ TEST(Report, IsWellFormedAndHoldsItsPictures) {
 }
 
 TEST(Report, WorksWithoutAnImage) {
-  const ScratchFolder scratch("no_image");
+  const ScratchFolder scratch;
   fs::copy(oblique_run().folder, scratch / "run", fs::copy_options::recursive);
   fs::remove_all(scratch / "run/register");
   nlohmann::json record = oblique_run().record;
@@ -101,19 +101,19 @@ TEST(Report, WorksWithoutAnImage) {
   write_text(scratch / "run/run.json", record.dump());
   write_report(scratch / "run", scratch / "page");
   EXPECT_EQ(images_of_page(scratch / "page/index.html").size(), 8U);
-  EXPECT_NE(contents_of(scratch / "page/index.html").find("no image to warp"), std::string::npos);
+  EXPECT_NE(bytes_of(scratch / "page/index.html").find("no image to warp"), std::string::npos);
 }
 
 TEST(Report, SaysSoWhenTheLoadIsSimulated) {
-  const ScratchFolder scratch("simulated");
+  const ScratchFolder scratch;
   write_text(scratch / "run.json", R"({"options": {"load": {}, "load.simulated": {"depth": "8"}}, "stages": {}})");
   write_report(scratch.path(), scratch / "page");
-  EXPECT_NE(contents_of(scratch / "page/index.html").find("The load is simulated"), std::string::npos);
-  EXPECT_EQ(contents_of(oblique_run().folder / "report/index.html").find("The load is simulated"), std::string::npos);
+  EXPECT_NE(bytes_of(scratch / "page/index.html").find("The load is simulated"), std::string::npos);
+  EXPECT_EQ(bytes_of(oblique_run().folder / "report/index.html").find("The load is simulated"), std::string::npos);
 }
 
 TEST(Report, RefusesAFolderThatIsNoRun) {
-  const ScratchFolder scratch("no_run");
+  const ScratchFolder scratch;
   EXPECT_THROW(write_report(scratch.path(), scratch / "page"), std::invalid_argument);
   write_text(scratch / "run.json", "{ half");
   EXPECT_THROW(write_report(scratch.path(), scratch / "page"), std::invalid_argument);
