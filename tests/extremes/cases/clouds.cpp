@@ -12,6 +12,7 @@
 #include "tests/extremes/row.hpp"
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
+#include "tests/unit/solve/move_surface.hpp"
 #include "tests/verification/clouds.hpp"
 
 namespace brainshift::extremes::clouds_cases {
@@ -41,11 +42,7 @@ Ending patch_test(NodeCloud cloud, BackgroundCells cells, const solve::SolveOpti
   model.conditions = test::all_free(model.cloud);
   model.cells = std::move(cells);
   model.materials[1] = {3000, 0.49, 1000};
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.conditions.displacement.row(a) = model.cloud.positions.row(a) * imposed().transpose();
-    }
-  }
+  test::move_surface(model, imposed());
   return run(model, options);
 }
 

@@ -8,6 +8,7 @@
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/unit/solve/hold_bottom.hpp"
 #include "tests/unit/solve/material_cases.hpp"
+#include "tests/unit/solve/move_surface.hpp"
 
 namespace brainshift::solve {
 
@@ -66,11 +67,7 @@ inline double difference_from(const Solution& solution, const Eigen::Matrix3d& h
 
 /// Imposes H·x on the whole surface; the inner nodes should follow.
 inline SolveResult patch_test(Model model, const SolveOptions& options, const Eigen::Matrix3d& h) {
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.conditions.displacement.row(a) = model.cloud.positions.row(a) * h.transpose();
-    }
-  }
+  test::move_surface(model, h);
   return solve(model, options);
 }
 

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 /// A cube of two layers, pressed by a tenth.
 Model layered() {
-  Model model = uniaxial(0.9, 7);
+  Model model = uniaxial(0.9, 5);
   test::label_cells(model.cells, [](const Eigen::RowVector3d& low) { return low[2] < model_side / 2 - 1e-6 ? 1 : 2; });
   model.materials[2] = model.materials[1];
   return model;

@@ -24,6 +24,21 @@ struct WeightedBox {
     }
     return m;
   }
+  NodalVectors shifted(const Eigen::Vector3d& by) const {
+    NodalVectors u(4 * nodes.size(), 0.0);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      at(u, a).head<3>() = by;
+    }
+    return u;
+  }
+  /// Of what moves nodes from where they would be freely, along the way from where they were.
+  double push_work(const NodalVectors& before, const NodalVectors& free, const NodalVectors& after) const {
+    double work = 0;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      work += mass[a] * (at(after, a) - at(free, a)).dot(at(after, a) - at(before, a)) / 2;
+    }
+    return work;
+  }
   NodalVectors random_parameters(double amplitude) const {
     const Points random = test::random_points(static_cast<int>(nodes.size()), 2 * amplitude);
     NodalVectors u(4 * nodes.size(), 0.0);

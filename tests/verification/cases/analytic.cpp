@@ -12,6 +12,7 @@
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/clouds.hpp"
 #include "tests/unit/solve/material_cases.hpp"
+#include "tests/unit/solve/move_surface.hpp"
 #include "tests/verification/cases/cases.hpp"
 #include "tests/verification/cases/cylinder_model.hpp"
 #include "tests/verification/reference.hpp"
@@ -82,14 +83,10 @@ Figure stretch_figure(const std::string& name, const solve::Material& material, 
 Figure shear_figure(const std::string& name, const solve::Material& material, bool small) {
   constexpr double shear = 0.4;
   solve::Model model = stretched_box(material, Eigen::Vector3d::Constant(std::nan("")), small ? 5 : 2.5);
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.conditions.displacement.row(a) << shear * model.cloud.positions(a, 2), 0, 0;
-    }
-  }
-  const solve::SolveResult result = solved(model, steady_options());
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();
   gradient(0, 2) = shear;
+  test::move_surface(model, gradient - Eigen::Matrix3d::Identity());
+  const solve::SolveResult result = solved(model, steady_options());
   constexpr double joule = 1e-9;  // Pa mm³ to J
   const double exact = std::visit([&](const auto& law) { return law.isochoric_energy(solve::Deformation(gradient)); },
                                   solve::elastic_law(material));

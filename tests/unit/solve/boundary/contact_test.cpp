@@ -30,19 +30,12 @@ class ContactWithABox : public testing::Test {
     }
     return nodes;
   }
-  NodalVectors shifted(const Eigen::Vector3d& by) const {
-    NodalVectors u(4 * cloud.nodes.size(), 0.0);
-    for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
-      Eigen::Vector3d::Map(&u[4 * a]) = by;
-    }
-    return u;
-  }
 };
 
 TEST_F(ContactWithABox, LeavesABodyAloneThatDoesNotTouch) {
   Contact contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows);
   contact.weigh(cloud.mass);
-  const NodalVectors inside = shifted({0.5, -0.5, 0.5});
+  const NodalVectors inside = cloud.shifted({0.5, -0.5, 0.5});
   NodalVectors u = inside;
   contact.apply(u);
   EXPECT_EQ(u, inside);
@@ -52,7 +45,7 @@ TEST_F(ContactWithABox, LeavesABodyAloneThatDoesNotTouch) {
 TEST_F(ContactWithABox, PutsPenetratingNodesBackAlongTheNormal) {
   Contact contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows);
   contact.weigh(cloud.mass);
-  NodalVectors u = shifted({3.0, 0, 0});  // one millimetre through the wall at x = side + 2
+  NodalVectors u = cloud.shifted({3.0, 0, 0});  // one millimetre through the wall at x = side + 2
   EXPECT_NEAR(contact.measure(u).largest_penetration, 1.0, 1e-3);
   for (int step = 0; step < 200; ++step) {
     contact.apply(u);
@@ -67,13 +60,10 @@ TEST_F(ContactWithABox, PutsPenetratingNodesBackAlongTheNormal) {
 TEST_F(ContactWithABox, CountsTheWorkOfItsPushes) {
   Contact contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows);
   contact.weigh(cloud.mass);
-  const NodalVectors before = shifted({2.9, 0.2, 0}), free = shifted({3.0, 0, 0});
+  const NodalVectors before = cloud.shifted({2.9, 0.2, 0}), free = cloud.shifted({3.0, 0, 0});
   NodalVectors after = free;
   contact.apply(after);
-  double work = 0;
-  for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
-    work += cloud.mass[a] * (at(after, a) - at(free, a)).dot(at(after, a) - at(before, a)) / 2;
-  }
+  const double work = cloud.push_work(before, free, after);
   EXPECT_NE(work, 0);
   EXPECT_NEAR(contact.push_work(before, after), work, 1e-9 * std::abs(work));
 }
@@ -83,10 +73,10 @@ TEST_F(ContactWithABox, SaysWhenANodeIsTooFarOutToBePushedBack) {
   near.far = false;
   const Surface surface = box(Eigen::Vector3d::Constant(-2), Eigen::Vector3d::Constant(side + 2));
   Contact contact(SignedDistance(surface, near), cloud.nodes.positions, surface_nodes(), cloud.rows);
-  EXPECT_FALSE(contact.measure(shifted({2 + 0.9 * near.band(), 0, 0})).lost);
-  EXPECT_TRUE(contact.measure(shifted({2 + 1.5 * near.band(), 0, 0})).lost);
+  EXPECT_FALSE(contact.measure(cloud.shifted({2 + 0.9 * near.band(), 0, 0})).lost);
+  EXPECT_TRUE(contact.measure(cloud.shifted({2 + 1.5 * near.band(), 0, 0})).lost);
   EXPECT_FALSE(Contact(skull, cloud.nodes.positions, surface_nodes(), cloud.rows)
-                   .measure(shifted({2 + 1.5 * near.band(), 0, 0}))
+                   .measure(cloud.shifted({2 + 1.5 * near.band(), 0, 0}))
                    .lost);  // all distances are known
 }
 
@@ -94,9 +84,9 @@ TEST_F(ContactWithABox, AllowsNodesToStayWhereTheyStarted) {
   const SignedDistance tight(box(Eigen::Vector3d::Constant(0.3), Eigen::Vector3d::Constant(side - 0.3)));
   Contact contact(tight, cloud.nodes.positions, surface_nodes(), cloud.rows);
   contact.weigh(cloud.mass);
-  NodalVectors u = shifted(Eigen::Vector3d::Zero());
+  NodalVectors u = cloud.shifted(Eigen::Vector3d::Zero());
   contact.apply(u);
-  EXPECT_EQ(u, shifted(Eigen::Vector3d::Zero()));
+  EXPECT_EQ(u, cloud.shifted(Eigen::Vector3d::Zero()));
 }
 
 }  // namespace brainshift::solve::contact_test

@@ -30,18 +30,11 @@ class SeptumUnderABox : public testing::Test {
     contact.weigh(cloud.mass);
     return contact;
   }
-  NodalVectors shifted(const Eigen::Vector3d& by) const {
-    NodalVectors u(4 * cloud.nodes.size(), 0.0);
-    for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
-      at(u, a).head<3>() = by;
-    }
-    return u;
-  }
 };
 
 TEST_F(SeptumUnderABox, LeavesABodyAloneThatDoesNotTouch) {
   SeptumContact free = contact(side + 10);
-  const NodalVectors near = shifted({3, -2, -0.4});
+  const NodalVectors near = cloud.shifted({3, -2, -0.4});
   NodalVectors u = near;
   free.apply(u);
   EXPECT_EQ(u, near);
@@ -50,7 +43,7 @@ TEST_F(SeptumUnderABox, LeavesABodyAloneThatDoesNotTouch) {
 
 TEST_F(SeptumUnderABox, PutsNodesBackAlongItsNormal) {
   SeptumContact touching = contact(side + 10);
-  NodalVectors u = shifted({3, -2, -1.5});
+  NodalVectors u = cloud.shifted({3, -2, -1.5});
   EXPECT_NEAR(touching.measure(u).largest_penetration, 1, 1e-9);
   for (int step = 0; step < 200; ++step) {
     touching.apply(u);
@@ -64,21 +57,18 @@ TEST_F(SeptumUnderABox, PutsNodesBackAlongItsNormal) {
 
 TEST_F(SeptumUnderABox, LetsNodesGoThatSlidBeyondItsRim) {
   SeptumContact half = contact(side / 2);
-  const double held = static_cast<double>(half.measure(shifted({0, 0, -0.5})).touching);
+  const double held = static_cast<double>(half.measure(cloud.shifted({0, 0, -0.5})).touching);
   EXPECT_GT(held, 0);
-  EXPECT_EQ(half.measure(shifted({side, 0, -0.5})).touching, 0u);
-  EXPECT_EQ(half.measure(shifted({side, 0, -3})).largest_penetration, 0);
+  EXPECT_EQ(half.measure(cloud.shifted({side, 0, -0.5})).touching, 0u);
+  EXPECT_EQ(half.measure(cloud.shifted({side, 0, -3})).largest_penetration, 0);
 }
 
 TEST_F(SeptumUnderABox, CountsTheWorkOfItsPushes) {
   SeptumContact touching = contact(side + 10);
-  const NodalVectors before = shifted({0.2, 0, -0.9}), free = shifted({0, 0, -1});
+  const NodalVectors before = cloud.shifted({0.2, 0, -0.9}), free = cloud.shifted({0, 0, -1});
   NodalVectors after = free;
   touching.apply(after);
-  double work = 0;
-  for (std::size_t a = 0; a < cloud.nodes.size(); ++a) {
-    work += cloud.mass[a] * (at(after, a) - at(free, a)).dot(at(after, a) - at(before, a)) / 2;
-  }
+  const double work = cloud.push_work(before, free, after);
   EXPECT_NE(work, 0);
   EXPECT_NEAR(touching.push_work(before, after), work, 1e-9 * std::abs(work));
 }

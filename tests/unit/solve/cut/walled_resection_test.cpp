@@ -13,6 +13,7 @@
 #include "tests/unit/segmentation/shapes.hpp"
 #include "tests/unit/solve/all_free.hpp"
 #include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/move_surface.hpp"
 
 namespace brainshift::solve::walled_resection_test {
 
@@ -64,11 +65,7 @@ TEST(WalledResection, LeavesAHollowBallThatAnEvenPressureShrinksEvenly) {
   // Pressed by the outer surface's displacement, with the same pressure in the cavity, the strain is the same
   // everywhere.
   constexpr double strain = -0.01;
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.conditions.displacement.row(a) = strain * model.cloud.positions.row(a);
-    }
-  }
+  test::move_surface(model, strain * Eigen::Matrix3d::Identity());
   model.resection->pressure = -3 * bulk_modulus(model.materials[1]) * strain;
   SolveOptions options;
   options.tolerance = 1e-4;
@@ -138,11 +135,7 @@ TEST(WalledResection, ADryCavityInFluidIsPressedFlatAndNotTurnedInsideOut) {
   model.materials[1].youngs_modulus = 200;
   model.fluid = DrainedFluid{.gravity = {0, 0, -9.81}, .gravity_of_image = {0, 0, -9.81}, .level = -40};
   model.resection->fluid_level = 100;
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.conditions.displacement.row(a).setZero();
-    }
-  }
+  test::move_surface(model, Eigen::Matrix3d::Zero());
   const SolveResult result = solve(model, {});
   ASSERT_TRUE(result.measures.converged) << result.failure;
   const ResectionMeasures& m = *result.measures.resection;

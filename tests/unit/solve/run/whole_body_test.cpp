@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/unit/solve/models.hpp"
+#include "tests/unit/solve/move_surface.hpp"
 #include "tests/unit/solve/pressed_bar.hpp"
 
 namespace brainshift::solve::whole_body_test {
@@ -235,12 +236,7 @@ Model confined(double change) {
   model.materials[1].poisson_ratio = 0.499;
   const Eigen::Matrix3d sheared{{1, 0.1, 0.05}, {-0.08, 1, 0.1}, {0.1, -0.05, 1}};
   const Eigen::Matrix3d gradient = std::cbrt((1 + change) / sheared.determinant()) * sheared;
-  for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
-    if (model.cloud.on_surface[static_cast<std::size_t>(a)] != 0) {
-      model.conditions.displacement.row(a) =
-          model.cloud.positions.row(a) * (gradient - Eigen::Matrix3d::Identity()).transpose();
-    }
-  }
+  test::move_surface(model, gradient - Eigen::Matrix3d::Identity());
   return model;
 }
 
