@@ -96,7 +96,8 @@ Warnings warnings_of_noise(const solve::SolveMeasures& measures) {
             " mm only, far more than the noise that is given: no cortex does, so the noise is likely larger, or some "
             "points are wrong; give the noise of one component in mm, as a standard deviation"};
   }
-  if (measures.measured->noise_factor >= far_less) {
+  const bool weight_is_given = measures.measured->weights.empty();  // then it is that, not the noise, that decides
+  if (weight_is_given || measures.measured->noise_factor >= far_less) {
     return {};
   }
   return {

@@ -26,13 +26,15 @@ TEST(MeasureWarnings, TellOfPointsThatLieInNoTissueOfTheLabelMap) {
 
 TEST(MeasureWarnings, TellOfPointsThatAgreeFarBetterThanTheirNoise) {
   solve::SolveMeasures measures = of_many_points();
-  measures.measured.emplace();
+  measures.measured.emplace().weights.resize(2);
   for (const double fine : {0.5, 1.0, 3.0}) {
     measures.measured->noise_factor = fine;
     EXPECT_TRUE(warnings_of(measures).empty()) << fine;
   }
   measures.measured->noise_factor = 0.25;
   expect_one(warnings_of(measures), {"4 times better", "standard deviation"});
+  measures.measured->weights.clear();
+  EXPECT_TRUE(warnings_of(measures).empty()) << "whoever gives the weight says how closely the load is followed";
 }
 
 TEST(MeasureWarnings, TellOfFewPointsInAPressedBody) {
