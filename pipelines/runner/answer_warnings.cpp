@@ -88,7 +88,13 @@ Warnings warnings_of_levels(const solve::Model& model) {
     return warnings;
   }
   const Eigen::Vector3d down = model.fluid->gravity.normalized();
-  const double top = (model.cloud.positions * down).minCoeff();
+  const Eigen::VectorXd along = model.cloud.positions * down;
+  const double top = along.minCoeff();
+  if (const double below = model.fluid->level - along.maxCoeff(); below > 1) {
+    warnings.push_back("the fluid's surface lies " + with_digits(below) +
+                       " mm below the whole brain, so that all of it has drained; a level counts along gravity: with "
+                       "direction 0,0,-1 a surface at z = 10 is the level -10 (LPS)");
+  }
   if (const double above = top - model.fluid->level; above > 1) {
     warnings.push_back(
         "the fluid's surface lies " + with_digits(above) +

@@ -178,8 +178,8 @@ Element gravity_element() {
       {required(vector_option<Scene>("direction", MEMBER(gravity->direction), "LPS",
                                      "in which things fall: 0,0,-1 when the patient sits, 0,1,0 on the back")),
        number_option<Scene>("fluid_level", MEMBER(gravity->fluid_level), any_number, "mm",
-                            "of the fluid's surface along the direction, from the world's origin; one of fluid_level, "
-                            "drained and fluid_point says the level"),
+                            "of the fluid's surface along the direction, from the world's origin: for 0,0,-1 its -z; "
+                            "one of fluid_level, drained and fluid_point says the level"),
        number_option<Scene>("drained", MEMBER(gravity->drained), {.low = 0, .high = 100}, "%",
                             "of the brain's height that lies above the fluid"),
        vector_option<Scene>("fluid_point", MEMBER(gravity->fluid_point), "mm, LPS", "a point on the fluid's surface"),

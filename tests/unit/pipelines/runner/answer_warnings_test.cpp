@@ -75,6 +75,16 @@ TEST(AnswerWarnings, TellOfFluidThatStandsAboveTheBrain) {
   expect_parts(both[1], {"60 mm above the whole brain", "in the cavity"});
 }
 
+TEST(AnswerWarnings, TellOfFluidThatStandsBelowTheBrain) {
+  solve::Model model;
+  model.cloud = ball();
+  const double lowest = model.cloud.positions.col(2).minCoeff();  // gravity pulls along -z, so that its level is -z
+  model.fluid = solve::DrainedFluid{.gravity = {0, 0, -9.8}, .gravity_of_image = {0, 0, -9.8}, .level = -lowest};
+  EXPECT_TRUE(warnings_of_levels(model).empty()) << "as drained=\"100\" has it";
+  model.fluid->level = -lowest + 20;
+  expect_one(warnings_of_levels(model), {"20 mm below the whole brain", "all of it has drained", "along gravity"});
+}
+
 TEST(AnswerWarnings, TellOfATissueAsSoftAsFluidThatIsNoRoom) {
   solve::Model model;
   model.materials = {{1, {.youngs_modulus = 3000}}, {2, {.youngs_modulus = 10}}};
