@@ -84,16 +84,24 @@ bool is_pulled(const Scene& scene) {
   return scene.gravity || !scene.loading.gravity.isZero();
 }
 
+bool is_pressed(const Scene& scene) {
+  return scene.resection && scene.resection->pressure != 0;
+}
+
+std::string what_moves(const Scene& scene) {
+  return swells(scene) ? "its swelling" : is_pulled(scene) ? "gravity" : "the pressure in the cavity";
+}
+
 /// Of a scene without <load>.
 void need_something_to_move(const Scene& scene) {
-  if (!is_pulled(scene) && !swells(scene)) {
+  if (!is_pulled(scene) && !swells(scene) && !is_pressed(scene)) {
     fail(scene, "load",
          "the scene has no <load>: nothing would move; name one, as <load><craniotomy file=\"...\"/></load>");
   }
   if (!scene.contact) {
     fail(scene, "load",
-         "the scene has neither <load> nor <contact>: nothing would hold the brain against " +
-             std::string(swells(scene) ? "its swelling" : "gravity") + "; add <contact/>");
+         "the scene has neither <load> nor <contact>: nothing would hold the brain against " + what_moves(scene) +
+             "; add <contact/>");
   }
 }
 

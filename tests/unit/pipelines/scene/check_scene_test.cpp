@@ -81,6 +81,18 @@ TEST_F(SceneFile, CheckRefusesWhatParsingCannotSee) {
       {"--set", "duration", "curve.csv"});
 }
 
+TEST_F(SceneFile, WithoutALoadThePressureInACavityMoves) {
+  write_image(folder_ / "labels.nii.gz", block_labels());
+  const auto fault_of = [&](const std::string& more) {
+    return fault("<scene>\n<image labels=\"labels.nii.gz\"/><tissues><tissue label=\"1\"/><tissue label=\"3\"/>" +
+                 ("</tissues>" + more) + "</scene>");
+  };
+  const std::string pressed = "<resection labels=\"3\" pressure=\"500\"/>";
+  EXPECT_EQ(fault_of("<contact/>" + pressed), "");
+  expect_parts(fault_of(pressed), {"neither <load> nor <contact>", "the pressure in the cavity", "add <contact/>"});
+  expect_parts(fault_of("<contact/><resection labels=\"3\"/>"), {"no <load>", "nothing would move"});
+}
+
 TEST_F(SceneFile, CheckRefusesWhatLateStagesWouldFindWrong) {
   write_image(folder_ / "labels.nii.gz", block_labels());
   ScalarImage t1{block_labels().geometry, std::vector<float>(64, 1)};
