@@ -31,14 +31,17 @@ void write_steps(const std::filesystem::path& folder, const SolveResult& result)
   const std::filesystem::path collection = folder / "steps.pvd";
   std::ofstream out(collection);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+  out.precision(9);
+  const bool in_time = result.measures.critical_step > 0;  // relaxation has no time once its load has come
   for (const Snapshot& snapshot : result.snapshots) {
+    const double when = in_time ? snapshot.time : snapshot.step;
     std::ostringstream name;
     name << "steps/" << std::setw(6) << std::setfill('0') << snapshot.step;
     write_state(folder / (name.str() + ".vtu"), snapshot);
-    out << "<DataSet timestep=\"" << snapshot.step << "\" file=\"" << name.str() << ".vtu\"/>\n";
+    out << "<DataSet timestep=\"" << when << "\" file=\"" << name.str() << ".vtu\"/>\n";
     if (snapshot.faces.vertices.rows() > 0) {
       write_cut_surface(folder / (name.str() + "_cut.vtp"), snapshot.faces);
-      out << "<DataSet timestep=\"" << snapshot.step << "\" part=\"1\" file=\"" << name.str() << "_cut.vtp\"/>\n";
+      out << "<DataSet timestep=\"" << when << "\" part=\"1\" file=\"" << name.str() << "_cut.vtp\"/>\n";
     }
   }
   out << "</Collection>\n</VTKFile>\n";

@@ -34,4 +34,19 @@ TEST(CutSurface, IsAPartOfEachStepOnceThereIsACut) {
   EXPECT_NE(text.str().find("timestep=\"400\" part=\"1\" file=\"steps/000400_cut.vtp\""), std::string::npos);
 }
 
+TEST(Steps, OfATransientRunStandAtTheirTime) {
+  const test::ScratchFolder folder;
+  SolveResult result;
+  result.measures.critical_step = 0.001;
+  for (const int step : {50, 100}) {
+    result.snapshots.push_back({.step = step, .time = 0.0009 * step, .positions = Points::Zero(1, 3)});
+    result.snapshots.back().displacement = Points::Zero(1, 3);
+  }
+  write_steps(folder.path(), result);
+  std::ostringstream text;
+  text << std::ifstream(folder / "steps.pvd").rdbuf();
+  EXPECT_NE(text.str().find("timestep=\"0.045\" file=\"steps/000050.vtu\""), std::string::npos);
+  EXPECT_NE(text.str().find("timestep=\"0.09\" file=\"steps/000100.vtu\""), std::string::npos);
+}
+
 }  // namespace brainshift::solve::steps_test
