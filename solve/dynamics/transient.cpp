@@ -24,6 +24,17 @@ bool balances(const Body& body, const SolveOptions& options) {
          options.imposition == Imposition::exact;
 }
 
+/// In a step or two a load is a blow, whose work no step follows.
+void refuse_too_short(double duration, double step) {
+  constexpr double fewest_steps = 5;
+  if (duration < fewest_steps * step) {
+    std::ostringstream text;
+    text << "the motion is to last " << duration << " s, less than five steps of " << step
+         << " s: too short to follow it; give a longer duration, or a longer curve";
+    throw std::invalid_argument(text.str());
+  }
+}
+
 class Transient {
  public:
   Transient(Body body, const Course& course, const SolveOptions& options, double safety)
@@ -42,7 +53,9 @@ class Transient {
            << " s: the motion would blow up; leave it out (0) or take a smaller one";
       throw std::invalid_argument(text.str());
     }
-    set_step(options.time_step > 0 ? options.time_step : safety_ * critical);
+    const double step = options.time_step > 0 ? options.time_step : safety_ * critical;
+    refuse_too_short(course.curve.duration(), step);
+    set_step(step);
     motion_.scratch = ForceScratch(motion_.body.points, laws_);
     motion_.weigh(mass());
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/models.hpp"
 #include "tests/unit/solve/swinging_bar.hpp"
 
@@ -109,6 +110,15 @@ TEST(Transient, RefusesAStepAboveTheCriticalOne) {
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("above the critical one"), std::string::npos) << error.what();
   }
+}
+
+TEST(Transient, RefusesAMotionOfLessThanAFewSteps) {
+  const auto fault_of = [](double duration) {
+    return test::refusal([&] { solve(stretched(1.1, duration, 0), in_time()); });
+  };
+  const std::string fault = fault_of(1e-9);
+  EXPECT_NE(fault.find("to last 1e-09 s, less than five steps of"), std::string::npos) << fault;
+  EXPECT_NE(fault.find("longer duration"), std::string::npos) << fault;
 }
 
 TEST(Transient, SaysWhenItNeedsMoreSteps) {
