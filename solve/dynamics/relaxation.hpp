@@ -19,10 +19,13 @@ inline constexpr int rows_of_rest = 4;
 /// Of the largest displacement: the error that may be left, whatever the tolerance.
 inline constexpr double open_part = 0.02;
 
+/// What moves no farther does not move, mm: a rigid motion that is taken out of what was measured leaves 1e-13 mm.
+inline constexpr double no_motion = 1e-9;
+
 /// The bound of the error that is wanted, mm, with the largest displacement so far: of a small load's answer not more
 /// than a small part is left open.
 inline double wanted_bound(double tolerance, double farthest) {
-  return farthest > 0 ? std::min(tolerance, open_part * farthest) : tolerance;
+  return farthest > no_motion ? std::min(tolerance, open_part * farthest) : tolerance;
 }
 
 /// How many rows up to one with this residual are calm, from how many up to the one before.

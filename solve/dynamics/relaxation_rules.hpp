@@ -97,12 +97,14 @@ inline int steps_of_load(int asked, const PointLaws& laws) {
 }
 
 /// A step of a node that is no longer than this is made of rounding, mm: along each axis of differences of sums of ten
-/// terms and more. farthest: largest |component| of û.
+/// terms and more. So is all that is shorter than places are known to, some 100 mm from the origin. farthest: largest
+/// |component| of û.
 inline double rounding_of_step(double farthest, Precision precision) {
-  constexpr double terms = 10 * std::numbers::sqrt3;
-  return terms * farthest *
-         (precision == Precision::single_precision ? double{std::numeric_limits<float>::epsilon()}
-                                                   : std::numeric_limits<double>::epsilon());
+  constexpr double terms = 10 * std::numbers::sqrt3, of_places = 1e-14;
+  const double rounding = terms * farthest *
+                          (precision == Precision::single_precision ? double{std::numeric_limits<float>::epsilon()}
+                                                                    : std::numeric_limits<double>::epsilon());
+  return std::max(rounding, of_places);
 }
 
 /// Whether a relaxation is so slow that single precision may bring it to rest farther off than is wanted, mm. Rounding

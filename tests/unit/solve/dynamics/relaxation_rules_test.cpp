@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solve/dynamics/relaxation.hpp"
 #include "solve/material/material_table.hpp"
 
 namespace brainshift::solve::relaxation_rules_test {
@@ -35,6 +36,15 @@ TEST(StepsOfLoad, AreMoreWhereShearIsSlowerUpToABound) {
 
 TEST(StepsOfLoad, AreThoseThatAreAskedForInPlaneStress) {
   EXPECT_EQ(steps({0.4999}, true), 400);
+}
+
+TEST(WantedBound, OfWhatDoesNotMoveIsTheTolerance) {
+  EXPECT_EQ(wanted_bound(0.01, 1e-6), 2e-8);
+  EXPECT_EQ(wanted_bound(0.01, 2e-14), 0.01) << "what is left of a rigid motion that was taken out";
+  for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
+    EXPECT_GE(rounding_of_step(2e-14, precision), 1e-14);
+    EXPECT_LT(rounding_of_step(1e-6, precision), 1e-11);
+  }
 }
 
 /// Steps until a mode of this eigenvalue stays within a thousandth of where it started, in a body of this A_0.
