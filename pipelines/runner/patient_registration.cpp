@@ -2,6 +2,7 @@
 #include "pipelines/runner/patient_registration.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace brainshift::pipelines {
 namespace {
@@ -36,6 +37,16 @@ PatientRegistration patient_registration(const solve::CraniotomyLoad& load, cons
     const solve::RigidMotion more = motion_of(fit);
     whole = {whole.rotation * more.rotation, whole.rotation * more.translation + whole.translation};
   }
+}
+
+/// About the middle of the points shifts and turns are known independently of each other.
+double registration_deviation(const solve::MeasuredFit& fit, const Points& places) {
+  const Points arms = (places.rowwise() - fit.motion_centre.transpose()) / fit.motion_size;
+  const Eigen::Array3d along = arms.cwiseAbs2().colwise().mean().transpose();
+  const Eigen::Array3d from_axis = along.sum() - along;  // squared, of a turn about each axis
+  const Eigen::Array3d shifts = fit.motion_deviation.head<3>().cwiseAbs2();
+  const Eigen::Array3d turns = fit.motion_deviation.tail<3>().cwiseAbs2();
+  return std::sqrt(shifts.sum() + (turns * from_axis).sum());
 }
 
 }  // namespace brainshift::pipelines

@@ -24,4 +24,8 @@ PatientRegistration patient_registration(const solve::CraniotomyLoad& load, cons
                                          const std::function<void(const solve::CraniotomyLoad&, solve::Model&)>& impose,
                                          solve::Model& model);
 
+/// How far off the registration of a fit may take places of the brain, mm: root of the mean square distance there, by
+/// the standard deviations of its shifts and turns.
+double registration_deviation(const solve::MeasuredFit& fit, const Points& places);
+
 }  // namespace brainshift::pipelines

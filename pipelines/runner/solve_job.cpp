@@ -6,6 +6,7 @@
 #include "pipelines/runner/load_warnings.hpp"
 #include "pipelines/runner/measure_warnings.hpp"
 #include "pipelines/runner/measures.hpp"
+#include "pipelines/runner/patient_registration.hpp"
 #include "segmentation/files/naming.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/options/values.hpp"
@@ -40,7 +41,7 @@ void write_measured(const SolveJob& job, const SolveInput& input, const solve::S
     }
     const Points& x = input.load->positions;
     said.measures["registration_shift_mm"] = ((*input.registration)(x)-x).colwise().mean().norm();
-    const double doubt = fit.motion_deviation.maxCoeff();
+    const double doubt = registration_deviation(fit, input.model.cloud.positions);
     said.measures["registration_deviation_mm"] = doubt;
     if (!input.model.skull) {
       said.notes.push_back(

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/unit/solve/models.hpp"
 
@@ -100,6 +101,33 @@ TEST(PatientRegistration, GoesAlongWithTheTrackerWhereTheBrainSinks) {
   const RigidMotion both{tracker.rotation * own.rotation, tracker.rotation * own.translation + tracker.translation};
   EXPECT_LT(apart(found, both, model.cloud.positions), 0.05);
   EXPECT_TRUE(model.conditions.measured->registration_unknown);
+}
+
+TEST(PatientRegistration, IsKnownAsWellAsItTakesThePlacesOfTheBrain) {
+  Model model = held_cube();
+  const CraniotomyLoad load = seen_by_tracker(model, {}, 0);
+  const Points& places = model.cloud.positions;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0, sigma);
+  double squares = 0;
+  constexpr int draws = 500;
+  for (int draw = 0; draw < draws; ++draw) {
+    Points noise = Points::Zero(load.positions.rows(), 3);
+    for (double& component : noise.reshaped()) {
+      component = normal(random);
+    }
+    const RigidMotion off = solve::fit_rigid(load.positions, load.positions + noise, load.sigma);
+    squares += (off(places) - places).squaredNorm() / static_cast<double>(places.rows()) / draws;
+  }
+  solve::MeasuredFit fit;
+  fit.motion_centre = load.positions.colwise().mean();
+  const Points arms = load.positions.rowwise() - fit.motion_centre.transpose();
+  fit.motion_size = arms.rowwise().norm().mean();
+  const Eigen::Array3d along = (arms / fit.motion_size).cwiseAbs2().colwise().sum();
+  fit.motion_deviation.resize(6);
+  fit.motion_deviation.head<3>().setConstant(sigma / std::sqrt(static_cast<double>(arms.rows())));
+  fit.motion_deviation.tail<3>() = sigma / (along.sum() - along).sqrt();
+  EXPECT_NEAR(registration_deviation(fit, places) / std::sqrt(squares), 1, 0.05);
 }
 
 }  // namespace brainshift::pipelines::patient_registration_test
