@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/console.hpp"
@@ -59,7 +60,11 @@ StageReport answer_or_nothing(UpdatedRun& run, const fs::path& load, const fs::p
 
 void update(const UpdateArguments& arguments, const Settings& settings) {
   Console console(settings.quiet, settings.verbose);
+  bool to_begin = !arguments.load.empty();
   const Progress progress = [&](double fraction, std::string_view what) {
+    if (std::exchange(to_begin, false)) {  // only now, as what cannot be updated is refused before
+      console.started(StageId::solve);
+    }
     console.progress(StageId::solve, fraction, what);
   };
   const Stopwatch time;
@@ -70,7 +75,6 @@ void update(const UpdateArguments& arguments, const Settings& settings) {
     return;
   }
   const fs::path out = out_of(arguments) / stage_name(StageId::solve);
-  console.started(StageId::solve);
   UpdatedRun run(arguments.run, *settings.interruption, progress, arguments.device);
   refuse_foreign_folder(out);
   refuse_foreign_folder(old_of(out));

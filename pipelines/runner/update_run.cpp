@@ -151,7 +151,6 @@ UpdatedRun::UpdatedRun(const fs::path& run, Interruption& interruption, const Pr
   }
   how_ = *job.load;
   landmarks_ = job.landmarks.empty() ? Points(0, 3) : solve::read_markup_positions(job.landmarks);
-  report(progress, 0, "reading");
   if (auto kept = solve::read_kept(file_, key_, job.materials, job.options)) {
     kept_ = std::move(*kept);
   } else {
@@ -176,6 +175,7 @@ void UpdatedRun::make_kept(const SolveJob& job, const Progress& progress) {
            "its nodes are not those of the run's cloud: another program made it, or it was replaced; run the scene "
            "again, from the solve stage on");
   }
+  report(progress, 0, "preparing the run for other loads");
   kept_ =
       naming(run_.string(), [&] { return solve::keep(input.model, input.options, solution.displacement, progress); });
   try {

@@ -287,8 +287,10 @@ TEST_F(Update, WeighsNoiseAsARunFromTheBeginning) {
   EXPECT_EQ(told.code, 0) << told.err;
   EXPECT_NE(told.err.find("standard deviations from what the other points say"), std::string::npos) << told.err;
 
-  expect_refused(update(copy_with("robust", "run.json", "\"robust\": \"no\"", "\"robust\": \"yes\""), ""),
-                 "robust weights");
+  const fs::path robust = copy_with("robust", "run.json", "\"robust\": \"no\"", "\"robust\": \"yes\"");
+  const ProgramResult refused = update(robust, "--load " + quoted(new_load()));
+  expect_refused(refused, "robust weights");
+  EXPECT_EQ(refused.err.find("solve ..."), std::string::npos) << "as if it had begun: " << refused.err;
 }
 
 }  // namespace brainshift::update_test
