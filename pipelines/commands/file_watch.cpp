@@ -35,7 +35,8 @@ void watch_folder(int events, const fs::path& folder) {
   inotify_add_watch(events, folder.c_str(), IN_CREATE | IN_MODIFY | IN_CLOSE_WRITE | IN_MOVED_TO);
 }
 
-/// Or cannot be read: who reads it says why.
+}  // namespace
+
 bool ends_with_newline(const fs::path& file) {
   std::ifstream text(file, std::ios::binary);
   if (!text) {
@@ -44,8 +45,6 @@ bool ends_with_newline(const fs::path& file) {
   text.seekg(-1, std::ios::end);
   return text.get() == '\n';
 }
-
-}  // namespace
 
 FileWatch::FileWatch(fs::path file)
     : file_(fs::absolute(std::move(file))), events_(inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {

@@ -21,6 +21,9 @@ struct FileState {
   bool operator==(const FileState&) const = default;
 };
 
+/// Whether the file's last line has an end, or the file cannot be read: who reads it says why.
+bool ends_with_newline(const std::filesystem::path& file);
+
 /// Waits for a file that other programs write.
 class FileWatch {
  public:

@@ -5,6 +5,7 @@
 
 #include "pipelines/commands/commands.hpp"
 #include "pipelines/commands/console.hpp"
+#include "pipelines/commands/file_watch.hpp"
 #include "pipelines/runner/own_folder.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/runner/stage_record.hpp"
@@ -36,8 +37,13 @@ fs::path out_of(const UpdateArguments& arguments) {
 /// Answers the load into a folder that appears when it is whole.
 StageReport answer(UpdatedRun& run, const fs::path& load, const fs::path& out, const Stopwatch& time,
                    Interruption& interruption, const Progress& progress) {
+  const bool whole = ends_with_newline(load);
   StageFolder folder(out, interruption);
-  const StageReport report = run.answer(load, folder.path(), progress);
+  StageReport report = run.answer(load, folder.path(), progress);
+  if (!whole) {
+    report.notes.push_back("warning: " + load.string() +
+                           ": the last line has no line end; if the file was still being written, give it again");
+  }
   write_stage_record(folder.path(), record_of(StageId::solve, "", report, time.seconds()));
   folder.replace();
   return report;

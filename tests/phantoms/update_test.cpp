@@ -74,8 +74,14 @@ TEST_F(Update, IsAsARunFromTheBeginningAndLeavesTheRunAlone) {
   ASSERT_EQ(first.code, 0) << first.err;
   const fs::path made = run() / "update/new/solve/solution.vtu";
   const std::string answer = bytes_of(made);
-  const ProgramResult second = update(run(), "--load " + quoted(new_load()) + " --out " + quoted(*scratch / "again"));
+  const fs::path unended = *scratch / "unended.csv";
+  const std::string text = bytes_of(new_load());
+  write_text(unended, text.substr(0, text.size() - 1));
+  const ProgramResult second = update(run(), "--load " + quoted(unended) + " --out " + quoted(*scratch / "again"));
   ASSERT_EQ(second.code, 0) << second.err;
+  constexpr const char* warned = "unended.csv: the last line has no line end";
+  EXPECT_EQ(first.err.find("no line end"), std::string::npos) << first.err;
+  EXPECT_NE(second.err.find(warned), std::string::npos) << second.err;
   EXPECT_EQ(answer, bytes_of(*scratch / "again/solve/solution.vtu")) << "from the file that is kept";
   EXPECT_EQ(before, bytes_of(run() / "solve/solution.vtu"));
   EXPECT_TRUE(half_written(run()).empty());
