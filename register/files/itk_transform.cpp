@@ -11,6 +11,8 @@
 #include <itkTxtTransformIO.h>
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <string>
 
 #include "segmentation/files/lower_case.hpp"
@@ -62,7 +64,25 @@ itk::TransformIOBaseTemplate<double>::Pointer reader_of(const fs::path& file) {
   return itk::TxtTransformIOTemplate<double>::New().GetPointer();
 }
 
+/// A composite transform has no parameters of its own. Where a text file gives it some, or empty ones, ITK crashes.
+void refuse_parameters_of_composite(const fs::path& file) {
+  std::ifstream in(file);
+  bool composite = false;
+  for (std::string line; std::getline(in, line);) {
+    line.erase(0, line.find_first_not_of(" \t"));
+    if (line.starts_with("Transform:")) {
+      composite = line.find("CompositeTransform") != std::string::npos;
+    } else if (composite && (line.starts_with("Parameters:") || line.starts_with("FixedParameters:"))) {
+      refuse(file, "gives its composite transform the line '" + line.substr(0, line.find(':') + 1) +
+                       "', but that has no parameters of its own; take Parameters and FixedParameters out there");
+    }
+  }
+}
+
 Transform::ConstPointer read_itk(const fs::path& file) {
+  if (const std::string ending = ending_of(file); ending == ".tfm" || ending == ".txt") {
+    refuse_parameters_of_composite(file);
+  }
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is thrown, not printed
   const auto reader = itk::TransformFileReaderTemplate<double>::New();
   try {

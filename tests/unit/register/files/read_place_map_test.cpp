@@ -107,6 +107,11 @@ TEST(ReadPlaceMap, RefusesWhatIsNoMap) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "HDF5's own words";
   std::ofstream(folder.path() / "torn.tfm") << "#Insight Transform File V1.0\nTransform: Bent_double_3_3\n";
   expect_parts(refused("torn.tfm"), {"torn.tfm: is no ITK transform"});
+  const std::string composite = "Transform: CompositeTransform_double_3_3\n";
+  write_tfm(folder, "empty.tfm", {composite + "Parameters: \nFixedParameters: \n", turn});  // ITK crashes on it
+  expect_parts(refused("empty.tfm"), {"empty.tfm: gives its composite transform the line 'Parameters:'", "take"});
+  write_tfm(folder, "fixed.txt", {composite + "FixedParameters: 0 0 0\n", turn});
+  expect_parts(refused("fixed.txt"), {"fixed.txt: ", "'FixedParameters:'"});
   std::ofstream(folder.path() / "torn.mat") << "nothing";
   expect_parts(refused("torn.mat"), {"torn.mat: "});
   write_image(folder.path() / "scalar.nii.gz", ScalarImage{grid(), std::vector<float>(grid().voxel_count(), 0.0F)});
