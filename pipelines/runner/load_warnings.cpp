@@ -196,6 +196,22 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
   return warnings;
 }
 
+Warnings warnings_of_held(const std::filesystem::path& file, const Points& displacement) {
+  constexpr double many = 0.2;
+  Eigen::Index loaded = 0, held = 0;
+  for (const auto& u : displacement.rowwise()) {
+    loaded += u.allFinite() ? 1 : 0;
+    held += u.isZero(0) ? 1 : 0;
+  }
+  if (held == loaded || static_cast<double>(held) <= many * static_cast<double>(loaded)) {
+    return {};
+  }
+  return {
+      file.string() + " is exactly 0 at " + std::to_string(held) + " of " + std::to_string(loaded) +
+      " nodes that it loads: they are held where they are; where a mask made it 0, make it NaN, or crop it, so that "
+      "the brain is free there"};
+}
+
 Warnings warnings_of_sigma(const Points& sigma) {
   constexpr double nobody = 0.01;  // mm: measures as well as that
   const auto small = (sigma.array() < nobody).rowwise().any().count();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -18,6 +19,10 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
 
 /// The same of those on the cortex, and of many that count as inside the brain. conditions: what became of them.
 Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, const solve::Conditions& conditions);
+
+/// Of a field that does not move many of the places that it loads, as one that was masked. displacement: (n × 3) mm,
+/// NaN where it says nothing.
+Warnings warnings_of_held(const std::filesystem::path& file, const Points& displacement);
 
 /// Of points that nobody can have measured so well, as where σ, (n × 3) mm or no rows, is in metres.
 Warnings warnings_of_sigma(const Points& sigma);

@@ -62,15 +62,16 @@ void impose_field(const Load& how, SolveInput& input) {
   if (static_cast<double>(found.known + found.not_found) < nearly_all * static_cast<double>(found.asked)) {
     input.notes.push_back("warning: " + how.field->file.string() + " says something of " +
                           std::to_string(found.known + found.not_found) + " of " + std::to_string(found.asked) +
-                          " nodes of the brain's surface: the others lie outside its grid and are left free; is it in "
-                          "the image's frame? If it is of a part of the brain, name the opening that it tells of "
-                          "(where)");
+                          " nodes of the brain's surface: the others lie outside its grid or where it is NaN, and are "
+                          "left free; is it in the image's frame? If it is of a part of the brain, name the opening "
+                          "that it tells of (where)");
   }
   if (found.not_found > 0) {
     input.notes.push_back("warning: " + how.field->file.string() + " takes no place to " +
                           std::to_string(found.not_found) + " of " + std::to_string(found.known + found.not_found) +
                           " nodes of the brain's surface: it folds there, or ends; they are left free");
   }
+  warn(warnings_of_held(how.field->file, found.displacement), input.notes);
   if (!how.noise) {
     conditions.displacement = std::move(found.displacement);
     return;

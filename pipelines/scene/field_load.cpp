@@ -96,11 +96,10 @@ FieldOnSurface field_on_surface_nodes(const FieldLoad& field, const solve::Openi
   result.asked = nodes.size();
   result.known = known.size();
   if (known.empty()) {
-    refuse(field.file,
-           "it says nothing of the " + std::to_string(nodes.size()) + " places of the brain's surface" +
-               (field.where.empty() ? "" : " under " + field.where.string()) +
-               ": they lie outside its grid, or it takes no place to them; is it of this patient, and in the "
-               "image's frame?");
+    refuse(field.file, "it says nothing of the " + std::to_string(nodes.size()) + " places of the brain's surface" +
+                           (field.where.empty() ? "" : " under " + field.where.string()) +
+                           ": they lie outside its grid or where it is NaN, or it takes no place to them; is it of "
+                           "this patient, and in the image's frame?");
   }
   try {
     solve::check_moved(result.displacement(known, Eigen::all), cloud.positions);

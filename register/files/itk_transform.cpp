@@ -41,6 +41,9 @@ std::optional<Point> taken(const Transform& transform, const Point& place) {
     if (!field->GetDisplacementField()->TransformPhysicalPointToContinuousIndex(place, index)) {
       return std::nullopt;
     }
+    const Point to = field->TransformPoint(place);
+    const bool known = std::none_of(to.Begin(), to.End(), [](double along) { return std::isnan(along); });
+    return known ? std::optional(to) : std::nullopt;
   }
   if (const auto* spline = dynamic_cast<const Spline*>(&transform)) {
     Point to;

@@ -12,8 +12,8 @@ namespace brainshift::registration {
 bool is_transform_file(const std::filesystem::path& file);
 
 /// Reads an ITK transform of space, also one of several: where it takes a place, both mm, LPS. Nothing outside the grid
-/// of a field or a B-spline. Throws std::invalid_argument, naming the file, when it is damaged or holds none. Kept free
-/// of our Eigen, as ITK brings its own.
+/// of a field or a B-spline, nor where a field is NaN. Throws std::invalid_argument, naming the file, when it is
+/// damaged or holds none. Kept free of our Eigen, as ITK brings its own.
 std::function<std::optional<std::array<double, 3>>(const std::array<double, 3>&)> read_itk_transform(
     const std::filesystem::path& file);
 

@@ -11,6 +11,7 @@
 #include "register/files/transform_files.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/image/field_with_gaps.hpp"
 
 namespace brainshift::registration {
 
@@ -33,10 +34,14 @@ PlaceMap map_of_transform(const fs::path& file) {
 }
 
 PlaceMap map_of_image(const fs::path& file) {
-  const auto field = std::make_shared<const VectorImage>(read_vector_image(file));
+  const auto field = std::make_shared<const VectorImage>(read_field_with_gaps(file));
   return [field, sampler = FieldSampler(*field)](const Eigen::Vector3d& x) -> std::optional<Eigen::Vector3d> {
     const Eigen::Vector3d index = sampler.to_index(x);
-    return sampler.inside(index) ? std::optional<Eigen::Vector3d>(x + sampler.value(index)) : std::nullopt;
+    if (!sampler.inside(index)) {
+      return std::nullopt;
+    }
+    const Eigen::Vector3d to = x + sampler.value(index);
+    return to.allFinite() ? std::optional(to) : std::nullopt;  // beside a voxel that is NaN
   };
 }
 

@@ -19,8 +19,8 @@ std::optional<Moves> known_direction(const std::filesystem::path& file);
 
 /// Reads a map of places: an image of displacements, mm, LPS (.nii, .nii.gz, .nrrd, .mha: what ANTs, elastix and we
 /// write), or an ITK transform (is_transform_file()), also one of several. It is not known outside the grid of a field
-/// or a B-spline. Throws std::invalid_argument, naming the file, when it is missing, damaged, holds no vectors of three
-/// components, one that is not finite, or no transform in space.
+/// or a B-spline, nor beside a voxel of a field that is NaN. Throws std::invalid_argument, naming the file, when it is
+/// missing, damaged, holds no vectors of three components, one that is infinite, or no transform in space.
 PlaceMap read_place_map(const std::filesystem::path& file);
 
 }  // namespace brainshift::registration

@@ -17,6 +17,7 @@
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/image/bytes.hpp"
 #include "segmentation/image/dicom_series.hpp"
+#include "segmentation/image/field_with_gaps.hpp"
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
 #include "segmentation/image/image_series.hpp"
@@ -104,10 +105,10 @@ typename ItkImageType::Pointer read_by_itk(const fs::path& file, ImageFormat for
 }
 
 template <class Pixel>
-Pointer<Pixel> read_file(const fs::path& file, unsigned components) {
+Pointer<Pixel> read_file(const fs::path& file, unsigned components, Gaps gaps) {
   check_readable(file);
   const ImageFormat format = image_format(file);
-  const ImageHeader header = check_whole(file, format, components);
+  const ImageHeader header = check_whole(file, format, components, gaps);
   if (header.turned_vectors) {
     refuse(file, "its vectors are not in LPS, by the header's space or measurement frame; save the field in LPS");
   }
@@ -188,23 +189,23 @@ auto naming_faults(const fs::path& file, const Read& read) {
 }
 
 template <class Pixel>
-Pointer<Pixel> read_any(const fs::path& file, unsigned components) {
+Pointer<Pixel> read_any(const fs::path& file, unsigned components, Gaps gaps = Gaps::refused) {
   std::error_code unknown;
   return naming_faults(file, [&] {
-    auto image =
-        fs::is_directory(file, unknown) ? read_dicom<Pixel>(file, components) : read_file<Pixel>(file, components);
+    auto image = fs::is_directory(file, unknown) ? read_dicom<Pixel>(file, components)
+                                                 : read_file<Pixel>(file, components, gaps);
     check_read_geometry(file, geometry_of(*image));
     return image;
   });
 }
 
 void check_finite(const fs::path& file, const ImageGeometry& geometry, std::span<const float> values,
-                  std::size_t components) {
-  const auto bad = [](float value) { return !std::isfinite(value); };
+                  std::size_t components, Gaps gaps = Gaps::refused) {
+  const auto bad = [gaps](float value) { return is_fault(value, gaps); };
   const auto first = std::find_if(values.begin(), values.end(), bad);
   if (first != values.end()) {
     const auto voxel = static_cast<std::size_t>(first - values.begin()) / components;
-    refuse_not_finite(file, std::count_if(first, values.end(), bad), geometry.size, voxel);
+    refuse_not_finite(file, std::count_if(first, values.end(), bad), geometry.size, voxel, gaps);
   }
 }
 
@@ -288,11 +289,23 @@ std::vector<LabelMap> read_layers(const fs::path& file) {
   return layers;
 }
 
-VectorImage read_vector_image(const fs::path& file) {
-  const auto image = from_itk<std::array<float, 3>>(*read_any<itk::Vector<float, 3>>(file, 3));
+namespace {
+
+VectorImage read_vectors(const fs::path& file, Gaps gaps) {
+  const auto image = from_itk<std::array<float, 3>>(*read_any<itk::Vector<float, 3>>(file, 3, gaps));
   const std::span<const float> values(image.voxels.front().data(), 3 * image.voxels.size());
-  check_finite(file, image.geometry, values, 3);
+  check_finite(file, image.geometry, values, 3, gaps);
   return image;
+}
+
+}  // namespace
+
+VectorImage read_vector_image(const fs::path& file) {
+  return read_vectors(file, Gaps::refused);
+}
+
+VectorImage read_field_with_gaps(const fs::path& file) {
+  return read_vectors(file, Gaps::allowed);
 }
 
 bool is_image_series(const fs::path& file) {

@@ -19,11 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 
 template <class T>
-void check_finite(const fs::path& file, ByteView values, const ImageHeader& header) {
+void check_finite(const fs::path& file, ByteView values, const ImageHeader& header, Gaps gaps) {
   std::ptrdiff_t bad = 0;
   std::size_t first = 0;
   for (std::size_t i = 0; i < values.size() / sizeof(T); ++i) {
-    if (!std::isfinite(number_at<T>(values, i * sizeof(T), header.swapped))) {
+    if (is_fault(number_at<T>(values, i * sizeof(T), header.swapped), gaps)) {
       first = bad == 0 ? i : first;
       ++bad;
     }
@@ -32,11 +32,11 @@ void check_finite(const fs::path& file, ByteView values, const ImageHeader& head
     const Eigen::Array3i size(static_cast<int>(header.size[0]), static_cast<int>(header.size[1]),
                               static_cast<int>(header.size[2]));
     const auto voxels = static_cast<std::size_t>(size.cast<long>().prod());  // components lie one behind the other
-    refuse_not_finite(file, bad, size, first % voxels);
+    refuse_not_finite(file, bad, size, first % voxels, gaps);
   }
 }
 
-void check_nifti_voxels(const fs::path& file, const ImageHeader& header) {
+void check_nifti_voxels(const fs::path& file, const ImageHeader& header, Gaps gaps) {
   constexpr std::size_t padding = std::size_t{1} << 20;
   const std::size_t end = header.voxels_at + header.bytes();
   const std::vector<std::uint8_t> bytes =
@@ -49,9 +49,9 @@ void check_nifti_voxels(const fs::path& file, const ImageHeader& header) {
   }
   const ByteView voxels = ByteView(bytes).subspan(header.voxels_at, header.bytes());
   if (header.floating && header.bytes_a_value == sizeof(float)) {
-    check_finite<float>(file, voxels, header);
+    check_finite<float>(file, voxels, header, gaps);
   } else if (header.floating) {
-    check_finite<double>(file, voxels, header);
+    check_finite<double>(file, voxels, header, gaps);
   }
 }
 
@@ -90,11 +90,11 @@ std::optional<double> declared_voxels(const fs::path& file) {
   return voxels;
 }
 
-ImageHeader check_whole(const fs::path& file, ImageFormat format, std::uint64_t components) {
+ImageHeader check_whole(const fs::path& file, ImageFormat format, std::uint64_t components, Gaps gaps) {
   ImageHeader header = read_header(file, format);
   check_header(file, header, components);
   if (format == ImageFormat::nifti || format == ImageFormat::nifti_gz) {
-    check_nifti_voxels(file, header);
+    check_nifti_voxels(file, header, gaps);
   } else if (header.compressed && format != ImageFormat::mgh) {  // our own reader looks at MGH's
     check_inflates(file, header.voxels_at, header.bytes());
   }
@@ -113,7 +113,7 @@ ImageHeader check_whole_series(const fs::path& file) {
   if (header.size.size() != 4) {
     refuse(file, "images of three or four dimensions are read, it has " + std::to_string(header.size.size()));
   }
-  check_nifti_voxels(file, header);
+  check_nifti_voxels(file, header, Gaps::refused);
   return header;
 }
 
@@ -124,11 +124,11 @@ std::string voxel_name(const Eigen::Array3i& size, std::size_t offset) {
          std::to_string(offset / nx / ny) + ")";
 }
 
-void refuse_not_finite(const fs::path& file, std::ptrdiff_t count, const Eigen::Array3i& size,
-                       std::size_t first_voxel) {
-  throw std::invalid_argument(file.string() + ": " + std::to_string(count) +
-                              " value(s) are not finite numbers, the first at " + voxel_name(size, first_voxel) +
-                              "; replace them, by 0 for instance");
+void refuse_not_finite(const fs::path& file, std::ptrdiff_t count, const Eigen::Array3i& size, std::size_t first_voxel,
+                       Gaps gaps) {
+  refuse(file, std::to_string(count) + " value(s) are not finite numbers, the first at " +
+                   voxel_name(size, first_voxel) + "; replace them, by " +
+                   (gaps == Gaps::refused ? "0 for instance" : "NaN where the field is not known"));
 }
 
 }  // namespace brainshift

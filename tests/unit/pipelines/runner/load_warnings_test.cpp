@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "tests/unit/expect_parts.hpp"
@@ -30,6 +31,17 @@ Points opening(double radius) {
     }
   }
   return points;
+}
+
+TEST(LoadWarnings, TellOfAFieldThatIsZeroInALargePart) {
+  Points field = Points::Constant(11, 3, std::nan(""));
+  field.topRows(10).setConstant(0.5);
+  field.topRows(2).setZero();
+  EXPECT_TRUE(warnings_of_held("warp.nii.gz", field).empty());
+  field.row(2).setZero();
+  expect_one(warnings_of_held("warp.nii.gz", field), {"warp.nii.gz", "exactly 0 at 3 of 10 nodes", "held", "NaN"});
+  field.topRows(10).setZero();
+  EXPECT_TRUE(warnings_of_held("warp.nii.gz", field).empty()) << "nothing moves, which another warning tells";
 }
 
 TEST(LoadWarnings, TellOfPointsThatLieOffTheSurface) {

@@ -80,6 +80,30 @@ TEST(ReadPlaceMap, OfAFieldIsTheSameInAllFormats) {
   }
 }
 
+TEST(ReadPlaceMap, OfAFieldIsNotKnownBesideANaN) {
+  const ScratchFolder folder;
+  VectorImage half = field(grid(), [](const Eigen::Vector3d&) { return Eigen::Vector3d(1, 2, 3); });
+  const Eigen::Array3i size = half.geometry.size;
+  const auto place = [&](double i) { return half.geometry.to_world({i, size[1] / 2.0, size[2] / 2.0}); };
+  for (std::size_t v = 0; v < half.voxels.size(); ++v) {
+    if (static_cast<int>(v) % size[0] < size[0] / 2) {
+      half.voxels[v][1] = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  write_transform_files(folder.path(), half, half);
+  for (const std::string name : {"half.nii.gz", "half.mha", "from-preop_to-intraop_mode-points_xfm.h5"}) {
+    if (name.starts_with("half")) {
+      write_image(folder.path() / name, half);
+    }
+    const PlaceMap map = read_place_map(folder.path() / name);
+    const Eigen::Vector3d x = place(size[0] / 2 + 0.5);
+    ASSERT_TRUE(map(x)) << name;
+    EXPECT_LT((*map(x) - x - Eigen::Vector3d(1, 2, 3)).norm(), 1e-5) << name;
+    EXPECT_FALSE(map(place(size[0] / 2 - 0.5))) << name << ", between one that is known and one that is not";
+    EXPECT_FALSE(map(place(1))) << name;
+  }
+}
+
 TEST(ReadPlaceMap, KnowsTheDirectionByNameOrNote) {
   const ScratchFolder folder;
   EXPECT_EQ(known_direction("a/preop_to_intraop.nii.gz"), Moves::points);
@@ -117,9 +141,11 @@ TEST(ReadPlaceMap, RefusesWhatIsNoMap) {
   write_image(folder.path() / "scalar.nii.gz", ScalarImage{grid(), std::vector<float>(grid().voxel_count(), 0.0F)});
   expect_parts(refused("scalar.nii.gz"), {"scalar.nii.gz", "3"});
   VectorImage bad = field(grid(), [](const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); });
-  bad.voxels[5][1] = std::numeric_limits<float>::quiet_NaN();
-  write_image(folder.path() / "nan.mha", bad);
-  expect_parts(refused("nan.mha"), {"nan.mha", "not finite"});
+  bad.voxels[5][1] = std::numeric_limits<float>::infinity();
+  for (const char* name : {"infinite.mha", "infinite.nii.gz"}) {
+    write_image(folder.path() / name, bad);
+    expect_parts(refused(name), {name, "not finite", "by NaN where the field is not known"});
+  }
 }
 
 }  // namespace brainshift::registration::read_place_map_test
