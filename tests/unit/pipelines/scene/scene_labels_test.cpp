@@ -152,6 +152,32 @@ TEST_F(SceneLabels, AHemisphereOfDestrieuxRegionsThatIsMissingIsTold) {
   expect_parts(notes.back(), {"warning", "left hemisphere"});
 }
 
+/// Half a brain is thinner for its length than a whole one, in whatever direction.
+TEST_F(SceneLabels, OneNumberForBothHemispheresIsNoMissingOne) {
+  LabelMap map;
+  map.geometry.size = {20, 28, 20};
+  map.geometry.spacing.setConstant(6);
+  map.voxels.assign(20 * 28 * 20, 0);
+  map.at(0, 0, 0) = 4;
+  const auto notes_of = [&](int width, std::uint16_t first, std::uint16_t second) {
+    for (int k = 2; k < 18; ++k) {
+      for (int j = 2; j < 26; ++j) {
+        for (int i = 2; i < 18; ++i) {
+          map.at(i, j, k) = i >= 2 + width ? std::uint16_t{4} : j % 2 == 0 ? first : second;
+        }
+      }
+    }
+    return read_labels(image_of(map, "freesurfer"), {.by_class = true, .joined = {}}).notes;
+  };
+  EXPECT_TRUE(notes_of(16, 2, 3).empty()) << "merged";
+  EXPECT_TRUE(notes_of(16, 41, 2012).empty()) << "merged";
+  EXPECT_TRUE(notes_of(16, 5001, 5002).empty()) << "white matter of either side";
+  const auto missing = notes_of(8, 2, 1012);
+  ASSERT_EQ(missing.size(), 1U);
+  expect_parts(missing.front(), {"warning", "right hemisphere"});
+  expect_parts(notes_of(8, 42, 5002).front(), {"warning", "left hemisphere"});
+}
+
 TEST_F(SceneLabels, AMapWithoutVentriclesIsReadAndSaidSo) {
   LabelMap map = block_labels();
   map.voxels.assign(64, 2);
