@@ -236,13 +236,8 @@ void note_body(Segmentation& result, const BrainBody& body, const Mask& tissue, 
          << " ml, where adults have 1000 to 1800; is a part missing, or are the image's lengths wrong?";
     result.notes.push_back(text.str());
   }
-  if (body.cut_area > 0) {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << "warning: the image's border cuts the brain off over "
-         << body.cut_area / 100
-         << " cm2; the cut counts as its surface, and as skull where none is given. What moves near it is not to be "
-            "trusted";
-    result.notes.push_back(text.str());
+  if (const std::string cut = cut_sentence(body.cut, "the image's border"); !cut.empty()) {
+    result.notes.push_back(cut);
   }
   note_dropped(result, body.loose_volume, body.loose_pieces, result.body->tissue_volume);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -76,26 +77,43 @@ Mask within(const LabelMap& labels, std::uint16_t skull, const Mask& brain) {
   return reached(complement(mask_of(labels, std::array{skull})), brain);
 }
 
-// The area of the body's faces on the image's border, mm². A field of view cuts off a stem or a vertex; a mask that
-// lies on more of the border is of something else, or inside out.
-double checked_cut(const Mask& body) {
-  constexpr double largest_share = 0.2;
-  const ImageGeometry& geometry = body.geometry;
-  double cut = 0, whole = 0;
+// Of a voxel's face across the axis, mm².
+double face_area(const ImageGeometry& geometry, int axis) {
+  return geometry.voxel_volume() / geometry.spacing[axis];
+}
+
+// Of all faces of voxels between the body and what is around it, the image's outside too, mm².
+double surface_area(const Mask& body) {
+  double area = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double face = geometry.voxel_volume() / geometry.spacing[axis];
     const Eigen::Array3i step = Eigen::Vector3i::Unit(axis).array();
     const auto inside = [&](const Eigen::Array3i& voxel) {
-      return (voxel >= 0).all() && (voxel < geometry.size).all() && body.at(voxel.x(), voxel.y(), voxel.z()) != 0;
+      return (voxel >= 0).all() && (voxel < body.geometry.size).all() && body.at(voxel.x(), voxel.y(), voxel.z()) != 0;
     };
     for_each_inside(body, [&](const Eigen::Array3i& voxel) {
-      whole += face * ((inside(voxel - step) ? 0 : 1) + (inside(voxel + step) ? 0 : 1));
-      cut += face * ((voxel[axis] == 0 ? 1 : 0) + (voxel[axis] == geometry.size[axis] - 1 ? 1 : 0));
+      area += face_area(body.geometry, axis) * ((inside(voxel - step) ? 0 : 1) + (inside(voxel + step) ? 0 : 1));
     });
   }
-  if (cut > largest_share * whole) {
+  return area;
+}
+
+// The body's section so many voxels within the lower or upper border of an axis, mm².
+double section_area(const Mask& body, int axis, bool upper, int within) {
+  const int slice = upper ? body.geometry.size[axis] - 1 - within : within;
+  double area = 0;
+  for_each_inside(
+      body, [&](const Eigen::Array3i& voxel) { area += voxel[axis] == slice ? face_area(body.geometry, axis) : 0; });
+  return area;
+}
+
+// A field of view cuts off a stem or a vertex; a mask that lies on more of the border is of something else, or inside
+// out.
+BorderCut checked_cut(const Mask& body) {
+  constexpr double largest_share = 0.2;
+  const BorderCut cut = border_cut(body);
+  if (const double share = cut.area / surface_area(body); share > largest_share) {
     std::ostringstream text;
-    text << "the image's border cuts the brain off over " << std::lround(100 * cut / whole)
+    text << "the image's border cuts the brain off over " << std::lround(100 * share)
          << " % of its surface; is the mask or the label inside out? If not, take an image that shows the brain whole";
     throw std::invalid_argument(text.str());
   }
@@ -127,6 +145,37 @@ void check_edge_length(double edge_length, double across) {
   }
 }
 
+BorderCut border_cut(const Mask& body) {
+  // A brain that ends at the border has a small face there, and a much larger section one voxel further in.
+  constexpr double large = 200, large_share = 0.01, still_growing = 0.6;  // mm²; of the surface; of the next section
+  const double least = std::min(large, large_share * surface_area(body));
+  BorderCut cut;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool upper : {false, true}) {
+      const double face = section_area(body, axis, upper, 0);
+      cut.area += face;
+      cut.off = cut.off || (face > least && face > still_growing * section_area(body, axis, upper, 1));
+    }
+  }
+  return cut;
+}
+
+std::string cut_sentence(const BorderCut& cut, const std::string& border) {
+  if (cut.area == 0) {
+    return {};
+  }
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1);
+  if (cut.off) {
+    text << "warning: " << border << " cuts the brain off over " << cut.area / 100
+         << " cm2; the cut counts as its surface, and as skull where none is given. What moves near it is not to be "
+            "trusted";
+  } else {
+    text << border << " touches the brain over " << cut.area / 100 << " cm2, as where an image is cropped to the brain";
+  }
+  return text.str();
+}
+
 BrainBody brain_body(const Mask& tissue, double closing) {
   if (count(tissue) == 0) {
     throw std::invalid_argument("no voxel is brain: the mask, or what the brain's labels name, is empty");
@@ -134,7 +183,7 @@ BrainBody brain_body(const Mask& tissue, double closing) {
   BrainBody body;
   body.mask = holes_filled(largest_component(closing > 0 ? closed(tissue, closing) : tissue));
   body.across = size_across(body.mask);
-  body.cut_area = checked_cut(body.mask);
+  body.cut = checked_cut(body.mask);
   count_loose(tissue, body);
   return body;
 }

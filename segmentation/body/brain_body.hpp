@@ -8,13 +8,23 @@
 
 namespace brainshift::segmentation {
 
+/// The part of a body's surface on the image's border.
+struct BorderCut {
+  double area = 0;   ///< mm²
+  bool off = false;  ///< whether the border cuts the body off rather than that the body ends there
+};
+BorderCut border_cut(const Mask& body);
+
+/// What the user should know of it, the border so called; empty where nothing lies on it.
+std::string cut_sentence(const BorderCut& cut, const std::string& border);
+
 /// The brain as one body without holes.
 struct BrainBody {
   Mask mask;
   double across = 0;        ///< the longest edge of the box around it, along the image's axes, mm
   double loose_volume = 0;  ///< of tissue that hangs together with none of it and was dropped, mm³
   std::size_t loose_pieces = 0;
-  double cut_area = 0;  ///< of its surface on the image's border, where the field of view cuts it off, mm²
+  BorderCut cut;
 };
 
 /// The largest piece of the tissue, its sulci closed where they are narrower than twice the radius (mm; 0: not closed),

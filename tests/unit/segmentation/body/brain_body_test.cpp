@@ -53,10 +53,10 @@ TEST(BrainBody, LoosePiecesAreDroppedAndTheirVolumeToldExceptOnesThatClosingJoin
 }
 
 TEST(BrainBody, WhatTheFieldOfViewCutsOffIsMeasuredAndRefusedWhereItIsMuch) {
-  EXPECT_EQ(brain_body(mask_of(ball(grid, middle, 25)), 0).cut_area, 0);
+  EXPECT_EQ(brain_body(mask_of(ball(grid, middle, 25)), 0).cut.area, 0);
   // The grid's first layer cuts the ball 20 mm from its middle: a disc of radius 15 mm.
   const Eigen::Vector3d place = grid.to_world(Eigen::Vector3d(20, 40, 40));
-  EXPECT_NEAR(brain_body(mask_of(ball(grid, place, 25)), 0).cut_area, 225 * std::numbers::pi, 20);
+  EXPECT_NEAR(brain_body(mask_of(ball(grid, place, 25)), 0).cut.area, 225 * std::numbers::pi, 20);
   Mask outside = mask_of(ball(grid, middle, 25));
   for (std::uint8_t& voxel : outside.voxels) {
     voxel = voxel == 0 ? 1 : 0;
@@ -71,6 +71,25 @@ LabelMap in_fluid() {
     const bool canal = x.head<2>().norm() <= 3 && x.z() < -20;
     return static_cast<std::uint16_t>(x.norm() <= 20 ? 1 : x.norm() <= 26 || canal ? 4 : 0);
   });
+}
+
+/// Cropped to its bounding box a brain touches every face of the border, and nothing of it is missing.
+TEST(BrainBody, ABrainThatTouchesTheBorderIsNotSaidToBeCutOff) {
+  Mask whole = cropped(mask_of(ball(grid, middle, 30)), 0);
+  const BorderCut touches = border_cut(whole);
+  EXPECT_GT(touches.area, 0);
+  EXPECT_FALSE(touches.off);
+  const std::string said = cut_sentence(touches, "the image's border");
+  EXPECT_EQ(said.find("warning"), std::string::npos) << said;
+  EXPECT_NE(said.find("touches the brain over"), std::string::npos) << said;
+  // Without the outermost 3 mm on one side.
+  whole.geometry.size.z() -= 3;
+  whole.voxels.resize(whole.geometry.voxel_count());
+  const BorderCut cut = border_cut(whole);
+  EXPECT_TRUE(cut.off);
+  EXPECT_NE(cut_sentence(cut, "the image's border").find("warning: the image's border cuts the brain off over"),
+            std::string::npos);
+  EXPECT_EQ(cut_sentence({}, "the image's border"), "");
 }
 
 TEST(FluidSpace, ReachesToTheFluidsOuterBoundaryAndNotDownTheSpine) {
