@@ -8,6 +8,7 @@
 #include "pipelines/runner/image_warnings.hpp"
 #include "pipelines/runner/job_files.hpp"
 #include "pipelines/runner/measures.hpp"
+#include "segmentation/body/brain_body.hpp"
 #include "segmentation/files/naming.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/septa/septa.hpp"
@@ -37,6 +38,18 @@ std::optional<LabelMap> tumour_if(const fs::path& file, std::vector<std::string>
     }
   }
   return tumour;
+}
+
+/// On the T1's grid a map whose own field of view cuts the brain off has no border any more.
+void note_cut(const LabelMap& map, const fs::path& file, const std::vector<std::uint16_t>& brain,
+              const std::optional<ScalarImage>& t1, std::vector<std::string>& notes) {
+  if (!t1 || same_geometry(map.geometry, t1->geometry)) {
+    return;
+  }
+  const Mask tissue = brain.empty() ? mask_of(map) : mask_of(map, brain);
+  if (const auto cut = segmentation::border_cut(tissue, &t1->geometry); cut.off) {
+    notes.push_back(segmentation::cut_sentence(cut, "the border of " + file.string() + ", within the T1,"));
+  }
 }
 
 /// Takes a map to the reference's grid, and says so. `counted`: the labels that must lie within it, all when empty.
@@ -143,6 +156,11 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
     set_classes(*input.labels, input.tumour_mask.has_value(), options);
   }
   const fs::path& tumour = job.image.tumour.empty() ? job.image.tumour_mask : job.image.tumour;
+  if (input.labels) {
+    note_cut(*input.labels, job.image.labels, options.brain_labels, input.t1, notes);
+  } else if (input.brain_mask) {
+    note_cut(*input.brain_mask, job.image.brain_mask, {}, input.t1, notes);
+  }
   if (input.t1) {
     take_to_grid(input.labels, job.image.labels, input.t1->geometry, job.image.t1, notes, options.brain_labels);
     take_to_grid(input.brain_mask, job.image.brain_mask, input.t1->geometry, job.image.t1, notes);

@@ -82,27 +82,53 @@ double face_area(const ImageGeometry& geometry, int axis) {
   return geometry.voxel_volume() / geometry.spacing[axis];
 }
 
+// Also of places outside the image.
+bool is_inside(const Mask& body, const Eigen::Array3i& voxel) {
+  return (voxel >= 0).all() && (voxel < body.geometry.size).all() && body.at(voxel.x(), voxel.y(), voxel.z()) != 0;
+}
+
 // Of all faces of voxels between the body and what is around it, the image's outside too, mm².
 double surface_area(const Mask& body) {
   double area = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Array3i step = Eigen::Vector3i::Unit(axis).array();
-    const auto inside = [&](const Eigen::Array3i& voxel) {
-      return (voxel >= 0).all() && (voxel < body.geometry.size).all() && body.at(voxel.x(), voxel.y(), voxel.z()) != 0;
-    };
     for_each_inside(body, [&](const Eigen::Array3i& voxel) {
-      area += face_area(body.geometry, axis) * ((inside(voxel - step) ? 0 : 1) + (inside(voxel + step) ? 0 : 1));
+      area += face_area(body.geometry, axis) *
+              ((is_inside(body, voxel - step) ? 0 : 1) + (is_inside(body, voxel + step) ? 0 : 1));
     });
   }
   return area;
 }
 
-// The body's section so many voxels within the lower or upper border of an axis, mm².
-double section_area(const Mask& body, int axis, bool upper, int within) {
-  const int slice = upper ? body.geometry.size[axis] - 1 - within : within;
+// A face of the image's border.
+struct Border {
+  int axis;
+  bool upper;
+};
+
+// Whether another grid goes on beyond the border there, by one of its voxels at least.
+bool goes_on(const ImageGeometry& beyond, const ImageGeometry& grid, const Border& border,
+             const Eigen::Array3i& voxel) {
+  Eigen::Vector3d index = voxel.cast<double>().matrix();
+  const double step = 0.5 + 0.5 * beyond.spacing.minCoeff() / grid.spacing[border.axis];
+  index[border.axis] = border.upper ? grid.size[border.axis] - 1 + step : -step;
+  const Eigen::Array3d there = beyond.to_index(grid.to_world(index)).array();
+  return (there >= -0.5).all() && (there <= beyond.size.cast<double>() - 0.5).all();
+}
+
+// The body's section so many voxels within the border, mm²; of it what lies where the other grid, if any, goes on.
+double section_area(const Mask& body, const Border& border, int within, const ImageGeometry* beyond) {
+  const ImageGeometry& grid = body.geometry;
+  const int axis = border.axis, first = (axis + 1) % 3, second = (axis + 2) % 3;
+  Eigen::Array3i voxel;
+  voxel[axis] = border.upper ? grid.size[axis] - 1 - within : within;
   double area = 0;
-  for_each_inside(
-      body, [&](const Eigen::Array3i& voxel) { area += voxel[axis] == slice ? face_area(body.geometry, axis) : 0; });
+  for (voxel[second] = 0; voxel[second] < grid.size[second]; ++voxel[second]) {
+    for (voxel[first] = 0; voxel[first] < grid.size[first]; ++voxel[first]) {
+      const bool counts = is_inside(body, voxel) && (beyond == nullptr || goes_on(*beyond, grid, border, voxel));
+      area += counts ? face_area(grid, axis) : 0;
+    }
+  }
   return area;
 }
 
@@ -111,7 +137,7 @@ double section_area(const Mask& body, int axis, bool upper, int within) {
 BorderCut checked_cut(const Mask& body) {
   constexpr double largest_share = 0.2;
   const BorderCut cut = border_cut(body);
-  if (const double share = cut.area / surface_area(body); share > largest_share) {
+  if (const double share = cut.area > 0 ? cut.area / surface_area(body) : 0; share > largest_share) {
     std::ostringstream text;
     text << "the image's border cuts the brain off over " << std::lround(100 * share)
          << " % of its surface; is the mask or the label inside out? If not, take an image that shows the brain whole";
@@ -145,16 +171,19 @@ void check_edge_length(double edge_length, double across) {
   }
 }
 
-BorderCut border_cut(const Mask& body) {
+BorderCut border_cut(const Mask& body, const ImageGeometry* beyond) {
   // A brain that ends at the border has a small face there, and a much larger section one voxel further in.
   constexpr double large = 200, large_share = 0.01, still_growing = 0.6;  // mm²; of the surface; of the next section
-  const double least = std::min(large, large_share * surface_area(body));
+  double least = large;
   BorderCut cut;
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool upper : {false, true}) {
-      const double face = section_area(body, axis, upper, 0);
+      const double face = section_area(body, {axis, upper}, 0, beyond);
+      if (face > 0 && cut.area == 0) {
+        least = std::min(large, large_share * surface_area(body));
+      }
       cut.area += face;
-      cut.off = cut.off || (face > least && face > still_growing * section_area(body, axis, upper, 1));
+      cut.off = cut.off || (face > least && face > still_growing * section_area(body, {axis, upper}, 1, beyond));
     }
   }
   return cut;

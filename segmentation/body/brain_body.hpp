@@ -13,7 +13,9 @@ struct BorderCut {
   double area = 0;   ///< mm²
   bool off = false;  ///< whether the border cuts the body off rather than that the body ends there
 };
-BorderCut border_cut(const Mask& body);
+/// beyond: counts only where this grid goes on beyond the border, as a T1 does that shows more than a map of its
+/// labels.
+BorderCut border_cut(const Mask& body, const ImageGeometry* beyond = nullptr);
 
 /// What the user should know of it, the border so called; empty where nothing lies on it.
 std::string cut_sentence(const BorderCut& cut, const std::string& border);

@@ -128,6 +128,34 @@ TEST_F(JobsTest, ASegmentationTakesLabelsOfAnyGridToTheImages) {
                {"labels.nii.gz: 33 % of it lie within", "t1.nii.gz", "20 x 20 x 20 voxels", "one patient"});
 }
 
+TEST_F(JobsTest, AMapOrMaskWhoseOwnBorderCutsTheBrainOffWithinTheT1IsWarnedOf) {
+  write_image(folder_ / "t1.nii.gz", image());
+  SegmentJob job;
+  job.image.t1 = folder_ / "t1.nii.gz";
+  job.options.brain_labels = {1};
+  LabelMap map = block(4, 1, 0);
+  const auto warned = [&](fs::path ImageInputs::*as) {
+    job.image.labels = job.image.brain_mask = {};
+    job.image.*as = folder_ / "map.nii.gz";
+    write_image(folder_ / "map.nii.gz", map);
+    const auto notes = run_job(job, folder_ / "out", {}).notes;
+    return std::ranges::count_if(notes, [](const std::string& note) {
+      return note.starts_with("warning: the border of ") && note.find("map.nii.gz") != std::string::npos &&
+             note.find("cuts the brain off over 9.0 cm2") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(warned(&ImageInputs::labels), 0);
+  map.geometry.size.z() = 12;  // the block ends at 16
+  map.voxels.resize(map.geometry.voxel_count());
+  EXPECT_EQ(warned(&ImageInputs::labels), 1);
+  EXPECT_EQ(warned(&ImageInputs::brain_mask), 1);
+  ScalarImage short_t1{map.geometry, std::vector<float>(map.voxels.size(), 1)};
+  short_t1.geometry.size.x() = 19;
+  short_t1.voxels.resize(short_t1.geometry.voxel_count());
+  write_image(job.image.t1, short_t1);
+  EXPECT_EQ(warned(&ImageInputs::labels), 0) << "it is the T1's border, which is told of as such";
+}
+
 TEST_F(JobsTest, AMaskMayBeAnImageAndATumourAMapOfBrats) {
   LabelMap tumour{image().geometry, std::vector<std::uint16_t>(image().voxels.size(), 0)};
   ScalarImage stripped{image().geometry, std::vector<float>(image().voxels.size(), 0)};
