@@ -211,15 +211,13 @@ void note_dropped(Segmentation& result, double loose, std::size_t pieces, double
   }
 }
 
-void note_holes(Segmentation& result) {
-  constexpr double worth_saying = 1000;  // mm³
-  const BodyMeasures& body = *result.body;
-  const double filled = body.volume - (body.tissue_volume - body.loose_volume);
-  if (filled > worth_saying) {
-    result.notes.push_back(
-        "holes of " + in_millilitres(filled) +
-        " in the brain, whose labels are of no tissue, count as the tissue about them; name a tissue "
-        "with these labels if they are another");
+// known: the labels are of a table, which has no tissue to name.
+void note_holes(Segmentation& result, double holes, bool known) {
+  if (holes > 0) {
+    result.notes.push_back("holes of " + in_millilitres(holes) +
+                           " in the brain, whose labels are of no tissue, count as the tissue about them; " +
+                           (known ? "give them the number of a ventricle or a tumour if they are one"
+                                  : "name a tissue with these labels if they are another"));
   }
 }
 
@@ -265,9 +263,8 @@ Segmentation segment_labels(const SegmentInput& input, const SegmentOptions& opt
   check_edge_length(options.edge_length, body.across);
   note_body(result, body, tissue, options.fluid_label.has_value());
   note_tumour(result, input, body.mask);
-  if (options.closing.value_or(0) == 0) {
-    note_holes(result);
-  } else {
+  note_holes(result, body.hole_volume, options.fluid_label.has_value());
+  if (options.closing.value_or(0) > 0) {
     result.closed = fit_labels(*result.labels, tissue, body.mask, most_common(*result.labels, options.brain_labels));
   }
   report(progress, 0.4, "surfaces");

@@ -143,6 +143,11 @@ void check_classes(const ImageInputs& image, const std::string& when, const Labe
   }
 }
 
+std::string within_brain(const ImageInputs& image, std::uint16_t number, const sg::LabelVolumes& volumes) {
+  return "warning: " + image.labels.string() + ": label " + std::to_string(number) + " (" +
+         sg::in_millilitres(volumes.at(number)) + ") lies within the brain, ";
+}
+
 // Of tissues that list numbers: those of the map that none does.
 void note_unlisted(const ImageInputs& image, const LabelReading& reading, ReadLabels& read) {
   if (reading.joined.empty()) {
@@ -162,11 +167,30 @@ void note_unlisted(const ImageInputs& image, const LabelReading& reading, ReadLa
   for (const std::uint16_t number : sg::enclosed_labels(read.map, reading.joined)) {
     if (!named.contains(number)) {
       read.notes.push_back(
-          "warning: " + image.labels.string() + ": label " + std::to_string(number) + " (" +
-          sg::in_millilitres(volumes.at(number)) +
-          ") lies within the brain, but no tissue lists it, and it counts as the tissue about it; list "
-          "it in a tissue, or in other_labels if it is not of the brain");
+          within_brain(image, number, volumes) +
+          "but no tissue lists it, and it counts as the tissue about it; list it in a tissue, or in other_labels if it "
+          "is not of the brain");
     }
+  }
+}
+
+// Of numbers that a table lacks: what lies within the brain becomes brain, what lies outside does not.
+void note_unknown(const ImageInputs& image, const sg::LabelTable& table, sg::LabelVolumes volumes, ReadLabels& read) {
+  namespace label = sg::default_label;
+  constexpr double worth_saying = 1000;  // mm³
+  std::map<std::uint16_t, std::uint16_t> brain = table.classes;
+  std::erase_if(brain, [](const auto& entry) { return entry.second == label::csf || entry.second == label::skull; });
+  for (const std::uint16_t number : sg::enclosed_labels(read.map, brain)) {
+    if (!table.classes.contains(number) && volumes.at(number) >= worth_saying) {
+      read.notes.push_back(within_brain(image, number, volumes) + "but is not among " + table.name +
+                           ", and it counts as the tissue about it; give it the number of a tissue if it is another");
+      volumes.erase(number);
+    }
+  }
+  if (const std::string unknown = sg::unknown_labels(volumes, table); !unknown.empty()) {
+    read.notes.push_back(image.labels.string() +
+                         ": taken for not brain where the brain does not enclose them, as they are not among " +
+                         table.name + ": " + unknown);
   }
 }
 
@@ -244,10 +268,7 @@ ReadLabels read_labels(const ImageInputs& image, const LabelReading& reading) {
   }
   const auto volumes = sg::label_volumes(result.map);
   const sg::LabelTable table = table_of(image, volumes, result.notes);
-  if (const std::string unknown = unknown_labels(volumes, table); !unknown.empty()) {
-    result.notes.push_back(image.labels.string() + ": taken for not brain, as they are not among " + table.name + ": " +
-                           unknown);
-  }
+  note_unknown(image, table, volumes, result);
   if (table.name == sg::freesurfer_table().name) {
     note_one_sided(image, result.map, volumes, result.notes);
   } else if (table.name != sg::brats_table().name) {

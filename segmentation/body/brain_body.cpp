@@ -72,6 +72,25 @@ Mask reached(Mask open, const Mask& brain) {
   return open;
 }
 
+// Of the holes that are worth saying, mm³: a head has many of a few voxels, between folds.
+double large_holes(const Mask& closed, const Mask& filled) {
+  constexpr double worth_saying = 1000;  // mm³
+  const double voxel = closed.geometry.voxel_volume();
+  Mask holes = filled;
+  for (std::size_t i = 0; i < holes.voxels.size(); ++i) {
+    holes.voxels[i] = filled.voxels[i] != 0 && closed.voxels[i] == 0 ? 1 : 0;
+  }
+  if (volume(holes) < worth_saying) {
+    return 0;
+  }
+  double large = 0;
+  for (const std::size_t size : components(holes).sizes) {
+    const double hole = static_cast<double>(size) * voxel;
+    large += hole >= worth_saying ? hole : 0;
+  }
+  return large;
+}
+
 // What can be reached from the brain without crossing the skull.
 Mask within(const LabelMap& labels, std::uint16_t skull, const Mask& brain) {
   return reached(complement(mask_of(labels, std::array{skull})), brain);
@@ -210,7 +229,9 @@ BrainBody brain_body(const Mask& tissue, double closing) {
     throw std::invalid_argument("no voxel is brain: the mask, or what the brain's labels name, is empty");
   }
   BrainBody body;
-  body.mask = holes_filled(largest_component(closing > 0 ? closed(tissue, closing) : tissue));
+  const Mask whole = largest_component(closing > 0 ? closed(tissue, closing) : tissue);
+  body.mask = holes_filled(whole);
+  body.hole_volume = large_holes(whole, body.mask);
   body.across = size_across(body.mask);
   body.cut = checked_cut(body.mask);
   count_loose(tissue, body);

@@ -121,6 +121,27 @@ TEST(Segment, ATumourMaskJoinsTheBrain) {
   EXPECT_GT(result.brain.vertices.col(1).maxCoeff(), place.y() + 4.0);
 }
 
+/// As of a map with a table, whose sulci are closed.
+TEST(Segment, ALargeHoleThatBecomesTissueIsTold) {
+  const Head drawn = head(oblique());
+  SegmentOptions options = two_labels();
+  options.brain_labels = {1};
+  options.closing = 2;
+  const auto told = [&](double radius) {
+    SegmentInput input;
+    input.labels = drawn.mask;
+    const LabelMap hole = ball(drawn.mask.geometry, centre, radius);
+    for (std::size_t i = 0; i < hole.voxels.size(); ++i) {
+      input.labels->voxels[i] = hole.voxels[i] != 0 ? default_label::csf : input.labels->voxels[i];
+    }
+    return segment(input, options).notes;
+  };
+  EXPECT_TRUE(told(5).empty()) << "0.5 ml";
+  const auto notes = told(10);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_TRUE(notes.front().starts_with("holes of 4.2 ml in the brain")) << notes.front();
+}
+
 TEST(Segment, HolesAreFilledAndLooseBitsLeftOut) {
   Head drawn = head(oblique());
   LabelMap labels = drawn.mask;

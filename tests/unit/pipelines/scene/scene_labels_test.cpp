@@ -223,4 +223,26 @@ TEST_F(SceneLabels, NumbersThatNoTissueListsAreToldAndWarnedOfWithinTheBrain) {
   expect_parts(read.notes[1], {"warning", "label 7 (1 ml)", "within the brain", "other_labels"});
 }
 
+TEST_F(SceneLabels, ANumberThatTheTableLacksIsNotSaidToBeNoBrainWhereTheBrainEnclosesIt) {
+  LabelMap map;
+  map.geometry.size = {7, 7, 7};
+  map.geometry.spacing.setConstant(10);
+  for (int i = 0; i < 343; ++i) {
+    map.voxels.push_back(i % 2 == 0 ? 2 : 41);
+  }
+  map.at(3, 3, 3) = 99;
+  map.at(0, 3, 3) = 0;
+  map.at(1, 3, 3) = 507;
+  map.at(5, 5, 5) = 4;
+  const auto notes = read_labels(image_of(map, "freesurfer"), {.by_class = true, .joined = {}}).notes;
+  ASSERT_EQ(notes.size(), 2U);
+  expect_parts(notes[0],
+               {"warning", "label 99 (1 ml)", "within the brain", "not among FreeSurfer's", "tissue about it"});
+  expect_parts(notes[1], {"not brain where the brain does not enclose them", "FreeSurfer's: 507 (1 ml)"});
+  map.geometry.spacing.setConstant(5);
+  const auto of_few = read_labels(image_of(map, "freesurfer"), {.by_class = true, .joined = {}}).notes;
+  ASSERT_EQ(of_few.size(), 1U) << "any head has a few voxels so";
+  expect_parts(of_few[0], {"99 (0.1 ml)", "507 (0.1 ml)"});
+}
+
 }  // namespace brainshift::pipelines::scene_labels_test
