@@ -228,10 +228,12 @@ void note_body(Segmentation& result, const BrainBody& body, const Mask& tissue, 
                              .loose_volume = body.loose_volume,
                              .loose_pieces = body.loose_pieces};
   constexpr double child = 900e3, largest = 2000e3;  // mm³; brains of adults have 1000 to 1800 ml
-  if (known && (result.body->volume < child || result.body->volume > largest)) {
+  const double volume = result.body->volume;
+  if ((known && volume < child) || volume > largest) {
     std::ostringstream text;
-    text << "warning: the brain has " << std::lround(result.body->volume / 1000)
-         << " ml, where adults have 1000 to 1800; is a part missing, or are the image's lengths wrong?";
+    text << "warning: the brain has " << std::lround(volume / 1000) << " ml, where adults have 1000 to 1800; "
+         << (volume > largest ? "is more labelled than the brain" : "is a part missing")
+         << ", or are the image's lengths wrong?";
     result.notes.push_back(text.str());
   }
   if (const std::string cut = cut_sentence(body.cut, "the image's border"); !cut.empty()) {

@@ -11,6 +11,7 @@
 #include "segmentation/body/brain_body.hpp"
 #include "segmentation/files/naming.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/image/read_mask.hpp"
 #include "segmentation/septa/septa.hpp"
 #include "segmentation/surface/resection_wall.hpp"
 
@@ -18,8 +19,15 @@ namespace brainshift::pipelines {
 namespace fs = std::filesystem;
 namespace {
 
-std::optional<LabelMap> mask_if(const fs::path& file) {
-  return file.empty() ? std::nullopt : std::optional(read_mask(file));
+std::optional<LabelMap> mask_if(const fs::path& file, std::vector<std::string>& notes) {
+  if (file.empty()) {
+    return std::nullopt;
+  }
+  ReadMask mask = read_mask_and_warning(file);
+  if (!mask.warning.empty()) {
+    notes.push_back(mask.warning);
+  }
+  return std::move(mask.map);
 }
 
 /// A tumour's map as a mask: of BraTS's numbers the tumour without its oedema.
@@ -147,8 +155,9 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
     input.labels = std::move(read.map);
     notes = std::move(read.notes);
   }
-  input.brain_mask = mask_if(job.image.brain_mask);
-  input.tumour_mask = job.image.tumour.empty() ? mask_if(job.image.tumour_mask) : tumour_if(job.image.tumour, notes);
+  input.brain_mask = mask_if(job.image.brain_mask, notes);
+  input.tumour_mask =
+      job.image.tumour.empty() ? mask_if(job.image.tumour_mask, notes) : tumour_if(job.image.tumour, notes);
   if (!job.image.surface.empty()) {
     input.surface = read_surface(job.image.surface);
   }

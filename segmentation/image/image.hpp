@@ -80,8 +80,8 @@ std::optional<double> declared_voxels(const std::filesystem::path& file);
 /// holds a value that is not finite, or (labels) one that is no whole number from 0 to 65535.
 ScalarImage read_image(const std::filesystem::path& file);
 LabelMap read_label_map(const std::filesystem::path& file);
-/// A mask, which may be an image of any numbers, as a stripped T1 is: 1 where it is not 0. Throws as read_image() does,
-/// and where it holds probabilities: from 0 to 1, most of them near the one or the other.
+/// A mask, which may be an image of any numbers, as a stripped T1 is: 1 where it is not 0, but for a spline's rings.
+/// Throws as read_image() does, and where it holds probabilities: from 0 to 1, most of them near the one or the other.
 LabelMap read_mask(const std::filesystem::path& file);
 VectorImage read_vector_image(const std::filesystem::path& file);
 

@@ -221,21 +221,6 @@ std::uint16_t as_label(const fs::path& file, const Eigen::Array3i& size, std::si
   return static_cast<std::uint16_t>(value);
 }
 
-/// Numbers from 0 to 1 of which most are near the one or the other, but not all are, are probabilities or a mask that
-/// was resampled. Those of a stripped image that was scaled to 1 lie between.
-bool are_probabilities(const std::vector<float>& voxels) {
-  constexpr float near = 0.05F;
-  std::size_t at_ends = 0, between = 0, whole = 0;
-  for (const float value : voxels) {
-    if (value < 0 || value > 1) {
-      return false;
-    }
-    whole += value == 1 ? 1 : 0;
-    (value < near || value > 1 - near ? at_ends : between) += value != 0 ? 1 : 0;
-  }
-  return at_ends > between && whole < at_ends + between;
-}
-
 }  // namespace
 
 ScalarImage read_image(const fs::path& file) {
@@ -253,19 +238,6 @@ LabelMap read_label_map(const fs::path& file) {
     labels.voxels[i] = as_label(file, labels.geometry.size, i, values->GetBufferPointer()[i]);
   }
   return labels;
-}
-
-LabelMap read_mask(const fs::path& file) {
-  const ScalarImage image = read_image(file);
-  if (are_probabilities(image.voxels)) {
-    refuse(file,
-           "holds numbers between 0 and 1, as probabilities or a mask that was resampled do; give a mask with 1 "
-           "where they are above a half, else 0");
-  }
-  LabelMap mask{image.geometry, std::vector<std::uint16_t>(image.voxels.size())};
-  std::transform(image.voxels.begin(), image.voxels.end(), mask.voxels.begin(),
-                 [](float value) { return static_cast<std::uint16_t>(value != 0); });
-  return mask;
 }
 
 std::vector<LabelMap> read_layers(const fs::path& file) {
