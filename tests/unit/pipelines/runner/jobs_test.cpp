@@ -135,7 +135,8 @@ TEST_F(JobsTest, AMapOrMaskWhoseOwnBorderCutsTheBrainOffWithinTheT1IsWarnedOf) {
   job.options.brain_labels = {1};
   LabelMap map = block(4, 1, 0);
   const auto warned = [&](fs::path ImageInputs::*as) {
-    job.image.labels = job.image.brain_mask = {};
+    job.image.labels.clear();
+    job.image.brain_mask.clear();
     job.image.*as = folder_ / "map.nii.gz";
     write_image(folder_ / "map.nii.gz", map);
     const auto notes = run_job(job, folder_ / "out", {}).notes;
