@@ -40,13 +40,13 @@ TEST(Tumour, InsideTheBrainIsNothingToSay) {
 TEST(Tumour, PartlyOutsideIsToldWithItsVolume) {
   const std::string said = outside_body(tumour_at(24), mask_of(brain));
   EXPECT_EQ(said.find("warning: "), 0U);
-  EXPECT_NE(said.find("0.5 of the tumour mask's 1.1 ml"), std::string::npos) << said;
+  EXPECT_NE(said.find("0.5 ml of the tumour mask's 1.1 ml"), std::string::npos) << said;
 }
 
 TEST(Tumour, OffTheBrainIsTold) {
   const Segmentation result = segment(with_tumour_at(-33), of_brain_and_tumour());
   EXPECT_TRUE(std::ranges::any_of(result.notes, [](const std::string& note) {
-    return note.starts_with("warning: 0.9 of the tumour mask's 0.9 ml");
+    return note.starts_with("warning: 0.9 ml of the tumour mask's 0.9 ml");
   }));
 }
 
