@@ -190,7 +190,7 @@ TEST_F(Load, OfAFieldWithoutAnOpeningActsOnAllOfTheSurface) {
   const double weighed = off_95(solved_with(with_noise(whole, "0.3")), truth);
   std::printf("all of the surface: brain (95 %%) imposed %.4f, with noise 0.3 mm %.4f mm\n", exact, weighed);
   EXPECT_LT(weighed, 2 * 0.3) << "95 % of what is told to be the noise";
-  const auto entry = nlohmann::json::parse(contents_of(at("other/solve/stage.json")))["entry"];
+  const auto entry = nlohmann::json::parse(bytes_of(at("other/solve/stage.json")))["entry"];
   EXPECT_EQ(entry.value("notes", nlohmann::json::array()).dump().find("standard deviations from"), std::string::npos)
       << "where the brain sinks nothing is wrong";
 }
