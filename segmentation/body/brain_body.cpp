@@ -72,13 +72,14 @@ Mask reached(Mask open, const Mask& brain) {
   return open;
 }
 
-// Of the holes that are worth saying, mm³: a head has many of a few voxels, between folds.
-double large_holes(const Mask& closed, const Mask& filled) {
+// Of the holes in tissue, before it is closed, that are worth saying, mm³: a head has many of a few voxels, and closing
+// seals fluid between folds.
+double large_holes(const Mask& tissue) {
   constexpr double worth_saying = 1000;  // mm³
-  const double voxel = closed.geometry.voxel_volume();
-  Mask holes = filled;
+  const double voxel = tissue.geometry.voxel_volume();
+  Mask holes = holes_filled(tissue);
   for (std::size_t i = 0; i < holes.voxels.size(); ++i) {
-    holes.voxels[i] = filled.voxels[i] != 0 && closed.voxels[i] == 0 ? 1 : 0;
+    holes.voxels[i] = holes.voxels[i] != 0 && tissue.voxels[i] == 0 ? 1 : 0;
   }
   if (volume(holes) < worth_saying) {
     return 0;
@@ -229,9 +230,8 @@ BrainBody brain_body(const Mask& tissue, double closing) {
     throw std::invalid_argument("no voxel is brain: the mask, or what the brain's labels name, is empty");
   }
   BrainBody body;
-  const Mask whole = largest_component(closing > 0 ? closed(tissue, closing) : tissue);
-  body.mask = holes_filled(whole);
-  body.hole_volume = large_holes(whole, body.mask);
+  body.mask = holes_filled(largest_component(closing > 0 ? closed(tissue, closing) : tissue));
+  body.hole_volume = large_holes(tissue);
   body.across = size_across(body.mask);
   body.cut = checked_cut(body.mask);
   count_loose(tissue, body);

@@ -26,7 +26,7 @@ struct BrainBody {
   double across = 0;        ///< the longest edge of the box around it, along the image's axes, mm
   double loose_volume = 0;  ///< of tissue that hangs together with none of it and was dropped, mm³
   std::size_t loose_pieces = 0;
-  double hole_volume = 0;  ///< of holes of 1 ml and more that were filled, mm³
+  double hole_volume = 0;  ///< of holes of 1 ml and more in the tissue, mm³
   BorderCut cut;
 };
 
