@@ -264,9 +264,15 @@ std::vector<LabelMap> read_layers(const fs::path& file) {
 namespace {
 
 VectorImage read_vectors(const fs::path& file, Gaps gaps) {
-  const auto image = from_itk<std::array<float, 3>>(*read_any<itk::Vector<float, 3>>(file, 3, gaps));
+  auto image = from_itk<std::array<float, 3>>(*read_any<itk::Vector<float, 3>>(file, 3, gaps));
   const std::span<const float> values(image.voxels.front().data(), 3 * image.voxels.size());
   check_finite(file, image.geometry, values, 3, gaps);
+  if (const ImageFormat format = image_format(file);
+      gaps == Gaps::allowed && (format == ImageFormat::nifti || format == ImageFormat::nifti_gz)) {
+    for (const std::size_t value : nifti_nans(file)) {  // components lie one behind the other
+      image.voxels[value % image.voxels.size()][value / image.voxels.size()] = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
   return image;
 }
 

@@ -36,10 +36,11 @@ void check_finite(const fs::path& file, ByteView values, const ImageHeader& head
   }
 }
 
-void check_nifti_voxels(const fs::path& file, const ImageHeader& header, Gaps gaps) {
+/// All numbers of a .nii or .nii.gz, as they stand there.
+std::vector<std::uint8_t> nifti_values(const fs::path& file, const ImageHeader& header) {
   constexpr std::size_t padding = std::size_t{1} << 20;
   const std::size_t end = header.voxels_at + header.bytes();
-  const std::vector<std::uint8_t> bytes =
+  std::vector<std::uint8_t> bytes =
       header.compressed ? uncompressed(file, end + padding) : first_uncompressed(file, end);
   if (bytes.size() < end) {
     refuse(file, "truncated: the header promises " + std::to_string(header.bytes()) +
@@ -47,12 +48,29 @@ void check_nifti_voxels(const fs::path& file, const ImageHeader& header, Gaps ga
                      std::to_string(bytes.size() - std::min<std::size_t>(bytes.size(), header.voxels_at)) +
                      "; copy the file again");
   }
-  const ByteView voxels = ByteView(bytes).subspan(header.voxels_at, header.bytes());
+  bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(header.voxels_at));
+  bytes.resize(header.bytes());
+  return bytes;
+}
+
+void check_nifti_voxels(const fs::path& file, const ImageHeader& header, Gaps gaps) {
+  const std::vector<std::uint8_t> values = nifti_values(file, header);
   if (header.floating && header.bytes_a_value == sizeof(float)) {
-    check_finite<float>(file, voxels, header, gaps);
+    check_finite<float>(file, values, header, gaps);
   } else if (header.floating) {
-    check_finite<double>(file, voxels, header, gaps);
+    check_finite<double>(file, values, header, gaps);
   }
+}
+
+template <class T>
+std::vector<std::size_t> nan_values(ByteView values, bool swapped) {
+  std::vector<std::size_t> nan;
+  for (std::size_t i = 0; i < values.size() / sizeof(T); ++i) {
+    if (std::isnan(number_at<T>(values, i * sizeof(T), swapped))) {
+      nan.push_back(i);
+    }
+  }
+  return nan;
 }
 
 ImageHeader read_header(const fs::path& file, ImageFormat format) {
@@ -99,6 +117,16 @@ ImageHeader check_whole(const fs::path& file, ImageFormat format, std::uint64_t 
     check_inflates(file, header.voxels_at, header.bytes());
   }
   return header;
+}
+
+std::vector<std::size_t> nifti_nans(const fs::path& file) {
+  const ImageHeader header = read_nifti_header(file);
+  if (!header.floating) {
+    return {};
+  }
+  const std::vector<std::uint8_t> values = nifti_values(file, header);
+  return header.bytes_a_value == sizeof(float) ? nan_values<float>(values, header.swapped)
+                                               : nan_values<double>(values, header.swapped);
 }
 
 ImageHeader check_whole_series(const fs::path& file) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "segmentation/image/image_format.hpp"
 #include "segmentation/image/image_header.hpp"
@@ -30,6 +31,9 @@ ImageHeader check_whole(const std::filesystem::path& file, ImageFormat format, s
 
 /// The same of a .nii or .nii.gz with a fourth axis, one value a voxel.
 ImageHeader check_whole_series(const std::filesystem::path& file);
+
+/// Which numbers of a whole .nii or .nii.gz are NaN, in its order: ITK reads them as 0.
+std::vector<std::size_t> nifti_nans(const std::filesystem::path& file);
 
 /// "voxel (i, j, k)" of an offset into the voxels.
 std::string voxel_name(const Eigen::Array3i& size, std::size_t offset);
