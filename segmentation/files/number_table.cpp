@@ -46,7 +46,7 @@ NumberTable read_number_table(const std::filesystem::path& file, const std::vect
     table.line.push_back(i + 1);
   }
   if (columns == 0) {
-    fail_at_line(file, lines.size(), "the header " + joined(headers, " or ") + " is expected here");
+    fail_at_line(file, lines.size() + 1, "the header " + joined(headers, " or ") + " is expected here");
   }
   return table;
 }

@@ -25,7 +25,7 @@ TEST(NumberTable, IsRefusedWithFileAndLine) {
   for (const auto& [text, said] : std::vector<std::pair<std::string, std::string>>{
            {"# c\ny,x\n1,2\n", "t.csv:2: the header x,y or x,y,time is expected here"},
            {"1,2\n", "t.csv:1: the header x,y or x,y,time is expected here"},
-           {"# nothing\n", "t.csv:1: the header x,y or x,y,time is expected here"},
+           {"# nothing\n", "t.csv:2: the header x,y or x,y,time is expected here"},
            {"x,y\n1,2\n3\n", "t.csv:3: 2 numbers x,y are expected, found \"3\""},
            {"x,y\n1,2,3\n", "t.csv:2: 2 numbers x,y are expected, found \"1,2,3\""},
            {"x,y\n1,\n", "t.csv:2: a finite number is expected"},
