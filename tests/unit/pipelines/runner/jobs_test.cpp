@@ -146,7 +146,7 @@ TEST_F(JobsTest, AMapOrMaskWhoseOwnBorderCutsTheBrainOffWithinTheT1IsWarnedOf) {
     });
   };
   EXPECT_EQ(warned(&ImageInputs::labels), 0);
-  map.geometry.size.z() = 12;  // the block ends at 16
+  map.geometry.size.z() = 14;  // the block ends at 16
   map.voxels.resize(map.geometry.voxel_count());
   EXPECT_EQ(warned(&ImageInputs::labels), 1);
   EXPECT_EQ(warned(&ImageInputs::brain_mask), 1);
