@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/field/brain_zones.hpp"
-#include "segmentation/image/voxels.hpp"
 
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
+
+#include "segmentation/image/voxels.hpp"
 
 namespace brainshift::registration {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/field/jacobian.hpp"
-#include "segmentation/image/voxels.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
+
+#include "segmentation/image/voxels.hpp"
 
 namespace brainshift::registration {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/warp/cavity_voxels.hpp"
-#include "segmentation/image/voxels.hpp"
 
 #include <algorithm>
+
+#include "segmentation/image/voxels.hpp"
 
 namespace brainshift::registration {
 

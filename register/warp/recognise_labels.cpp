@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "register/warp/recognise_labels.hpp"
-#include "segmentation/image/voxels.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+
+#include "segmentation/image/voxels.hpp"
 
 namespace brainshift::registration {
 
