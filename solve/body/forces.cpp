@@ -65,6 +65,7 @@ ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamic
   constexpr int levels_in_time = 32;
   const int levels = dynamics == Dynamics::transient ? levels_in_time : 1;
   const double top = highest(model.fluid->gravity, parts.cloud.positions);
+  const PointExtents extents = extents_along(model.fluid->gravity.normalized(), model.cells, parts.points);
   std::vector<NodalVectors> at_levels;
   for (int k = 1; k <= levels; ++k) {
     const double fraction = static_cast<double>(k) / levels;
@@ -78,7 +79,7 @@ ExternalForce external_force(const Model& model, const BodyParts& parts, Dynamic
     for (double& f : total) {
       f *= fraction;
     }
-    add_fluid_force(fluid, model.materials, model.cells, parts.points, parts.point_rows, total);
+    add_fluid_force(fluid, model.materials, parts.points, extents, parts.point_rows, total);
   }
   return ExternalForce(std::move(at_levels));
 }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "solve/quadrature/point_extents.hpp"
-
 namespace brainshift::solve {
 
 namespace {
@@ -35,11 +33,9 @@ double drained_level(const Eigen::Vector3d& gravity, double share, const Points&
 }
 
 void add_fluid_force(const DrainedFluid& fluid, const std::map<std::int32_t, Material>& materials,
-                     const BackgroundCells& cells, const IntegrationPoints& points, const ShapeRows& rows,
+                     const IntegrationPoints& points, const PointExtents& extents, const ShapeRows& rows,
                      NodalVectors& total) {
-  const Eigen::Vector3d down = fluid.gravity.normalized();
   const Eigen::Vector3d fluid_weight = in_micronewton * fluid.density * fluid.gravity;
-  const PointExtents extents = extents_along(down, cells, points);
   const Eigen::Vector3d turned = fluid.gravity - fluid.gravity_of_image;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Material& material = materials.at(points.label[i]);

@@ -8,6 +8,7 @@
 #include "solve/arrays/nodal_vectors.hpp"
 #include "solve/interface/model.hpp"
 #include "solve/quadrature/integration_points.hpp"
+#include "solve/quadrature/point_extents.hpp"
 #include "solve/shape/shape_rows.hpp"
 
 namespace brainshift::solve {
@@ -25,9 +26,9 @@ double drained_level(const Eigen::Vector3d& gravity, double share, const Points&
 /// deforms nothing that keeps its volume (measured on wetted finite elements: tests/verification). Room::drained gets
 /// nothing: nothing is in it and nothing on its wall. Room::full gets ρ_f g and the stress ρ_f |g| h of the fluid that
 /// still sucks at its wall as in the image: f_a = Σ_I w (φ_a b − ρ_f |g| h ∂φ_a/∂X). A point that the level parts
-/// counts by its share above (extents_along()). points: of these cells. rows: with derivatives.
+/// counts by its share above. extents: of the points, along g. rows: with derivatives.
 void add_fluid_force(const DrainedFluid& fluid, const std::map<std::int32_t, Material>& materials,
-                     const BackgroundCells& cells, const IntegrationPoints& points, const ShapeRows& rows,
+                     const IntegrationPoints& points, const PointExtents& extents, const ShapeRows& rows,
                      NodalVectors& total);
 
 }  // namespace brainshift::solve

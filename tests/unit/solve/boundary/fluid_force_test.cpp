@@ -22,7 +22,7 @@ struct Cube {
 
   NodalVectors force(const DrainedFluid& fluid, const std::map<std::int32_t, Material>& materials) const {
     NodalVectors total(4 * cloud.size(), 0.0);
-    add_fluid_force(fluid, materials, cells, points, rows, total);
+    add_fluid_force(fluid, materials, points, extents_along(fluid.gravity.normalized(), cells, points), rows, total);
     return total;
   }
 };
