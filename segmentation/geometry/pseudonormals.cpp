@@ -82,7 +82,18 @@ std::vector<std::array<Eigen::Vector3d, 3>> edge_normals(const Surface& surface,
   return normals;
 }
 
-std::vector<Eigen::Vector3d> angle_weighted_normals(const Surface& surface, const std::vector<Eigen::Vector3d>& face) {
+}  // namespace
+
+std::vector<Eigen::Vector3d> face_normals(const Surface& surface) {
+  std::vector<Eigen::Vector3d> normals;
+  normals.reserve(static_cast<std::size_t>(surface.triangles.rows()));
+  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
+    normals.push_back(triangle(surface, t).area_vector().normalized());
+  }
+  return normals;
+}
+
+std::vector<Eigen::Vector3d> vertex_normals(const Surface& surface, const std::vector<Eigen::Vector3d>& face) {
   std::vector<Eigen::Vector3d> normals(static_cast<std::size_t>(surface.vertices.rows()), Eigen::Vector3d::Zero());
   for (std::size_t t = 0; t < face.size(); ++t) {
     const auto corner = surface.triangles.row(t);
@@ -96,8 +107,6 @@ std::vector<Eigen::Vector3d> angle_weighted_normals(const Surface& surface, cons
   }
   return normals;
 }
-
-}  // namespace
 
 const Eigen::Vector3d& Pseudonormals::of(std::size_t triangle, TrianglePart part) const {
   const auto corner = triangles.row(triangle);
@@ -124,19 +133,12 @@ Pseudonormals pseudonormals(const Surface& surface) {
   check_arrays(surface);
   Pseudonormals normals;
   normals.triangles = surface.triangles;
-  normals.face.resize(static_cast<std::size_t>(surface.triangles.rows()));
-  for (std::size_t t = 0; t < normals.face.size(); ++t) {
-    const auto corner = surface.triangles.row(t);
-    const Eigen::Vector3d a = surface.vertices.row(corner[0]);
-    const Eigen::Vector3d ab = surface.vertices.row(corner[1]).transpose() - a;
-    const Eigen::Vector3d ac = surface.vertices.row(corner[2]).transpose() - a;
-    normals.face[t] = ab.cross(ac).normalized();
-  }
+  normals.face = face_normals(surface);
   normals.edge = edge_normals(surface, normals.face);
   if (!(volume(surface) > 0)) {
     throw std::invalid_argument("signed distance: the surface is inside out or encloses nothing; turn its triangles");
   }
-  normals.vertex = angle_weighted_normals(surface, normals.face);
+  normals.vertex = vertex_normals(surface, normals.face);
   return normals;
 }
 

@@ -23,6 +23,11 @@ struct Pseudonormals {
   const Eigen::Vector3d& of(std::size_t triangle, TrianglePart part) const;
 };
 
+/// Of each triangle, unit; zero where it has no area.
+std::vector<Eigen::Vector3d> face_normals(const Surface& surface);
+/// Of each vertex of any surface, not of unit length: the sum of its faces', weighted by their angles.
+std::vector<Eigen::Vector3d> vertex_normals(const Surface& surface, const std::vector<Eigen::Vector3d>& face);
+
 /// Throws std::invalid_argument on a surface that is empty, not finite, open, not 2-manifold along an edge, or inside
 /// out.
 Pseudonormals pseudonormals(const Surface& surface);

@@ -2,77 +2,88 @@
 #include "segmentation/geometry/surface_tree.hpp"
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
-#include <set>
+#include <map>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "segmentation/geometry/pseudonormals.hpp"
 #include "segmentation/geometry/triangle_distance.hpp"
 #include "segmentation/geometry/triangle_tree.hpp"
 
 namespace brainshift {
 namespace {
 
-/// Edges and vertices of a triangle that lie on the rim.
-struct Rim {
-  bool edge[3];
-  bool vertex[3];
-};
+/// The triangles beyond the sides ab, bc, ca of a triangle; none on the rim. Where more than two have an edge they are
+/// taken in pairs.
+using Across = std::array<std::int32_t, 3>;
+constexpr std::int32_t no_other = -1;
 
-std::vector<Rim> rims_of(const Surface& surface) {
-  std::set<std::pair<std::int32_t, std::int32_t>> open;
-  for (const auto& corner : surface.triangles.rowwise()) {
+std::vector<Across> across_sides(const Triangles& triangles) {
+  std::vector<Across> across(static_cast<std::size_t>(triangles.rows()));
+  std::map<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, int>> open;  // side of a triangle
+  for (std::int32_t t = 0; t < triangles.rows(); ++t) {
     for (int side = 0; side < 3; ++side) {
-      const auto edge = std::minmax({corner[side], corner[(side + 1) % 3]});
-      if (const auto [place, is_new] = open.insert(edge); !is_new) {
+      const auto edge = std::minmax({triangles(t, side), triangles(t, (side + 1) % 3)});
+      const auto [place, is_new] = open.try_emplace(edge, t, side);
+      across[t][side] = no_other;
+      if (!is_new) {
+        const auto [other, its_side] = place->second;
+        across[t][side] = other;
+        across[other][its_side] = t;
         open.erase(place);
       }
     }
   }
-  std::vector<bool> rim_vertex(static_cast<std::size_t>(surface.vertices.rows()), false);
-  for (const auto& [a, b] : open) {
-    rim_vertex[a] = rim_vertex[b] = true;
-  }
-  std::vector<Rim> rims(static_cast<std::size_t>(surface.triangles.rows()));
-  for (std::size_t t = 0; t < rims.size(); ++t) {
-    const auto corner = surface.triangles.row(static_cast<Eigen::Index>(t));
-    for (int side = 0; side < 3; ++side) {
-      rims[t].edge[side] = open.contains(std::minmax({corner[side], corner[(side + 1) % 3]}));
-      rims[t].vertex[side] = rim_vertex[corner[side]];
-    }
-  }
-  return rims;
+  return across;
 }
 
-bool is_on_rim(const Rim& rim, TrianglePart part) {
-  switch (part) {
-    case TrianglePart::vertex_a:
-      return rim.vertex[0];
-    case TrianglePart::vertex_b:
-      return rim.vertex[1];
-    case TrianglePart::vertex_c:
-      return rim.vertex[2];
-    case TrianglePart::edge_ab:
-      return rim.edge[0];
-    case TrianglePart::edge_bc:
-      return rim.edge[1];
-    case TrianglePart::edge_ca:
-      return rim.edge[2];
-    case TrianglePart::face:
-      break;
-  }
-  return false;
+/// The number of the corner or side in which a place of a triangle lies; -1 of another part.
+int corner_of(TrianglePart part) {
+  return part < TrianglePart::edge_ab ? static_cast<int>(part) : no_other;
+}
+int side_of(TrianglePart part) {
+  return part >= TrianglePart::edge_ab && part < TrianglePart::face
+             ? static_cast<int>(part) - static_cast<int>(TrianglePart::edge_ab)
+             : no_other;
 }
 
 }  // namespace
 
 struct SurfaceTree::Impl {
+  Surface surface;
   std::vector<Eigen::Index> number;  ///< in the surface, of each triangle with an area
-  std::vector<TriangleFrame> frames;
-  std::vector<Rim> rims;
+  std::vector<Across> across;        ///< of each triangle of the surface
+  std::vector<bool> rim_vertex;
+  std::vector<Eigen::Vector3d> vertex_normal;  ///< pseudonormals
   TriangleTree tree;
+
+  Eigen::Vector3d face_normal(Eigen::Index t) const { return triangle(surface, t).area_vector().normalized(); }
+  bool is_on_rim(Eigen::Index t, TrianglePart part) const;
+  Eigen::Vector3d normal(Eigen::Index t, TrianglePart part) const;
 };
+
+bool SurfaceTree::Impl::is_on_rim(Eigen::Index t, TrianglePart part) const {
+  if (const int side = side_of(part); side != no_other) {
+    return across[t][side] == no_other;
+  }
+  return corner_of(part) != no_other && rim_vertex[surface.triangles(t, corner_of(part))];
+}
+
+/// Where two sheets touch, their normals may leave nothing: the triangle's own is then taken.
+Eigen::Vector3d SurfaceTree::Impl::normal(Eigen::Index t, TrianglePart part) const {
+  constexpr double nothing = 1e-3;
+  const Eigen::Vector3d own = face_normal(t);
+  Eigen::Vector3d sum = own;
+  if (corner_of(part) != no_other) {
+    sum = vertex_normal[surface.triangles(t, corner_of(part))];
+  } else if (const int side = side_of(part); side != no_other && across[t][side] != no_other) {
+    sum += face_normal(across[t][side]);
+  }
+  return sum.norm() > nothing ? sum.normalized() : own;
+}
 
 SurfaceTree::SurfaceTree(const Surface& surface) {
   std::vector<Eigen::Index> number;
@@ -87,25 +98,26 @@ SurfaceTree::SurfaceTree(const Surface& surface) {
   if (triangles.empty()) {
     throw std::invalid_argument("a surface has no triangle with an area");
   }
-  std::vector<TriangleFrame> frames;
-  std::vector<Rim> rims;
-  const std::vector<Rim> all_rims = rims_of(surface);
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    frames.push_back(frame_of(triangles[i]));
-    rims.push_back(all_rims[static_cast<std::size_t>(number[i])]);
+  const std::vector<Across> across = across_sides(surface.triangles);
+  std::vector<bool> rim_vertex(static_cast<std::size_t>(surface.vertices.rows()), false);
+  for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
+    for (int side = 0; side < 3; ++side) {
+      if (across[t][side] == no_other) {
+        rim_vertex[surface.triangles(t, side)] = rim_vertex[surface.triangles(t, (side + 1) % 3)] = true;
+      }
+    }
   }
-  impl_ = std::make_shared<const Impl>(
-      Impl{std::move(number), std::move(frames), std::move(rims), TriangleTree(triangles)});
+  impl_ = std::make_shared<const Impl>(Impl{surface, std::move(number), across, std::move(rim_vertex),
+                                            vertex_normals(surface, face_normals(surface)), TriangleTree(triangles)});
 }
 
 SurfacePlace SurfaceTree::nearest(const Eigen::Vector3d& position) const {
-  const std::size_t i = impl_->tree.nearest(position);
-  const TriangleFrame& frame = impl_->frames[i];
-  const NearestOnTriangle nearest = nearest_on_triangle(frame, position);
+  const Eigen::Index t = impl_->number[impl_->tree.nearest(position)];
+  const NearestOnTriangle nearest = nearest_on_triangle(frame_of(triangle(impl_->surface, t)), position);
   return {.position = nearest.point,
-          .normal = frame.ab.cross(frame.ac).normalized(),
-          .triangle = impl_->number[i],
-          .on_rim = is_on_rim(impl_->rims[i], nearest.part)};
+          .normal = impl_->normal(t, nearest.part),
+          .triangle = t,
+          .on_rim = impl_->is_on_rim(t, nearest.part)};
 }
 
 }  // namespace brainshift

@@ -11,7 +11,7 @@ namespace brainshift {
 /// The nearest place of a surface.
 struct SurfacePlace {
   Eigen::Vector3d position;
-  Eigen::Vector3d normal;  ///< unit, of the triangle
+  Eigen::Vector3d normal;  ///< unit, the pseudonormal of the face, edge or vertex: rounding does not choose a triangle
   Eigen::Index triangle;   ///< of the surface
   bool on_rim;             ///< on an edge that only one triangle has
 };

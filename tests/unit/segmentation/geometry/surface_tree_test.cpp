@@ -36,9 +36,17 @@ TEST(SurfaceTree, PlacesOutsideABoxAreNearestToWhereTheyAreCutOff) {
     EXPECT_LT((place.position - expected).norm(), 1e-12);
     EXPECT_FALSE(place.on_rim) << "a closed surface has none";
     const Triangle nearest = triangle(body, place.triangle);
-    EXPECT_TRUE(place.normal.isApprox(nearest.area_vector().normalized(), 1e-12));
-    EXPECT_NEAR(place.normal.dot(place.position - nearest.a), 0, 1e-12) << "in the triangle's plane";
+    EXPECT_NEAR(nearest.area_vector().dot(place.position - nearest.a), 0, 1e-12) << "in the triangle's plane";
+    // At right angles to the face, or half way between those that meet in the edge or corner.
+    EXPECT_TRUE(place.normal.isApprox((x - expected).cwiseSign().normalized(), 1e-12)) << place.normal.transpose();
   }
+}
+
+TEST(SurfaceTree, WhereTwoSheetsTouchTheNormalIsThatOfOneOfThem) {
+  Surface sheets = square();
+  sheets.triangles << 0, 1, 2, 0, 2, 3, 0, 2, 1;  // the first once more, turned
+  const Eigen::Vector3d normal = SurfaceTree(sheets).nearest({5, -1, 1}).normal;
+  EXPECT_TRUE(normal.isApprox(Eigen::Vector3d(0, 0, normal.z() > 0 ? 1 : -1)));
 }
 
 TEST(SurfaceTree, KnowsTheRimOfAnOpenSurface) {

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -68,6 +69,18 @@ TEST(SurfacesBeforeAndAfter, GiveTheMovementAlongTheNormalsOfADifferentlyMeshedS
 TEST(SurfacesBeforeAndAfter, ThatAreTheSameGiveNoDisplacement) {
   const Surface patch = cap(30, 4, Eigen::Matrix3d::Identity());
   EXPECT_LT(load_from_surfaces(patch, patch).displacement.rowwise().norm().maxCoeff(), 1e-6);
+}
+
+/// A surface that is one mesh moved lies vertex on vertex on the other, where several triangles are equally near.
+TEST(SurfacesBeforeAndAfter, OfOneMeshDoNotHangOnTheLastDigits) {
+  Surface before = cap(28, 4, Eigen::Matrix3d::Identity()), after = shifted(before);
+  const Points plain = load_from_surfaces(before, after).displacement;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> noise(-1e-9, 1e-9);
+  for (Surface* surface : {&before, &after}) {
+    surface->vertices = surface->vertices.unaryExpr([&](double x) { return x + noise(random); }).eval();
+  }
+  EXPECT_LT((load_from_surfaces(before, after).displacement - plain).rowwise().norm().maxCoeff(), 1e-6);
 }
 
 TEST(SurfacesBeforeAndAfter, WhereAfterIsMissingTakeTheNeighboursMovement) {
