@@ -49,7 +49,6 @@ void read_type(const fs::path& file, int type, ImageHeader& header) {
   }
 }
 
-// Where the header has no frame, FreeSurfer takes slices from front to back.
 void read_frame(ByteView bytes, ImageHeader& header) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   header.direction << -1, 0, 0, 0, 0, 1, 0, -1, 0;
@@ -57,6 +56,11 @@ void read_frame(ByteView bytes, ImageHeader& header) {
     header.spacing = reals(bytes, 30);
     header.direction << reals(bytes, 42), reals(bytes, 54), reals(bytes, 66);
     centre = reals(bytes, 78);
+  } else {
+    header.frame_note =
+        std::string(no_frame) +
+        "goodRASFlag is not set; voxels of 1 mm and slices from front to back were taken, as FreeSurfer "
+        "does";
   }
   const Eigen::Vector3d ras_to_lps(-1, -1, 1);
   header.direction = ras_to_lps.asDiagonal() * header.direction;

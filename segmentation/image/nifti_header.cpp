@@ -5,10 +5,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/image/bytes.hpp"
-#include "segmentation/image/frame_note.hpp"
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_header.hpp"
 
@@ -217,6 +215,19 @@ void read_nifti_geometry(const fs::path& file, const NiftiFields& fields, ImageH
   }
 }
 
+// ITK leaves vectors as they are stored, crashes on whole ones, and adds the intercept where the standard has no
+// scaling.
+void check_scale(const fs::path& file, const NiftiFields& fields, std::uint64_t components) {
+  const double slope = fields.real(112), intercept = fields.real(116);
+  if (slope == 0 && intercept != 0) {
+    refuse(file, "its header has scl_slope 0 but a scl_inter, which programs take differently; set scl_inter to 0");
+  }
+  const bool scaled = std::isfinite(slope) && slope != 0 && (slope != 1 || intercept != 0);
+  if (components > 1 && scaled) {
+    refuse(file, "its vectors are scaled (scl_slope, scl_inter), which is not read; save them as they are, as floats");
+  }
+}
+
 }  // namespace
 
 ImageHeader read_nifti_header(const fs::path& file) {
@@ -240,6 +251,7 @@ ImageHeader read_nifti_header(const fs::path& file) {
   header.floating = datatype == 16 || datatype == 64;
   header.swapped = swapped;
   read_nifti_size(file, fields, header);
+  check_scale(file, fields, header.components);
   read_nifti_geometry(file, fields, header);
   const double offset = fields.real(108);
   if (!(offset >= 0 && offset < 1e9)) {
@@ -248,14 +260,6 @@ ImageHeader read_nifti_header(const fs::path& file) {
   header.voxels_at = std::max(first_voxel, static_cast<std::size_t>(offset));
   header.compressed = is_gzip(file);
   return header;
-}
-
-std::string frame_note(const fs::path& file) {
-  const std::string name = in_lower_case(file.filename().string());
-  if (name.ends_with(".nrrd")) {
-    return read_nrrd_header(file).frame_note;
-  }
-  return name.ends_with(".nii") || name.ends_with(".nii.gz") ? read_nifti_header(file).frame_note : "";
 }
 
 }  // namespace brainshift

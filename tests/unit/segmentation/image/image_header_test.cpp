@@ -129,6 +129,34 @@ TEST(ImageHeader, ANiftisUnitOfTimeIsTold) {
   }
 }
 
+/// ITK reads vectors as they are stored, and crashes on scaled ones of whole numbers.
+TEST(ImageHeader, ANiftiFieldWithScaledVectorsIsRefused) {
+  const ScratchFolder folder;
+  std::string field = nifti_bytes();
+  const std::int16_t sizes[] = {5, 3, 4, 5, 1, 3};
+  std::memcpy(field.data() + 40, sizes, sizeof(sizes));
+  const auto scaled = [&](float slope, float intercept) {
+    std::string bytes = field;
+    put<float>(bytes, 112, slope);
+    put<float>(bytes, 116, intercept);
+    return folder.write("a.nii", bytes);
+  };
+  for (const auto& [slope, intercept] : {std::pair(2.0F, 0.0F), {1.0F, -1.0F}}) {
+    EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_nifti_header(scaled(slope, intercept)); },
+                                                     {"a.nii", "its vectors are scaled"}));
+  }
+  for (const float slope : {0.0F, 1.0F, not_a_number}) {
+    EXPECT_EQ(read_nifti_header(scaled(slope, 0)).components, 3U) << slope;
+  }
+}
+
+TEST(ImageHeader, ANiftiThatAddsToWhatItDoesNotScaleIsRefused) {
+  const ScratchFolder folder;
+  std::string bytes = nifti_bytes();
+  put<float>(bytes, 116, 10);
+  EXPECT_TRUE(refused(folder.write("a.nii", bytes), {"a.nii", "scl_inter"}));
+}
+
 TEST(ImageHeader, AMetaImageInOtherUnitsOrScaledIsRefused) {
   const ScratchFolder folder;
   for (const auto& [line, part] : {std::pair("DistanceUnits = cm", "unit of length is cm"),
@@ -163,7 +191,7 @@ TEST(ImageHeader, FormsThatDisagreeAreTold) {
   EXPECT_NE(frame_note(folder.write("a.nii", turned)), "");
   put<std::int16_t>(shifted, 252, 0);
   EXPECT_EQ(frame_note(folder.write("a.nii", shifted)), "") << "there is one form alone";
-  EXPECT_EQ(frame_note("image.mgz"), "");
+  EXPECT_EQ(frame_note("image.mha"), "");
   EXPECT_EQ(frame_note(""), "");
 }
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "segmentation/image/frame_note.hpp"
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image.hpp"
 #include "segmentation/image/image_header.hpp"
@@ -79,6 +80,8 @@ TEST_F(MghFile, WithoutAFrameIsCoronalInMillimetres) {
   const LabelMap map = read_label_map(write(bytes));
   EXPECT_TRUE(map.geometry.spacing.isApprox(Eigen::Vector3d::Ones()));
   EXPECT_TRUE(map.geometry.direction.col(1).isApprox(Eigen::Vector3d(0, 0, -1)));
+  EXPECT_NE(frame_note(scratch_ / "a.mgh").find("goodRASFlag is not set"), std::string::npos);
+  EXPECT_EQ(frame_note(write(mgh_bytes(), "b.mgh")), "");
 }
 
 TEST_F(MghFile, EveryTypeIsReadCompressedOrNot) {
