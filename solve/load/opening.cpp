@@ -114,9 +114,12 @@ Points prescribed_on_surface_nodes(const NodeCloud& cloud, const CraniotomyLoad&
     for (const auto& node : surface.rowwise()) {
       nearest_miss = std::min(nearest_miss, distance_to(tree, node));
     }
-    throw std::invalid_argument(
-        "load: no surface node lies under the opening; the nearest is " + with_decimals(nearest_miss) +
-        " mm from a measured point: measure more points, or use a finer cloud or a wider margin");
+    const bool tiny = (places.colwise().maxCoeff() - places.colwise().minCoeff()).norm() < 1;  // an opening in metres
+    throw std::invalid_argument("load: no surface node lies under the opening; the nearest is " +
+                                with_decimals(nearest_miss) + " mm from a measured point: " +
+                                (places.rows() > 1 && tiny
+                                     ? "all points lie within a millimetre; are they in metres? Give them in mm"
+                                     : "measure more points, or use a finer cloud or a wider margin"));
   }
   return prescribed;
 }
