@@ -56,7 +56,7 @@ ordered_json as_json(const TradeoffPoint& p, const std::string& stamp) {
 bool read_point(const fs::path& file, const std::string& stamp, TradeoffPoint& p) {
   std::ifstream stream(file);
   const ordered_json json = ordered_json::parse(stream, nullptr, false);
-  if (json.is_discarded() || json.value("stamp", "") != stamp) {
+  if (!json.is_object() || json.value("stamp", "") != stamp) {
     return false;
   }
   p.failure = json.at("failure");
@@ -126,7 +126,8 @@ class Sweeper {
       try {
         solve(scene, point);
       } catch (const std::invalid_argument& error) {
-        point.failure = error.what();  // too coarse a cloud, no support for the basis
+        point.failure = error.what();  // too coarse a cloud, no support for the basis; or what may pass: not kept
+        return point;
       }
       write_whole(file, json_text(as_json(point, stamp)));
     }

@@ -74,6 +74,13 @@ TEST_F(SweepTest, DoesNotSolveAgainWhatIsThereOfTheSameScene) {
   EXPECT_NE(read(kept), text) << "of another load";
 }
 
+/// A file may have been written to at that moment: the next sweep tries again.
+TEST_F(SweepTest, DoesNotKeepAPointThatWasRefused) {
+  const Sweep result = run_sweep(scene("40", "80"), {"discretise.cell_size=1e-3"});
+  EXPECT_NE(result.points[0].failure, "");
+  EXPECT_FALSE(fs::exists(folder_ / "out/points" / (name_of(result.points[0].choice) + ".json")));
+}
+
 TEST_F(SweepTest, RefusesAReferenceThatIsNoFinerThanTheChoices) {
   const std::string sentence = refusal([&] { run_sweep(scene("150 400", "799")); });
   EXPECT_NE(sentence.find("scene.xml:"), std::string::npos) << sentence;
