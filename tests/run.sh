@@ -28,10 +28,13 @@ export OMP_WAIT_POLICY=passive OMP_NUM_THREADS=1
 cd "$root"
 git ls-files '*.cpp' '*.hpp' '*.cu' '*.cuh' | xargs clang-format --dry-run --Werror
 
-# The GPU's part is compiled where its compiler is. Tests that want a GPU say that there is none.
+# The GPU's part is compiled where its compiler is. Tests that want a GPU say that there is none; no code for a GPU is
+# made then, only what its driver would make the code from, in three quarters of the time.
 cuda=()
 if [[ $(nvcc --version 2> /dev/null) =~ release\ 1[2-9] ]]; then
-  cuda=(-DBRAINSHIFT_CUDA=ON -DBRAINSHIFT_CUDA_ARCHITECTURES=90)
+  architecture=90
+  nvidia-smi > /dev/null 2>&1 || architecture=90-virtual
+  cuda=(-DBRAINSHIFT_CUDA=ON -DBRAINSHIFT_CUDA_ARCHITECTURES=$architecture)
 fi
 
 developer=(-DBRAINSHIFT_TESTS=ON -DBRAINSHIFT_DEVELOPER=ON)

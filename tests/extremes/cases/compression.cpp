@@ -61,7 +61,11 @@ Row cylinder(double to, double least_distance) {
 std::vector<Row> compression(bool small) {
   const int n = small ? 5 : 7;
   const double distance = small ? 20 : 13;
-  return {cube(0.6, n), cube(0.5, n), cube(0.2, n), cube(0.1, n), cylinder(0.2, distance), cylinder(0.1, distance)};
+  std::vector<Row> rows = {cube(0.6, n), cube(0.5, n), cube(0.2, n), cube(0.1, n), cylinder(0.2, distance)};
+  if (!small) {
+    rows.push_back(cylinder(0.1, distance));  // ends without an answer after as long as all others together
+  }
+  return rows;
 }
 
 }  // namespace brainshift::extremes::compression_cases
