@@ -249,6 +249,11 @@ Warnings UpdatedRun::warnings() const {
     append(warnings_of(solve::worst_of_joined(load, solve::inner_points(cloud(), load)), false), all);
     append(warnings_of(solve::outliers(*kept_.thinned, conditions), false), all);
   }
+  if (scene_.load->field) {
+    all.emplace_back(
+        "the run's load is a field, which loads its own nodes; the update took the points for those of an opening, as "
+        "<craniotomy> does, which differs most at the rim");
+  }
   append(warnings_of_sigma(load.sigma), all);
   append(warnings_of(load, cloud(), conditions), all);
   return all;
@@ -264,7 +269,7 @@ StageReport UpdatedRun::answer(const fs::path& file, const fs::path& out, const 
   }
   StageReport said = report_of(result, solve::Dynamics::relaxation);
   for (const char* of_setup :
-       {"outside_label", "consistency_iterations", "seconds_setup"}) {  // the run's record has it
+       {"outside_label", "consistency_iterations", "grown_supports", "seconds_setup"}) {  // the run's record has it
     said.measures.erase(of_setup);
   }
   if (scene_.uncertainty) {
