@@ -27,7 +27,12 @@ FileState state_of(const fs::path& file) {
   if (stat(file.c_str(), &status) != 0) {
     return {};
   }
-  return {true, S_ISREG(status.st_mode), status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+  const timespec &contents = status.st_mtim, &inode = status.st_ctim;
+  return {true,
+          S_ISREG(status.st_mode),
+          status.st_ino,
+          status.st_size,
+          {contents.tv_sec, contents.tv_nsec, inode.tv_sec, inode.tv_nsec}};
 }
 
 /// Again and again: the folder may come later, or another in its place.
@@ -35,8 +40,7 @@ void watch_folder(int events, const fs::path& folder) {
   inotify_add_watch(events, folder.c_str(), IN_CREATE | IN_MODIFY | IN_CLOSE_WRITE | IN_MOVED_TO);
 }
 
-}  // namespace
-
+/// Also where it cannot be read.
 bool ends_with_newline(const fs::path& file) {
   std::ifstream text(file, std::ios::binary);
   if (!text) {
@@ -44,6 +48,14 @@ bool ends_with_newline(const fs::path& file) {
   }
   text.seekg(-1, std::ios::end);
   return text.get() == '\n';
+}
+
+}  // namespace
+
+std::string want_of_newline(const fs::path& file) {
+  return ends_with_newline(file)
+             ? ""
+             : file.string() + ": the last line has no line end; if the file was still being written, give it again";
 }
 
 FileWatch::FileWatch(fs::path file)

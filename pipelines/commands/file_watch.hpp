@@ -3,26 +3,27 @@
 
 #include <sys/types.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace brainshift::pipelines {
 
-/// What changes when a file is written.
+/// What changes when a file is written, renamed, or given other permissions.
 struct FileState {
   bool there = false;
   bool regular = false;  ///< no folder, pipe or device
   ino_t file = 0;
   off_t size = 0;
-  time_t second = 0;
-  long nanosecond = 0;
+  std::array<std::int64_t, 4> times = {};  ///< of its contents, which a program may set, and of its status: s, ns
 
   bool operator==(const FileState&) const = default;
 };
 
-/// Whether the file's last line has an end, or the file cannot be read: who reads it says why.
-bool ends_with_newline(const std::filesystem::path& file);
+/// A warning where the file's last line has no end; empty where the file cannot be read: who reads it says why.
+std::string want_of_newline(const std::filesystem::path& file);
 
 /// Waits for a file that other programs write.
 class FileWatch {

@@ -52,6 +52,7 @@ void answer_next(LiveRun& run, FileWatch& watch, const LiveArguments& arguments,
   try {
     watch.next();
     const double changed = changed_at(arguments.load);
+    const std::string cut = want_of_newline(arguments.load);
     const LiveRun::Answer answer = run.answer(arguments.load);
     if (!quiet) {
       std::printf("%s: %.3f s after the file's change, largest displacement %.3f mm, error bound %.4f mm\n",
@@ -67,6 +68,9 @@ void answer_next(LiveRun& run, FileWatch& watch, const LiveArguments& arguments,
       run.warp_image();
     }
     const Warnings before = std::exchange(told, run.warnings());
+    if (!cut.empty()) {
+      told.push_back(cut);
+    }
     for (const std::string& warning : told) {
       if (std::ranges::find(before, warning) == before.end()) {
         std::fprintf(stderr, "brainshift: warning: %s\n", printable(warning).c_str());

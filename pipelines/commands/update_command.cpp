@@ -37,12 +37,11 @@ fs::path out_of(const UpdateArguments& arguments) {
 /// Answers the load into a folder that appears when it is whole.
 StageReport answer(UpdatedRun& run, const fs::path& load, const fs::path& out, const Stopwatch& time,
                    Interruption& interruption, const Progress& progress) {
-  const bool whole = ends_with_newline(load);
+  const std::string cut = want_of_newline(load);
   StageFolder folder(out, interruption);
   StageReport report = run.answer(load, folder.path(), progress);
-  if (!whole) {
-    report.notes.push_back("warning: " + load.string() +
-                           ": the last line has no line end; if the file was still being written, give it again");
+  if (!cut.empty()) {
+    report.notes.push_back("warning: " + cut);
   }
   write_stage_record(folder.path(), record_of(StageId::solve, "", report, time.seconds()));
   folder.replace();

@@ -57,11 +57,21 @@ void check_image(const fs::path& run, const fs::path& t1) {
   }
 }
 
+/// The least time where there is none.
+fs::file_time_type solved_at(const fs::path& run) {
+  std::error_code absent;
+  return fs::last_write_time(run / "solve" / "stage.json", absent);
+}
+
 }  // namespace
 
 LiveRun::LiveRun(const fs::path& run, bool with_image, std::optional<solve::Device> device, Interruption& interruption,
                  const Progress& progress)
-    : run_(whole_path(run)), live_(run_ / "live"), device_(device), interruption_(interruption) {
+    : run_(whole_path(run)),
+      live_(run_ / "live"),
+      device_(device),
+      interruption_(interruption),
+      solved_at_(solved_at(run_)) {
   updated_.emplace(run_, interruption_, progress, device_);
   not_kept_ = updated_->not_kept();
   const Scene& scene = updated_->scene();
@@ -117,7 +127,14 @@ solve::SolveResult LiveRun::solve(const solve::CraniotomyLoad& load, const fs::p
   }
 }
 
+void LiveRun::check_same_run() const {
+  if (solved_at(run_) != solved_at_) {
+    refuse(run_, "the run was solved anew since it was read; end 'brainshift live' and start it again");
+  }
+}
+
 LiveRun::Answer LiveRun::answer(const fs::path& file) {
+  check_same_run();
   const solve::CraniotomyLoad load = updated().read(file);
   const std::string fault_before = updated().device_fault();
   solve::SolveResult result = solve(load, file);

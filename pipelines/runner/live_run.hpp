@@ -31,7 +31,8 @@ class LiveRun {
   };
 
   /// Throws std::invalid_argument, naming the file, where it is at fault, and std::runtime_error where the load could
-  /// not be answered. The run is then read again before the next answer.
+  /// not be answered: the run is then read again before the next answer. std::invalid_argument, too, once the run was
+  /// solved anew: answers would be of what it was.
   Answer answer(const std::filesystem::path& load);
 
   /// UpdatedRun::not_kept() of the run as it was read first.
@@ -47,6 +48,7 @@ class LiveRun {
   UpdatedRun& updated();
   solve::SolveResult solve(const solve::CraniotomyLoad& load, const std::filesystem::path& file);
   void rehearse(const Progress& progress);
+  void check_same_run() const;
 
   std::filesystem::path run_, live_;
   std::optional<solve::Device> device_;
@@ -57,8 +59,9 @@ class LiveRun {
   std::optional<ScalarImage> t1_;
   registration::RegisterOptions options_;
   std::string not_kept_;
-  int number_ = 0;          ///< of the last answer
-  VectorImage resampling_;  ///< of the last answer
+  std::filesystem::file_time_type solved_at_;  ///< when the run's solve stage was written
+  int number_ = 0;                             ///< of the last answer
+  VectorImage resampling_;                     ///< of the last answer
 };
 
 }  // namespace brainshift::pipelines

@@ -44,6 +44,28 @@ TEST(FileWatch, ReturnsEachVersionOnce) {
   EXPECT_EQ(later.get().size, 5);
 }
 
+/// As a copy that keeps the file's times, and a change of permissions, after which a file may be readable.
+TEST(FileWatch, ReturnsWhatIsOfTheSameSizeAndTimeOrHasOtherPermissions) {
+  const ScratchFolder folder;
+  const fs::path file = folder.write("load.csv", "1\n");
+  const fs::file_time_type time = fs::last_write_time(file);
+  FileWatch watch(file);
+  watch.next();
+  folder.write("load.csv", "2\n");
+  fs::last_write_time(file, time);
+  EXPECT_EQ(watch.next().size, 2);
+  fs::permissions(file, fs::perms::owner_read);
+  EXPECT_EQ(watch.next().size, 2);
+}
+
+TEST(FileWatch, AWantOfANewlineAtTheEndIsTold) {
+  const ScratchFolder folder;
+  EXPECT_EQ(want_of_newline(folder.write("load.csv", "1\n")), "");
+  EXPECT_NE(want_of_newline(folder.write("load.csv", "1\n2")).find("load.csv: the last line has no line end"),
+            std::string::npos);
+  EXPECT_EQ(want_of_newline(folder / "absent.csv"), "");
+}
+
 TEST(FileWatch, WaitsForAFileAndAFolderThatComeLater) {
   const ScratchFolder folder;
   const fs::path file = folder.path() / "later" / "load.csv";
