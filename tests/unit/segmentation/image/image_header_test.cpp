@@ -195,6 +195,20 @@ TEST(ImageHeader, FormsThatDisagreeAreTold) {
   EXPECT_EQ(frame_note(""), "");
 }
 
+/// Which a quaternion, a rotation, cannot say.
+TEST(ImageHeader, ANiftisQformIsMirroredAlongItsThirdAxisWherePixdimSaysSo) {
+  const ScratchFolder folder;
+  std::string bytes = nifti_bytes();
+  put<std::int16_t>(bytes, 254, 0);
+  for (const float qfac : {1.0F, 0.0F, -1.0F}) {
+    put<float>(bytes, 76, qfac);
+    const auto file = folder.write("a.nii", bytes);
+    const double side = qfac < 0 ? -1 : 1;
+    EXPECT_EQ(read_nifti_header(file).direction, Eigen::Vector3d(1, 1, side).asDiagonal().toDenseMatrix()) << qfac;
+    EXPECT_EQ(read_image(file).geometry.direction(2, 2), side) << "as ITK has it";
+  }
+}
+
 TEST(ImageHeader, ANiftiInMetresIsRefused) {
   const ScratchFolder folder;
   std::string bytes = nifti_bytes();
