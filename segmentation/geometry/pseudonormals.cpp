@@ -93,7 +93,7 @@ std::vector<Eigen::Vector3d> face_normals(const Surface& surface) {
   return normals;
 }
 
-std::vector<Eigen::Vector3d> vertex_normals(const Surface& surface, const std::vector<Eigen::Vector3d>& face) {
+std::vector<Eigen::Vector3d> angle_weighted_normals(const Surface& surface, const std::vector<Eigen::Vector3d>& face) {
   std::vector<Eigen::Vector3d> normals(static_cast<std::size_t>(surface.vertices.rows()), Eigen::Vector3d::Zero());
   for (std::size_t t = 0; t < face.size(); ++t) {
     const auto corner = surface.triangles.row(t);
@@ -138,7 +138,7 @@ Pseudonormals pseudonormals(const Surface& surface) {
   if (!(volume(surface) > 0)) {
     throw std::invalid_argument("signed distance: the surface is inside out or encloses nothing; turn its triangles");
   }
-  normals.vertex = vertex_normals(surface, normals.face);
+  normals.vertex = angle_weighted_normals(surface, normals.face);
   return normals;
 }
 

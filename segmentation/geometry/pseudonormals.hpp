@@ -25,8 +25,9 @@ struct Pseudonormals {
 
 /// Of each triangle, unit; zero where it has no area.
 std::vector<Eigen::Vector3d> face_normals(const Surface& surface);
-/// Of each vertex of any surface, not of unit length: the sum of its faces', weighted by their angles.
-std::vector<Eigen::Vector3d> vertex_normals(const Surface& surface, const std::vector<Eigen::Vector3d>& face);
+/// Of each vertex of any surface, not of unit length: the sum of its faces', weighted by their angles, where
+/// vertex_normals() weighs them by their areas.
+std::vector<Eigen::Vector3d> angle_weighted_normals(const Surface& surface, const std::vector<Eigen::Vector3d>& face);
 
 /// Throws std::invalid_argument on a surface that is empty, not finite, open, not 2-manifold along an edge, or inside
 /// out.

@@ -16,10 +16,10 @@
 namespace brainshift {
 namespace {
 
-/// The triangles beyond the sides ab, bc, ca of a triangle; none on the rim. Where more than two have an edge they are
-/// taken in pairs.
+/// The triangles beyond the sides ab, bc, ca of a triangle; absent on the rim. Where more than two have an edge they
+/// are taken in pairs.
 using Across = std::array<std::int32_t, 3>;
-constexpr std::int32_t no_other = -1;
+constexpr std::int32_t absent = -1;  // a triangle, corner or side
 
 std::vector<Across> across_sides(const Triangles& triangles) {
   std::vector<Across> across(static_cast<std::size_t>(triangles.rows()));
@@ -28,7 +28,7 @@ std::vector<Across> across_sides(const Triangles& triangles) {
     for (int side = 0; side < 3; ++side) {
       const auto edge = std::minmax({triangles(t, side), triangles(t, (side + 1) % 3)});
       const auto [place, is_new] = open.try_emplace(edge, t, side);
-      across[t][side] = no_other;
+      across[t][side] = absent;
       if (!is_new) {
         const auto [other, its_side] = place->second;
         across[t][side] = other;
@@ -40,14 +40,14 @@ std::vector<Across> across_sides(const Triangles& triangles) {
   return across;
 }
 
-/// The number of the corner or side in which a place of a triangle lies; -1 of another part.
+/// The number of the corner or side in which a place of a triangle lies; absent of another part.
 int corner_of(TrianglePart part) {
-  return part < TrianglePart::edge_ab ? static_cast<int>(part) : no_other;
+  return part < TrianglePart::edge_ab ? static_cast<int>(part) : absent;
 }
 int side_of(TrianglePart part) {
   return part >= TrianglePart::edge_ab && part < TrianglePart::face
              ? static_cast<int>(part) - static_cast<int>(TrianglePart::edge_ab)
-             : no_other;
+             : absent;
 }
 
 }  // namespace
@@ -66,10 +66,10 @@ struct SurfaceTree::Impl {
 };
 
 bool SurfaceTree::Impl::is_on_rim(Eigen::Index t, TrianglePart part) const {
-  if (const int side = side_of(part); side != no_other) {
-    return across[t][side] == no_other;
+  if (const int side = side_of(part); side != absent) {
+    return across[t][side] == absent;
   }
-  return corner_of(part) != no_other && rim_vertex[surface.triangles(t, corner_of(part))];
+  return corner_of(part) != absent && rim_vertex[surface.triangles(t, corner_of(part))];
 }
 
 /// Where two sheets touch, their normals may leave nothing: the triangle's own is then taken.
@@ -77,9 +77,9 @@ Eigen::Vector3d SurfaceTree::Impl::normal(Eigen::Index t, TrianglePart part) con
   constexpr double nothing = 1e-3;
   const Eigen::Vector3d own = face_normal(t);
   Eigen::Vector3d sum = own;
-  if (corner_of(part) != no_other) {
+  if (corner_of(part) != absent) {
     sum = vertex_normal[surface.triangles(t, corner_of(part))];
-  } else if (const int side = side_of(part); side != no_other && across[t][side] != no_other) {
+  } else if (const int side = side_of(part); side != absent && across[t][side] != absent) {
     sum += face_normal(across[t][side]);
   }
   return sum.norm() > nothing ? sum.normalized() : own;
@@ -98,17 +98,18 @@ SurfaceTree::SurfaceTree(const Surface& surface) {
   if (triangles.empty()) {
     throw std::invalid_argument("a surface has no triangle with an area");
   }
-  const std::vector<Across> across = across_sides(surface.triangles);
+  std::vector<Across> across = across_sides(surface.triangles);
   std::vector<bool> rim_vertex(static_cast<std::size_t>(surface.vertices.rows()), false);
   for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
     for (int side = 0; side < 3; ++side) {
-      if (across[t][side] == no_other) {
+      if (across[t][side] == absent) {
         rim_vertex[surface.triangles(t, side)] = rim_vertex[surface.triangles(t, (side + 1) % 3)] = true;
       }
     }
   }
-  impl_ = std::make_shared<const Impl>(Impl{surface, std::move(number), across, std::move(rim_vertex),
-                                            vertex_normals(surface, face_normals(surface)), TriangleTree(triangles)});
+  impl_ = std::make_shared<const Impl>(Impl{surface, std::move(number), std::move(across), std::move(rim_vertex),
+                                            angle_weighted_normals(surface, face_normals(surface)),
+                                            TriangleTree(triangles)});
 }
 
 SurfacePlace SurfaceTree::nearest(const Eigen::Vector3d& position) const {
