@@ -158,12 +158,16 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
   NodalVectors near = near_start(model, options, coarse, prepared.body);
   const bool from_rest = near.empty();
   measures.thin = thin_parts(model, prepared.body.placed);
+  const std::optional<InsideBody> inside = prepared.cut ? std::optional(prepared.cut->inside) : std::nullopt;
   SolveResult result = step_to_end(model, options, std::move(prepared), measures, std::move(near), progress);
   if (!from_rest && result.failure.empty() && is_creased(result)) {
     report(progress, 0, "tissue creases; once more from rest");
     SolveOptions rest = options;
     rest.start = Start::rest;
     return with(rest, "the load from rest, as the tissue creases");
+  }
+  if (inside) {
+    draw_faces(*inside, result);
   }
   if (result.failure.empty()) {
     if (coarse && starts_coarse(model, options)) {

@@ -126,7 +126,8 @@ Solution state_at(const Snapshot& snapshot, const Solution& end) {
   return state;
 }
 
-/// The faces of the cut, at the end and at each snapshot.
+}  // namespace
+
 void draw_faces(const InsideBody& inside, SolveResult& result) {
   for (Snapshot& snapshot : result.snapshots) {
     if (!snapshot.cut.empty()) {
@@ -137,8 +138,6 @@ void draw_faces(const InsideBody& inside, SolveResult& result) {
     result.faces = cut_surface(result.solution, inside);
   }
 }
-
-}  // namespace
 
 SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepared prepared, SolveMeasures measures,
                         NodalVectors start, const Progress& progress) {
@@ -162,7 +161,6 @@ SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepare
     if (model.septum) {
       result.measures.septum = measure_septum(cut, stepped);
     }
-    draw_faces(cut.inside, result);
   }
   if (stepped.body.wall_contact) {
     measure_wall(*model.resection->wall, stepped, result.solution, *result.measures.resection);

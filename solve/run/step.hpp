@@ -12,6 +12,9 @@ namespace brainshift::solve {
 SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepared prepared, SolveMeasures measures,
                         NodalVectors start, const Progress& progress);
 
+/// Where there is a cut: its faces, at the end and at each snapshot. inside: of the body that was stepped.
+void draw_faces(const InsideBody& inside, SolveResult& result);
+
 /// What a body that was stepped says of itself, without cuts. measures: the rest is filled in.
 SolveResult result_of(SteppingResult& stepped, const SolveOptions& options, SolveMeasures measures);
 

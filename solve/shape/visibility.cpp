@@ -117,9 +117,14 @@ std::optional<Detour> Visibility::detour(const Eigen::Vector3d& x, const Eigen::
   if (x == node) {
     return longest;  // a segment of one point crosses nothing
   }
+  std::int32_t last = -1;
   const auto cross = [&](std::size_t facet) {
-    const Detour found =
-        round(piece_[static_cast<std::size_t>(facets_.facets(static_cast<Eigen::Index>(facet), 0))], x, node);
+    const std::int32_t piece = piece_[static_cast<std::size_t>(facets_.facets(static_cast<Eigen::Index>(facet), 0))];
+    if (piece == last) {
+      return;  // the way round a piece is one, however many of its facets are crossed
+    }
+    last = piece;
+    const Detour found = round(piece, x, node);
     if (!longest || found.length > longest->length) {
       longest = found;
     }

@@ -62,8 +62,9 @@ class Live : public testing::Test {
     const fs::path head = *scratch / "head";
     const ProgramResult made = run_shell("brainshift phantom --size 40 --spacing 4.8 --out " + head.string());
     ASSERT_EQ(made.code, 0) << made.err;
-    const ProgramResult ran = run_shell("brainshift run " + (head / "scene.xml").string() + " --until solve --out " +
-                                        run().string() + " --set discretise.nodes=900 --quiet");
+    const ProgramResult ran =
+        run_shell("brainshift run " + (head / "scene.xml").string() + " --until solve --out " + run().string() +
+                  " --set segment.edge_length=10 --set discretise.nodes=450 --quiet");
     ASSERT_EQ(ran.code, 0) << ran.err;
     load = solve::read_craniotomy_csv(head / "craniotomy.csv");
   }

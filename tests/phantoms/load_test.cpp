@@ -45,7 +45,8 @@ class Load : public testing::Test {
   static fs::path at(const std::string& name) { return *scratch / name; }
   static ProgramResult run(const fs::path& scene, const fs::path& out, const std::string& until) {
     return run_shell("brainshift run --quiet " + scene.string() +
-                     " --set discretise.nodes=1500 --set discretise.craniotomy_factor=1 --set solve.tolerance=0.02"
+                     " --set segment.edge_length=8 --set discretise.nodes=900 --set discretise.craniotomy_factor=1 "
+                     "--set solve.tolerance=0.02"
                      " --until " +
                      until + " --out " + out.string());
   }

@@ -31,7 +31,8 @@ class Run : public testing::Test {
 
   static std::string head_folder() { return (*scratch / "head").string(); }
   static fs::path finished() { return *scratch / "finished"; }
-  static constexpr const char* small = " --set discretise.nodes=700 --set solve.tolerance=0.1 ";
+  static constexpr const char* small =
+      " --set segment.edge_length=12 --set discretise.nodes=700 --set solve.tolerance=0.1 ";
 
   static ProgramResult run(const fs::path& out, const std::string& more = "", const std::string& scene = "scene.xml") {
     return run_shell("brainshift run " + head_folder() + "/" + scene + small + more + " --out " + out.string());

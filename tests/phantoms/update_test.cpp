@@ -61,7 +61,8 @@ class Update : public testing::Test {
     return copy;
   }
 
-  static constexpr const char* small = " --set discretise.nodes=900 --set solve.precision=double --quiet";
+  static constexpr const char* small =
+      " --set segment.edge_length=10 --set discretise.nodes=450 --set solve.precision=double --quiet";
   static std::unique_ptr<ScratchFolder> scratch;
   static solve::CraniotomyLoad load;
 };
@@ -249,7 +250,7 @@ TEST_F(Update, RefusesARunThatTookOtherOptionsThanItsScenes) {
 TEST_F(Update, IsInDoublePrecisionWhereTheRunTookIt) {
   const fs::path single = *scratch / "single", record = single / "solve/stage.json";
   const ProgramResult ran = run_shell("brainshift run " + quoted(*scratch / "head/scene.xml") +
-                                      " --until solve --out " + quoted(single) + " --set discretise.nodes=900 --quiet");
+                                      " --until solve --out " + quoted(single) + " --set discretise.nodes=450 --quiet");
   ASSERT_EQ(ran.code, 0) << ran.err;
   const std::string text = bytes_of(record), precision = "\"precision\": \"single\"";
   ASSERT_NE(text.find(precision), std::string::npos);

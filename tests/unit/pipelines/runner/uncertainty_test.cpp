@@ -30,7 +30,7 @@ class UncertaintyTest : public BallFolder {
   SolveJob solve_job(int samples, std::optional<double> noise = {}) const {
     DiscretiseJob cells;
     cells.surface = folder_ / "ball.vtp";
-    cells.options.nodes = noise ? 400 : 60;  // of few nodes too many are measured
+    cells.options.nodes = noise ? 250 : 60;  // of few nodes too many are measured
     run_job(cells, folder_, {});
     LabelMap labels;
     labels.geometry.size.setConstant(11);

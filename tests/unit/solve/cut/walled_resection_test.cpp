@@ -131,7 +131,7 @@ TEST_F(Plates, OpenAgain) {
 /// A dry cavity in a ball that lies in fluid: what is around it is pressed into it.
 TEST(WalledResection, ADryCavityInFluidIsPressedFlatAndNotTurnedInsideOut) {
   const Surface ball = test::sphere(origin, 30, 4), wall = test::sphere(origin, 8, 4);
-  Model model = with_wall(ball, wall, 1500);
+  Model model = with_wall(ball, wall, 800);
   model.materials[1].youngs_modulus = 200;
   model.fluid = DrainedFluid{.gravity = {0, 0, -9.81}, .gravity_of_image = {0, 0, -9.81}, .level = -40};
   model.resection->fluid_level = 100;

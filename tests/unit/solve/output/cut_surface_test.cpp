@@ -8,6 +8,7 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include "solve/cut/inside_body.hpp"
 #include "solve/solve.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/all_free.hpp"
@@ -72,6 +73,38 @@ TEST(CutSurface, IsReadByVtk) {
     EXPECT_EQ(displacement->GetComponent(last, 1), surface.displacement(last, 1));
   }
   EXPECT_GT(opening(spatial.faces, 2).maxCoeff(), 4);
+}
+
+/// A body at rest that a strip parts, of small facets in three columns; the last goes back below.
+TEST(CutSurface, SharesItsVerticesExceptWhereItIsBentSharply) {
+  const Model model = uniaxial(1, 7);
+  constexpr int rows = 9;
+  Points vertices(4 * rows, 3);
+  std::vector<std::array<std::int32_t, 3>> facets;
+  for (int i = 0; i < rows; ++i) {
+    const double y = 20 + 2.5 * i;
+    vertices.middleRows(4 * i, 4) << 20, y, 30, 22.5, y, 30.5, 25, y, 30, 23, y, 29.5;
+    for (int j = 0; j < 3 && i + 1 < rows; ++j) {
+      const std::int32_t a = 4 * i + j, b = a + 4;
+      facets.insert(facets.end(), {{a, a + 1, b + 1}, {a, b + 1, b}});
+    }
+  }
+  Solution solution{.positions = model.cloud.positions,
+                    .displacement = model.cloud.positions,
+                    .reaction_force = {},
+                    .spacing = model.cloud.spacing,
+                    .shape = {}};
+  solution.cut = {.planar = false, .vertices = vertices, .facets = Triangles(facets.size(), 3), .front = {}};
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    solution.cut.facets.row(static_cast<Eigen::Index>(f)) << facets[f][0], facets[f][1], facets[f][2];
+  }
+  const std::vector<double> volume(model.cloud.size(), 1000);
+  const CutSurface surface = cut_surface(solution, {model.cloud.positions, volume, false});
+  const Eigen::Index half = surface.vertices.rows() / 2, bend = rows;
+  EXPECT_EQ(surface.facets.rows() / 2, solution.cut.facets.rows());
+  EXPECT_GE(half, 4 * rows + bend);
+  EXPECT_LE(half, 4 * rows + 5 * bend) << "those at the bend for each facet";
+  EXPECT_LT((surface.displacement - surface.vertices).rowwise().norm().maxCoeff(), 0.02) << "a linear field";
 }
 
 }  // namespace brainshift::solve::cut_surface_test

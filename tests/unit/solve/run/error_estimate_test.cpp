@@ -108,7 +108,7 @@ TEST(ErrorEstimate, ComesWithACutBody) {
   Cut cut{.name = "cut", .vertices = Points(4, 3), .triangles = Triangles(2, 3), .time = {}};
   cut.vertices << -5, -5, 29, 32, -5, 29, 32, 65, 29, -5, 65, 29;
   cut.triangles << 0, 1, 2, 0, 2, 3;
-  Model coarse = bonded(1.2, 7), fine = bonded(1.2, 13);
+  Model coarse = bonded(1.2, 6), fine = bonded(1.2, 11);
   coarse.cuts = fine.cuts = {cut};
   SolveOptions quick;
   quick.shape.basis = Basis::linear;
