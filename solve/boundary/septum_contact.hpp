@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,7 +14,8 @@ namespace brainshift::solve {
 
 /// Frictionless contact of tissue on both sides of a fixed rigid sheet, with finite sliding and separation. A node
 /// knows from the start on which side it lies. After a step every node behind its wall is put back along the wall's
-/// normal, see PushedNodes; one that has slid beyond the sheet's rim is free.
+/// normal, see PushedNodes; one that has slid beyond the sheet's rim is free. The rim is bevelled, or a node that
+/// slides over it would be let go and caught again for ever (METHOD.md, section 14).
 class SeptumContact {
  public:
   /// nodes: those that may touch; of those farther away at the start than `reach`, mm, or beyond the rim nothing is
@@ -36,11 +39,17 @@ class SeptumContact {
   Measures measure(const NodalVectors& parameters) const;
 
  private:
+  using Edge = std::array<Eigen::Vector3d, 2>;
+
+  std::optional<SheetWalls::Foot> bevelled_foot(std::size_t i, const NodalVectors& parameters,
+                                                std::int32_t& panel) const;
   void sweep(NodalVectors& parameters);
 
   SheetWalls walls_;
   std::vector<std::int32_t> panel_;  ///< of each node, where it was last
   PushedNodes nodes_;
+  double bevel_, drop_;                      ///< mm, width and height
+  std::vector<std::vector<Edge>> near_rim_;  ///< of each node, where it may come to
 };
 
 }  // namespace brainshift::solve

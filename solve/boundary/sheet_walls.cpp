@@ -139,7 +139,21 @@ std::optional<SheetWalls::Foot> SheetWalls::foot(const Eigen::Vector3d& x, std::
   const double distance = std::sqrt(squared), gap = normal.dot(away) < 0 ? -distance : distance;
   constexpr double touching = 1e-6;  // mm: nearer the way to the wall has no direction
   const bool on_ridge = here.part != TrianglePart::face && distance > touching;
-  return Foot{gap, on_ridge ? Eigen::Vector3d(away / gap) : normal};
+  return Foot{gap, on_ridge ? Eigen::Vector3d(away / gap) : normal, here.point};
+}
+
+std::vector<std::array<Eigen::Vector3d, 2>> SheetWalls::rim() const {
+  std::vector<std::array<Eigen::Vector3d, 2>> edges;
+  for (std::size_t t = 0; t < facets_.size(); ++t) {
+    const TriangleFrame& frame = facets_[t].frame;
+    const std::array<Eigen::Vector3d, 3> corners = {frame.a, frame.a + frame.ab, frame.a + frame.ac};
+    for (std::size_t side = 0; side < 3; ++side) {
+      if (next_[2 * t][side] == no_panel) {
+        edges.push_back({corners[side], corners[(side + 1) % 3]});
+      }
+    }
+  }
+  return edges;
 }
 
 }  // namespace brainshift::solve

@@ -28,10 +28,14 @@ class SheetWalls {
   struct Foot {
     double gap;              ///< mm from the wall, negative behind it
     Eigen::Vector3d normal;  ///< of the wall there, a unit vector into the tissue
+    Eigen::Vector3d place;
   };
   /// The place of the wall nearest to x, going downhill from a panel near by, which becomes the foot's. None beyond the
   /// rim of the sheet.
   std::optional<Foot> foot(const Eigen::Vector3d& x, std::int32_t& panel) const;
+
+  /// The edges of the sheet that one triangle alone has, by their ends.
+  std::vector<std::array<Eigen::Vector3d, 2>> rim() const;
 
  private:
   /// Side i of a triangle goes from its corner i to the next.

@@ -26,6 +26,9 @@ class SeptumUnderABox : public testing::Test {
   SeptumContact contact(double end) const {
     std::vector<std::int32_t> nodes(cloud.nodes.size());
     std::iota(nodes.begin(), nodes.end(), 0);
+    return contact_of(nodes, end);
+  }
+  SeptumContact contact_of(const std::vector<std::int32_t>& nodes, double end) const {
     SeptumContact contact(floor(end), cloud.nodes.positions, nodes, 5, cloud.rows);
     contact.weigh(cloud.mass);
     return contact;
@@ -61,6 +64,26 @@ TEST_F(SeptumUnderABox, LetsNodesGoThatSlidBeyondItsRim) {
   EXPECT_GT(held, 0);
   EXPECT_EQ(half.measure(cloud.shifted({side, 0, -0.5})).touching, 0u);
   EXPECT_EQ(half.measure(cloud.shifted({side, 0, -3})).largest_penetration, 0);
+}
+
+/// Let go at once it would be caught again where it swings back, for ever.
+TEST_F(SeptumUnderABox, LetsANodeGoGraduallyTowardsItsRim) {
+  Eigen::Index node = 0;
+  (cloud.nodes.positions.rowwise() - Eigen::RowVector3d(10, 20, 0)).rowwise().norm().minCoeff(&node);
+  const Eigen::RowVector3d x = cloud.nodes.positions.row(node);
+  const SeptumContact half = contact_of({static_cast<std::int32_t>(node)}, side / 2);
+  const auto depth = [&](double from_rim) {
+    const Eigen::Vector3d shift(side / 2 - from_rim - x[0], 0, -1 - x[2]);
+    return half.measure(cloud.shifted(shift)).largest_penetration;
+  };
+  double last = depth(3);
+  EXPECT_NEAR(last, 0.5, 1e-9);
+  for (double from_rim = 3; from_rim > -1; from_rim -= 0.002) {
+    const double now = depth(from_rim);
+    EXPECT_NEAR(now, last, 0.02) << from_rim;
+    last = now;
+  }
+  EXPECT_EQ(last, 0);
 }
 
 TEST_F(SeptumUnderABox, CountsTheWorkOfItsPushes) {
