@@ -31,10 +31,7 @@ std::vector<std::int32_t> facing(const SheetWalls& walls, const Points& position
 
 SeptumContact::SeptumContact(const Surface& sheet, const Points& positions, std::span<const std::int32_t> nodes,
                              double reach, const ShapeRows& rows)
-    : walls_(sheet),
-      nodes_(positions, facing(walls_, positions, nodes, reach, panel_), rows),
-      bevel_(reach / 20),
-      drop_(reach / 8) {
+    : walls_(sheet), nodes_(positions, facing(walls_, positions, nodes, reach, panel_), rows), fade_(reach / 8) {
   const double far = 3 * reach;
   const std::vector<Edge> rim = walls_.rim();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -45,28 +42,19 @@ SeptumContact::SeptumContact(const Surface& sheet, const Points& positions, std:
   }
 }
 
-/// The wall falls off within a tenth of a spacing of its rim, by a quarter of one: the gap by which a place is above
-/// it, along the normal of that slope.
-std::optional<SheetWalls::Foot> SeptumContact::bevelled_foot(std::size_t i, const NodalVectors& parameters,
-                                                             std::int32_t& panel) const {
+/// Of a node behind the wall the gap counts the less the nearer it is to the rim, where nothing is left of it.
+std::optional<SheetWalls::Foot> SeptumContact::faded_foot(std::size_t i, const NodalVectors& parameters,
+                                                          std::int32_t& panel) const {
   std::optional<SheetWalls::Foot> foot = walls_.foot(nodes_.place(i, parameters), panel);
   if (!foot) {
     return foot;
   }
-  double to_rim = bevel_;
-  Eigen::Vector3d inward = Eigen::Vector3d::Zero();
+  double to_rim = fade_;
   for (const Edge& edge : near_rim_[i]) {
-    const Eigen::Vector3d way = foot->place - nearest_on_segment(foot->place, edge[0], edge[1]);
-    if (const double distance = way.norm(); distance < to_rim) {
-      to_rim = distance;
-      inward = distance > 0 ? Eigen::Vector3d(way / distance) : Eigen::Vector3d::Zero();
-    }
+    to_rim = std::min(to_rim, (foot->place - nearest_on_segment(foot->place, edge[0], edge[1])).norm());
   }
-  const double left = 1 - to_rim / bevel_;
-  const Eigen::Vector3d gradient = foot->normal - 2 * left * drop_ / bevel_ * inward;
-  const double steepness = gradient.norm();
-  foot->gap = (foot->gap + drop_ * left * left) / steepness;
-  foot->normal = gradient / steepness;
+  const double share = to_rim / fade_;
+  foot->gap *= foot->gap < 0 ? share * share : 1;
   return foot;
 }
 
@@ -82,7 +70,7 @@ void SeptumContact::sweep(NodalVectors& parameters) {
   const auto nodes = static_cast<std::int64_t>(nodes_.size());
   share_work(nodes, places_a_part, [&](std::int64_t a) {
     const auto i = static_cast<std::size_t>(a);
-    const auto foot = bevelled_foot(i, parameters, panel_[i]);
+    const auto foot = faded_foot(i, parameters, panel_[i]);
     const bool behind = foot && foot->gap < 0;
     nodes_.set_push(i, behind ? -foot->gap : 0, behind ? foot->normal : Eigen::Vector3d::Zero());
   });
@@ -94,7 +82,7 @@ SeptumContact::Measures SeptumContact::measure(const NodalVectors& parameters) c
   Measures measures;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     std::int32_t panel = panel_[i];
-    if (const auto foot = bevelled_foot(i, parameters, panel)) {
+    if (const auto foot = faded_foot(i, parameters, panel)) {
       measures.touching += foot->gap < touch ? 1 : 0;
       measures.largest_penetration = std::max(measures.largest_penetration, -foot->gap);
     }

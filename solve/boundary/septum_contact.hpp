@@ -14,8 +14,8 @@ namespace brainshift::solve {
 
 /// Frictionless contact of tissue on both sides of a fixed rigid sheet, with finite sliding and separation. A node
 /// knows from the start on which side it lies. After a step every node behind its wall is put back along the wall's
-/// normal, see PushedNodes; one that has slid beyond the sheet's rim is free. The rim is bevelled, or a node that
-/// slides over it would be let go and caught again for ever (METHOD.md, section 14).
+/// normal, see PushedNodes; one that has slid beyond the sheet's rim is free. Towards the rim less of the gap is put
+/// back, and nothing at the rim: METHOD.md, section 14.
 class SeptumContact {
  public:
   /// nodes: those that may touch; of those farther away at the start than `reach`, mm, or beyond the rim nothing is
@@ -41,14 +41,13 @@ class SeptumContact {
  private:
   using Edge = std::array<Eigen::Vector3d, 2>;
 
-  std::optional<SheetWalls::Foot> bevelled_foot(std::size_t i, const NodalVectors& parameters,
-                                                std::int32_t& panel) const;
+  std::optional<SheetWalls::Foot> faded_foot(std::size_t i, const NodalVectors& parameters, std::int32_t& panel) const;
   void sweep(NodalVectors& parameters);
 
   SheetWalls walls_;
   std::vector<std::int32_t> panel_;  ///< of each node, where it was last
   PushedNodes nodes_;
-  double bevel_, drop_;                      ///< mm, width and height
+  double fade_;                              ///< mm from the rim
   std::vector<std::vector<Edge>> near_rim_;  ///< of each node, where it may come to
 };
 

@@ -27,10 +27,8 @@ class Tolerance : public testing::Test {
 
   static std::string scene() { return (*scratch / "head/scene.xml").string(); }
   static ProgramResult sweep(const std::string& more) {
-    return run_shell(
-        "brainshift tradeoff " + scene() + " --out " + (*scratch / "sweep").string() +
-        " --set segment.edge_length=12 --points-per-cell auto --basis linear --derivatives full --tolerance 0.1 " +
-        more);
+    return run_shell("brainshift tradeoff " + scene() + " --out " + (*scratch / "sweep").string() +
+                     " --points-per-cell auto --basis linear --derivatives full --tolerance 0.1 " + more);
   }
   static std::vector<std::string> lines(const fs::path& file) {
     std::istringstream text(bytes_of(file));

@@ -137,11 +137,11 @@ class Chain(WithFolder):
     def test_the_stages_in_memory_are_the_run_of_the_program(self):
         run = self.folder / "run"
         record = brainshift.run(self.head / "scene.xml", run, until="register", set={
-            "segment.edge_length": 5, "discretise.nodes": 1000, "discretise.tissue_boundary_factor": 1,
+            "segment.edge_length": 9, "discretise.nodes": 1000, "discretise.tissue_boundary_factor": 1,
             "discretise.craniotomy_factor": 1})
         t1 = brainshift.read_image(self.head / "t1.nii.gz")  # as the program reads them: the last bits count
         labels = brainshift.read_label_map(self.head / "labels.nii.gz")
-        head = brainshift.segment(labels, edge_length=5)
+        head = brainshift.segment(labels, edge_length=9)
         body = brainshift.discretise(head.brain, labels, nodes=1000)
         load = brainshift.read_load(self.head / "craniotomy.csv")
         materials = {1: "brain", 2: "ventricle", 3: "tumour"}
@@ -163,7 +163,7 @@ class Chain(WithFolder):
 
     def test_a_study_of_materials_is_each_of_them_alone(self):
         labels = brainshift.read_label_map(self.head / "labels.nii.gz")
-        head = brainshift.segment(labels, edge_length=5)
+        head = brainshift.segment(labels, edge_length=9)
         body = brainshift.discretise(head.brain, labels, nodes=600)
         load = brainshift.read_load(self.head / "craniotomy.csv")
         usual = {1: "brain", 2: "ventricle", 3: "tumour"}
@@ -178,14 +178,15 @@ class Chain(WithFolder):
 
     def test_files_are_taken_along(self):
         run = self.folder / "run"
-        brainshift.run(self.head / "scene.xml", run, until="register", set={"discretise.nodes": 600})
+        brainshift.run(self.head / "scene.xml", run, until="register",
+                       set={"segment.edge_length": 9, "discretise.nodes": 600})
         said = brainshift.warp_files(run, [self.head / "landmarks.mrk.json"], self.folder / "moved")
         self.assertIn("points, moved by up to", said[0])
         self.assertTrue((self.folder / "moved/warped_landmarks.mrk.json").exists())
 
     def test_what_the_program_warns_of_is_a_warning(self):
         labels = brainshift.read_label_map(self.head / "labels.nii.gz")
-        head = brainshift.segment(labels, edge_length=5)
+        head = brainshift.segment(labels, edge_length=9)
         body = brainshift.discretise(head.brain, labels, nodes=600)
         load = brainshift.read_load(self.head / "craniotomy.csv")
         twice = [np.concatenate([rows, rows[:1] + by]) for rows, by in
@@ -200,7 +201,8 @@ class Chain(WithFolder):
     def test_what_does_not_converge_is_told_with_what_there_is(self):
         with self.assertRaises(brainshift.NotConverged) as caught:
             brainshift.run(self.head / "scene.xml", self.folder / "run", until="solve",
-                           set={"discretise.nodes": 600, "solve.max_steps": 40, "solve.start": "rest"})
+                           set={"segment.edge_length": 9, "discretise.nodes": 600, "solve.max_steps": 40,
+                                "solve.start": "rest"})
         self.assertIn("not converged after 40 steps", str(caught.exception))
         self.assertIn("solve", caught.exception.result["stages"])
 

@@ -114,7 +114,7 @@ TEST(StepToEnd, MeasuresTheContactWithTheSkull) {
   EXPECT_LE(farthest_free_node(result), wall + result.measures.largest_penetration + 1e-6);
 }
 
-TEST(StepToEnd, MeasuresAndDrawsACutAndItsSnapshots) {
+TEST(StepToEnd, MeasuresACutAndItsSnapshots) {
   Model model = test::strip(1.1);
   model.cuts = {test::cut_path({{10, -1}, {10, 12}})};
   SolveOptions options = test::plane_options();
@@ -126,10 +126,9 @@ TEST(StepToEnd, MeasuresAndDrawsACutAndItsSnapshots) {
   EXPECT_NEAR(cut.extent, 13 + model.cloud.spacing[0], 1e-9) << "mm; it is taken beyond its end outside";
   EXPECT_EQ(model.cloud.size() + cut.added_nodes, static_cast<std::size_t>(result.solution.positions.rows()));
   EXPECT_FALSE(cut.faces) << "nobody asked for their contact";
-  EXPECT_GT(result.faces.vertices.rows(), 0);
   ASSERT_FALSE(result.snapshots.empty());
   for (const Snapshot& snapshot : result.snapshots) {
-    EXPECT_EQ(snapshot.faces.vertices, result.faces.vertices) << "it was cut from the start";
+    EXPECT_EQ(snapshot.cut.facets, result.solution.cut.facets) << "it was cut from the start";
     EXPECT_EQ(snapshot.displacement.rows(), snapshot.positions.rows());
   }
 }
