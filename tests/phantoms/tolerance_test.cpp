@@ -45,7 +45,7 @@ class Tolerance : public testing::Test {
 std::unique_ptr<ScratchFolder> Tolerance::scratch;
 
 TEST_F(Tolerance, SweepMeasuresEachChoiceOnceAndCallsFailuresFailures) {
-  const std::string lists = "--nodes 30,200,400 --precision double,single --reference-nodes 800";
+  const std::string lists = "--nodes 30,300,600 --precision double,single --reference-nodes 1200";
   const ProgramResult first = sweep(lists);
   ASSERT_EQ(first.code, 0) << first.err;
   const fs::path out = *scratch / "sweep";
@@ -57,19 +57,19 @@ TEST_F(Tolerance, SweepMeasuresEachChoiceOnceAndCallsFailuresFailures) {
   EXPECT_NE(first.out.find("95 % of the brain"), std::string::npos) << first.out;
   EXPECT_GT(fs::file_size(out / "tradeoff_solve.svg"), 1000U);
   EXPECT_GT(fs::file_size(out / "tradeoff_run.svg"), 1000U);
-  const json coarse = json::parse(bytes_of(out / "points/200-auto-0-linear-full-double-0.1.json"));
-  const json fine = json::parse(bytes_of(out / "points/400-auto-0-linear-full-double-0.1.json"));
+  const json coarse = json::parse(bytes_of(out / "points/300-auto-0-linear-full-double-0.1.json"));
+  const json fine = json::parse(bytes_of(out / "points/600-auto-0-linear-full-double-0.1.json"));
   EXPECT_GT(fine["percentile_95_mm"], 0.0);
   EXPECT_LT(fine["percentile_95_mm"], coarse["percentile_95_mm"]);
   EXPECT_GT(fine["whole_seconds"], fine["solve_seconds"]);
 
-  const fs::path point = out / "points/200-auto-0-linear-full-double-0.1.json";
+  const fs::path point = out / "points/300-auto-0-linear-full-double-0.1.json";
   const auto made = fs::last_write_time(point);
-  fs::remove(out / "points/400-auto-0-linear-full-double-0.1.json");
+  fs::remove(out / "points/600-auto-0-linear-full-double-0.1.json");
   ASSERT_EQ(sweep(lists).code, 0);
   EXPECT_EQ(fs::last_write_time(point), made) << "what is there is not done again";
-  EXPECT_TRUE(fs::exists(out / "points/400-auto-0-linear-full-double-0.1.json"));
-  ASSERT_EQ(sweep("--nodes 200 --precision double --reference-nodes 400 --set tissues.1.youngs_modulus=2000").code, 0);
+  EXPECT_TRUE(fs::exists(out / "points/600-auto-0-linear-full-double-0.1.json"));
+  ASSERT_EQ(sweep("--nodes 300 --precision double --reference-nodes 600 --set tissues.1.youngs_modulus=2000").code, 0);
   EXPECT_NE(fs::last_write_time(point), made) << "of another scene";
   EXPECT_TRUE(half_written(out).empty());
 }
