@@ -46,7 +46,7 @@ SeptumContact::SeptumContact(const Surface& sheet, const Points& positions, std:
 std::optional<SheetWalls::Foot> SeptumContact::faded_foot(std::size_t i, const NodalVectors& parameters,
                                                           std::int32_t& panel) const {
   std::optional<SheetWalls::Foot> foot = walls_.foot(nodes_.place(i, parameters), panel);
-  if (!foot) {
+  if (!foot || foot->gap >= 0) {
     return foot;
   }
   double to_rim = fade_;
@@ -54,7 +54,7 @@ std::optional<SheetWalls::Foot> SeptumContact::faded_foot(std::size_t i, const N
     to_rim = std::min(to_rim, (foot->place - nearest_on_segment(foot->place, edge[0], edge[1])).norm());
   }
   const double share = to_rim / fade_;
-  foot->gap *= foot->gap < 0 ? share * share : 1;
+  foot->gap *= share * share;
   return foot;
 }
 

@@ -48,7 +48,7 @@ class SeptumContact {
   std::vector<std::int32_t> panel_;  ///< of each node, where it was last
   PushedNodes nodes_;
   double fade_;                              ///< mm from the rim
-  std::vector<std::vector<Edge>> near_rim_;  ///< of each node, where it may come to
+  std::vector<std::vector<Edge>> near_rim_;  ///< of each node, within three times the reach
 };
 
 }  // namespace brainshift::solve

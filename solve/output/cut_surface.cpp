@@ -47,16 +47,18 @@ Points normals_where_smooth(const CutFacets& cut) {
   constexpr double alike = 0.5;  // cosine
   Points sum = Points::Zero(cut.vertices.rows(), 3);
   for (Eigen::Index f = 0; f < cut.facets.rows(); ++f) {
+    const Eigen::RowVector3d normal = normal_of(cut, f);
     for (int i = 0; i < vertices_a_facet(cut); ++i) {
-      sum.row(cut.facets(f, i)) += normal_of(cut, f).transpose();
+      sum.row(cut.facets(f, i)) += normal;
     }
   }
   sum.rowwise().normalize();
   Points smooth = sum;
   for (Eigen::Index f = 0; f < cut.facets.rows(); ++f) {
+    const Eigen::RowVector3d normal = normal_of(cut, f);
     for (int i = 0; i < vertices_a_facet(cut); ++i) {
       const std::int32_t v = cut.facets(f, i);
-      if (!(sum.row(v).dot(normal_of(cut, f)) > alike)) {
+      if (!(sum.row(v).dot(normal) > alike)) {
         smooth.row(v).setZero();
       }
     }

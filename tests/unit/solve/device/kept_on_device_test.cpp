@@ -93,7 +93,8 @@ TEST_P(UpdateOnDevice, HasNoSpringsOfAnEarlierLoad) {
   options.shape.basis = Basis::linear;
   KeptRun here = on_host(kept(own, options));
   KeptRun there = on_device(here, &backend());
-  for (const Model& model : {with_inner(own, 2), own, with_weight(own, 0.05), without_noise(own), with_inner(own, 1)}) {
+  for (const Model& model : {with_inner(own, 1), with_inner(own, 2), own, with_weight(own, 0.05), with_weight(own, 0.2),
+                             without_noise(own), with_inner(own, 2)}) {
     const SolveResult expected = update(here, model.conditions), answer = update(there, model.conditions);
     ASSERT_EQ(answer.failure, "");
     ASSERT_EQ(expected.failure, "");

@@ -27,7 +27,12 @@ SolveResult stepped(const Model& model, const SolveOptions& given, const Points&
   for (std::size_t a = 0; 4 * a < parameters.size(); ++a) {
     at(parameters, a).head<3>() = start.row(prepared.body.original[a]);
   }
-  return step_to_end(model, options, std::move(prepared), measures, std::move(parameters), {});
+  const std::optional<InsideBody> inside = prepared.cut ? std::optional(prepared.cut->inside) : std::nullopt;
+  SolveResult result = step_to_end(model, options, std::move(prepared), measures, std::move(parameters), {});
+  if (inside) {
+    draw_faces(*inside, result);
+  }
+  return result;
 }
 
 TEST(StepToEnd, KeepsWhatPreparingMeasuredAndAddsTheRest) {
@@ -114,7 +119,7 @@ TEST(StepToEnd, MeasuresTheContactWithTheSkull) {
   EXPECT_LE(farthest_free_node(result), wall + result.measures.largest_penetration + 1e-6);
 }
 
-TEST(StepToEnd, MeasuresACutAndItsSnapshots) {
+TEST(StepToEnd, MeasuresAndDrawsACutAndItsSnapshots) {
   Model model = test::strip(1.1);
   model.cuts = {test::cut_path({{10, -1}, {10, 12}})};
   SolveOptions options = test::plane_options();
@@ -126,9 +131,10 @@ TEST(StepToEnd, MeasuresACutAndItsSnapshots) {
   EXPECT_NEAR(cut.extent, 13 + model.cloud.spacing[0], 1e-9) << "mm; it is taken beyond its end outside";
   EXPECT_EQ(model.cloud.size() + cut.added_nodes, static_cast<std::size_t>(result.solution.positions.rows()));
   EXPECT_FALSE(cut.faces) << "nobody asked for their contact";
+  EXPECT_GT(result.faces.vertices.rows(), 0);
   ASSERT_FALSE(result.snapshots.empty());
   for (const Snapshot& snapshot : result.snapshots) {
-    EXPECT_EQ(snapshot.cut.facets, result.solution.cut.facets) << "it was cut from the start";
+    EXPECT_EQ(snapshot.faces.vertices, result.faces.vertices) << "it was cut from the start";
     EXPECT_EQ(snapshot.displacement.rows(), snapshot.positions.rows());
   }
 }

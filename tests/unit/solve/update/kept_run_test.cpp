@@ -237,7 +237,8 @@ TEST(KeptRun, WeighsTheNoiseOfEachLoadAsARunFromTheBeginning) {
   KeptRun run = kept(own, quick());
   EXPECT_GT(run.responses.count(), 0U);
   const Points there = run.origin.displacement;
-  for (const Model& model : {other, with_weight(own, 0.05), without_noise(other), with_inner(other, 2)}) {
+  for (const Model& model : {other, with_inner(own, 1), with_weight(other, 0.05), without_noise(other),
+                             with_weight(own, 0.2), with_inner(other, 2)}) {
     const SolveResult answer = update(run, model.conditions), anew = solve(model, quick());
     ASSERT_TRUE(answer.measures.converged) << answer.failure;
     EXPECT_LE(distance(answer.solution.displacement, anew.solution.displacement), 2 * quick().tolerance);
