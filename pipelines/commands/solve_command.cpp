@@ -136,6 +136,9 @@ std::optional<Load> load_of(const SolveArguments& arguments) {
   if (count > 1) {
     throw std::invalid_argument("give one of --load, --markups and --surfaces");
   }
+  if (count == 0 && arguments.scene.load) {
+    throw std::invalid_argument("--margin, --depth and --farthest are of a load; give --load, --markups or --surfaces");
+  }
   return count == 1 ? std::optional(load) : std::nullopt;
 }
 

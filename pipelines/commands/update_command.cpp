@@ -101,13 +101,16 @@ void add_update_command(CLI::App& program, const Settings& settings) {
   CLI::App* command = program.add_subcommand("update", "Solves a finished run under a new load, from its last state.");
   auto arguments = std::make_shared<UpdateArguments>();
   command->add_option("run_folder", arguments->run, "the --out of a run")->required()->type_name("RUN");
-  command
-      ->add_option("--load", arguments->load,
-                   "new displacements in the same opening, as craniotomy.csv; absent: only prepare the run for them")
-      ->type_name("FILE");
-  add_device_option(*command, arguments->device);
+  CLI::Option* load =
+      command
+          ->add_option(
+              "--load", arguments->load,
+              "new displacements in the same opening, as craniotomy.csv; absent: only prepare the run for them")
+          ->type_name("FILE");
+  add_device_option(*command, arguments->device)->needs(load);
   command->add_option("--out", arguments->out, "folder for solve/; RUN/update/NAME of NAME.csv if absent")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->needs(load);
   command->callback([arguments, &settings] { update(*arguments, settings); });
 }
 

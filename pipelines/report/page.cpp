@@ -135,7 +135,7 @@ json tiles(const PageContent& content, const json& stages, const std::vector<Mea
        tile(std::to_string(within) + " of " + std::to_string(bounded), "checks within their bounds"),
        tile(size("nodes"), "nodes"), tile(size("integration_points"), "integration points"),
        tile(readable(seconds) + " s", warped ? "from image to warped image" : "all stages that ran"),
-       tile(readable(memory / 1000) + " GB", "peak memory")});
+       tile(readable(memory * 1024 * 1024 / 1e9) + " GB", "peak memory")});
 }
 
 json figures_of(std::span<Figure> figures) {

@@ -55,7 +55,7 @@ Warnings warnings_of(const solve::Model& model, const Solution& solution) {
 
 std::string turn_fault(const solve::Model& model, const Solution& solution) {
   constexpr double no_answer = 15;  // degrees
-  const bool measured = solve::prescribed_nodes(model.conditions).size() > 0;
+  const bool measured = model.conditions.measured || solve::prescribed_nodes(model.conditions).size() > 0;
   const double angle = model.skull && !measured ? turn_of(solution) : 0;
   return angle < no_answer
              ? ""

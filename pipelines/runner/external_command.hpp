@@ -16,7 +16,8 @@ struct ExternalCommand {
 };
 
 /// Runs the command with /bin/sh; what it prints goes to out/command.log. Throws std::invalid_argument, with the exit
-/// code and the last line that it printed, when it does not exit with 0.
+/// code and the last lines that it printed, when it does not exit with 0, and std::runtime_error when the system cannot
+/// start it.
 void run_external_command(const ExternalCommand& command, Interruption& interruption);
 
 /// The command with {in} and {out} filled in, quoted for the shell.

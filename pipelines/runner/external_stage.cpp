@@ -36,20 +36,19 @@ void check_artefacts(StageId stage, const std::vector<std::string>& artefacts, c
   }
 }
 
-void run_command_stage(const ExternalCommand& command, const StagePlan& plan, Interruption& interruption) {
+void run_command_stage(const ExternalCommand& command, StageId stage, const std::vector<std::string>& artefacts,
+                       Interruption& interruption) {
   run_external_command(command, interruption);
-  for (const std::string& name : plan.artefacts) {
+  for (const std::string& name : artefacts) {
     if (!fs::exists(command.out / name)) {
-      throw std::invalid_argument("the command '" + command.command + "' of stage " +
-                                  std::string(stage_name(plan.stage)) + " wrote no " + name +
-                                  "; it must write it to the folder given as {out}");
+      throw std::invalid_argument("the command '" + command.command + "' of stage " + std::string(stage_name(stage)) +
+                                  " wrote no " + name + "; it must write it to the folder given as {out}");
     }
   }
   try {
-    check_artefacts(plan.stage, plan.artefacts, command.out);
+    check_artefacts(stage, artefacts, command.out);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("the command '" + command.command + "' of stage " +
-                                std::string(stage_name(plan.stage)) +
+    throw std::invalid_argument("the command '" + command.command + "' of stage " + std::string(stage_name(stage)) +
                                 " wrote something else than it must: " + error.what());
   }
 }
@@ -77,9 +76,10 @@ void make_external(StagePlan& plan, const Scene& scene, const fs::path& folder, 
     }
   }
   const fs::path in = folder;
-  StagePlan expected = plan;
-  plan.work = [command, in, directory, expected, &interruption](const fs::path& out, const Progress&) {
-    run_command_stage({.command = command, .in = in, .out = out, .directory = directory}, expected, interruption);
+  plan.work = [command, in, directory, stage = plan.stage, artefacts = plan.artefacts, &interruption](
+                  const fs::path& out, const Progress&) {
+    run_command_stage({.command = command, .in = in, .out = out, .directory = directory}, stage, artefacts,
+                      interruption);
     return StageReport{};
   };
 }

@@ -2,6 +2,7 @@
 #include "pipelines/runner/jobs.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "pipelines/checksum/sha256.hpp"
@@ -79,6 +80,9 @@ StageReport run_job(const DiscretiseJob& job, const fs::path& out, const Progres
 }
 
 StageReport run_job(const RegisterJob& job, const fs::path& out, const Progress& progress) {
+  std::vector<fs::path> to_warp = job.warp;
+  std::ranges::copy(job.warp_labels, std::back_inserter(to_warp));
+  check_to_warp(to_warp, out);
   report(progress, 0, "reading");
   registration::RegisterInput input;
   input.solution = read_solution(job.solution);

@@ -189,7 +189,8 @@ Warnings warnings_of(const solve::CraniotomyLoad& load, const NodeCloud& cloud, 
                        "were they measured there, and are load and image in the same frame?");
   }
   if (measured.cortex.rows() > 0) {
-    append(warnings_of({measured.cortex, measured.cortex_displacement}, cloud, conditions.displacement), warnings);
+    append(warnings_of({measured.cortex, measured.cortex_displacement, measured.sigma}, cloud, conditions.displacement),
+           warnings);
   } else {
     append(warnings_of_neighbours(load), warnings);  // of these alone outliers() names none
   }

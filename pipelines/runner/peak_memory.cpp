@@ -12,7 +12,7 @@ namespace brainshift::pipelines {
 
 namespace {
 
-/// The kilobytes behind a word of one of the system's tables, as MB.
+/// The kilobytes behind a word of one of the system's tables, as MiB.
 std::optional<double> megabytes_in(const char* table, const std::string& name) {
   std::ifstream stream(table);
   for (std::string word; stream >> word;) {

@@ -14,6 +14,7 @@
 #include "register/field/nodal_values.hpp"
 #include "segmentation/files/not_written.hpp"
 #include "segmentation/files/vtu_file.hpp"
+#include "segmentation/options/values.hpp"
 #include "solve/run/measured_covariance.hpp"
 #include "solve/uncertainty/draw.hpp"
 #include "solve/uncertainty/sample.hpp"
@@ -155,7 +156,8 @@ void write_covariance(const fs::path& file, const Points& places, const solve::S
   stream << "# frame: LPS\n"
          << (known ? "# of the load's noise alone: constants are taken as known\n" : "") << "x,y,z,xx,yy,zz,xy,yz,zx\n";
   for (Eigen::Index row = 0; row < places.rows(); ++row) {
-    stream << places(row, 0) << ',' << places(row, 1) << ',' << places(row, 2);
+    stream << write_number(places(row, 0)) << ',' << write_number(places(row, 1)) << ','
+           << write_number(places(row, 2));
     for (const double entry : covariance.row(row)) {
       stream << ',';
       if (std::isfinite(entry)) {

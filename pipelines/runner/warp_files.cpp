@@ -72,20 +72,6 @@ std::vector<fs::path> names_of(const fs::path& file) {
   return names;
 }
 
-void check_names(const std::vector<fs::path>& files, const fs::path& out) {
-  std::set<fs::path> names;
-  for (const fs::path& file : files) {
-    if (!fs::exists(file)) {
-      refuse(file, "no such file; check the path");
-    }
-    for (const fs::path& name : names_of(file)) {
-      if (fs::exists(out / name) || !names.insert(name).second) {
-        refuse(file, "there is a " + name.string() + " already; rename the file that is to be warped");
-      }
-    }
-  }
-}
-
 /// A sequence has the fields of each state.
 void check_is_one_state(const fs::path& run) {
   if (const auto record = read_run_record(run); record.is_object() && record.contains("states")) {
@@ -161,9 +147,23 @@ void refuse_stage_folder(const fs::path& out) {
   }
 }
 
+void check_to_warp(const std::vector<fs::path>& files, const fs::path& out) {
+  std::set<fs::path> names;
+  for (const fs::path& file : files) {
+    if (!fs::exists(file)) {
+      refuse(file, "no such file; check the path");
+    }
+    for (const fs::path& name : names_of(file)) {
+      if (fs::exists(out / name) || !names.insert(name).second) {
+        refuse(file, "there is a " + name.string() + " already; rename the file that is to be warped");
+      }
+    }
+  }
+}
+
 std::vector<std::string> warp_files(const std::vector<fs::path>& files, registration::RegisterFields& fields,
                                     const fs::path& out, const registration::WarpAnyOptions& options) {
-  check_names(files, out);
+  check_to_warp(files, out);
   std::vector<std::string> notes;
   for (const fs::path& file : files) {
     notes.push_back(told(file, registration::warp_any(file, fields, out / registration::warped_name(file), options)));

@@ -21,8 +21,12 @@ struct WarpJob {
 /// Throws std::invalid_argument where what is warped would lie among the files of a run's stage.
 void refuse_stage_folder(const std::filesystem::path& out);
 
-/// Writes each to a folder as warped_NAME. Returns a sentence on each. Throws std::invalid_argument, before anything is
-/// written, where a file is missing, two would get one name or one would be written over, and as warp_any().
+/// Throws std::invalid_argument where a file is missing, two would get one name in the folder, or one there would be
+/// written over.
+void check_to_warp(const std::vector<std::filesystem::path>& files, const std::filesystem::path& out);
+
+/// Writes each to a folder as warped_NAME. Returns a sentence on each. Throws as check_to_warp(), before anything is
+/// written, and as warp_any().
 std::vector<std::string> warp_files(const std::vector<std::filesystem::path>& files,
                                     registration::RegisterFields& fields, const std::filesystem::path& out,
                                     const registration::WarpAnyOptions& options);

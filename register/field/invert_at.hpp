@@ -38,9 +38,9 @@ BRAINSHIFT_ON_DEVICE inline Inverse invert_at(const FieldGrid& forward, const Ei
   for (int n = 0; n < most_steps && residual.norm() > stop; ++n) {
     Eigen::Vector3d step = step_from(residual, by_index * to_voxels);
     Eigen::Vector3d next = residual;
-    for (int halving = 0; halving < most_halvings; ++halving) {
+    for (int halving = 0;; ++halving) {
       next = d + step + forward.value_and_gradient(y + to_voxels * (d + step), by_index);
-      if (next.norm() < residual.norm()) {
+      if (next.norm() < residual.norm() || halving == most_halvings) {
         break;
       }
       step /= 2;

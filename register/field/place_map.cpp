@@ -29,20 +29,24 @@ std::optional<Eigen::Vector3d> inverse_at(const PlaceMap& map, const Eigen::Vect
   constexpr int most_steps = 40, most_halvings = 6;
   Eigen::Vector3d y = x;
   std::optional<Eigen::Vector3d> there = map(y);
-  for (int n = 0; n < most_steps && there; ++n) {
+  for (int n = 0; there; ++n) {
     const Eigen::Vector3d off = *there - x;
     if (off.norm() <= tolerance) {
       return y;
+    }
+    if (n == most_steps) {
+      break;
     }
     const Eigen::Matrix3d gradient = gradient_at(map, y);
     constexpr double folds = 0.02;  // of the determinant: there Newton's step would lead astray
     Eigen::Vector3d step = gradient.determinant() > folds ? Eigen::Vector3d(-gradient.inverse() * off) : -off;
     std::optional<Eigen::Vector3d> next;
-    for (int halving = 0; halving <= most_halvings; ++halving, step /= 2) {
+    for (int halving = 0;; ++halving) {
       next = map(y + step);
-      if (next && (*next - x).norm() < off.norm()) {
+      if ((next && (*next - x).norm() < off.norm()) || halving == most_halvings) {
         break;
       }
+      step /= 2;
     }
     y += step;
     there = next;

@@ -28,7 +28,7 @@ std::filesystem::path warped_name(const std::filesystem::path& in) {
     return name + ".nii.gz";
   }
   for (const std::string_view ending : {".mgz", ".mgh", ".mgh.gz", ".nii", ".nii.gz"}) {
-    if (in_lower_case(name).ends_with(ending)) {  // images are written by lower-case endings alone
+    if (in_lower_case(name).ends_with(ending)) {  // whatever its capitals
       name.resize(name.size() - ending.size());
       return name + (ending == ".nii" ? ".nii" : ".nii.gz");
     }

@@ -68,9 +68,8 @@ void add_septum(const Septum& septum, double spacing, CutBody& body) {
 
 void check(const Cut& cut, bool planar, const InsideBody& inside, double spacing) {
   if (cut.is_path() != planar) {
-    throw std::invalid_argument(cut.name + (planar
-                                                ? ": a sheet cuts a body in space; in a plane problem give a path"
-                                                : ": a path cuts a plane body; in space give a sheet (.vtp or .stl)"));
+    throw std::invalid_argument(cut.name + (planar ? ": a sheet cuts a body in space; in a plane problem give a path"
+                                                   : ": a path cuts a plane body; in space give a sheet of triangles"));
   }
   if (!meets(cut, inside, spacing)) {
     throw std::invalid_argument(cut.name +

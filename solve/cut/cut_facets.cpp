@@ -123,7 +123,7 @@ std::vector<double> sheet_times(const Cut& sheet, double stride) {
   const double share = stride * std::sqrt(area(whole));
   std::vector<std::pair<double, double>> areas;  // by time
   for (Eigen::Index t = 0; t < sheet.triangles.rows(); ++t) {
-    areas.emplace_back(time_of(sheet, t), area({sheet.vertices, sheet.triangles.row(t)}));
+    areas.emplace_back(time_of(sheet, t), triangle(whole, t).area_vector().norm());
   }
   std::sort(areas.begin(), areas.end());
   std::vector<double> times;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/options/values.hpp"
 #include "solve/cut/self_crossing.hpp"
 #include "solve/cut/sheet_topology.hpp"
 
@@ -23,7 +24,7 @@ std::vector<double> read_times(const std::filesystem::path& file) {
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(file.c_str());
   if (reader->CanReadFile(file.c_str()) == 0) {
-    return {};  // .stl
+    return {};  // no .vtp
   }
   reader->Update();
   vtkDataArray* array = reader->GetOutput()->GetPointData()->GetArray("time");
@@ -39,7 +40,7 @@ std::vector<double> read_times(const std::filesystem::path& file) {
     times.push_back(array->GetTuple1(i));
     if (!std::isfinite(times.back()) || times.back() < 0) {
       throw std::invalid_argument(file.string() + ": the time of point " + std::to_string(i + 1) + " is " +
-                                  std::to_string(times.back()) +
+                                  write_number(times.back()) +
                                   "; times of the load's curve are expected, finite and 0 or later");
     }
   }

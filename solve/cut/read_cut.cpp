@@ -2,18 +2,17 @@
 #include "solve/cut/read_cut.hpp"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <string>
 
 #include "segmentation/files/lower_case.hpp"
+#include "segmentation/files/surface_file.hpp"
 #include "solve/cut/cut_path.hpp"
 #include "solve/cut/cut_sheet.hpp"
 
 namespace brainshift::solve {
 
 Cut read_cut(const std::filesystem::path& file, const CutTiming& timing) {
-  constexpr std::array sheets = {".vtp", ".stl", ".ply", ".obj"};
   if (!std::filesystem::is_regular_file(file)) {
     throw std::invalid_argument(file.string() + ": there is no such file; a cut was expected");
   }
@@ -21,9 +20,9 @@ Cut read_cut(const std::filesystem::path& file, const CutTiming& timing) {
   if (ending == ".csv") {
     return read_cut_path(file, timing);
   }
-  if (std::find(sheets.begin(), sheets.end(), ending) == sheets.end()) {
-    throw std::invalid_argument(file.string() +
-                                ": a cut ends in .csv (a path in a plane), .vtp, .stl, .ply or .obj (a sheet)");
+  if (std::ranges::count(surface_endings, ending) == 0) {
+    throw std::invalid_argument(file.string() + ": a cut ends in .csv (a path in a plane) or is a sheet, " +
+                                listed_surface_endings);
   }
   return read_cut_sheet(file, timing);
 }

@@ -11,8 +11,8 @@ namespace brainshift::solve {
 /// read or check_septum() refuses it.
 Septum read_septum(const std::filesystem::path& file);
 
-/// Throws std::invalid_argument, naming the septum, when it has no triangle, one without area, or one side only, and
-/// in a plane problem.
+/// Throws std::invalid_argument, naming the septum, when it has no triangle, or one without area, and in a plane
+/// problem.
 void check_septum(const Septum& septum, bool planar);
 
 }  // namespace brainshift::solve

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <random>
 
@@ -12,7 +13,7 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double sharpest_turn = 70.0 / 180 * 3.14159265358979;
+constexpr double sharpest_turn = 70.0 / 180 * std::numbers::pi;
 constexpr double apart = 3;  // distances between a new tear and what is cut
 
 constexpr double overshoot = 1.25;  // a tear that so nearly reaches another cut runs into it

@@ -78,11 +78,10 @@ void check_near_surface(const Points& measured, const Points& surface, double fa
   }
   if (as_given.farthest > farthest_allowed) {
     const Eigen::RowVector3d p = measured.row(as_given.farthest_row);
-    throw std::invalid_argument(
-        "load: measured point " + std::to_string(as_given.farthest_row + 1) + " of " + std::to_string(measured.rows()) +
-        " at (" + with_decimals(p.x()) + ", " + with_decimals(p.y()) + ", " + with_decimals(p.z()) + ") LPS is " +
-        with_decimals(as_given.farthest) + " mm from the nearest surface node, " + with_decimals(farthest_allowed) +
-        " mm are allowed; are image and load in the same frame?");
+    throw std::invalid_argument(  // by its place: the caller may have left out points, and joined others
+        "load: the measured point at (" + with_decimals(p.x()) + ", " + with_decimals(p.y()) + ", " +
+        with_decimals(p.z()) + ") LPS is " + with_decimals(as_given.farthest) + " mm from the nearest surface node, " +
+        with_decimals(farthest_allowed) + " mm are allowed; are image and load in the same frame?");
   }
 }
 

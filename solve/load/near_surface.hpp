@@ -11,7 +11,7 @@ namespace brainshift::solve {
 /// where a number is not finite.
 void check_load(const CraniotomyLoad& load);
 
-/// Throws std::invalid_argument, with the distance and the point, when a measured point lies farther from every node of
+/// Throws std::invalid_argument, with the distance and the place, when a measured point lies farther from every node of
 /// the surface than is allowed (mm); and when the points lie off the surface as they are and on it with x and y turned:
 /// RAS was then taken for LPS, or LPS for RAS.
 void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed);

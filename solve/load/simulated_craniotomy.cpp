@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "segmentation/geometry/surface_tree.hpp"
+#include "segmentation/options/values.hpp"
 #include "solve/load/craniotomy_load.hpp"
 #include "solve/load/load_options.hpp"
 
@@ -77,7 +78,7 @@ CraniotomyLoad simulated_craniotomy(const Surface& brain, const SimulatedCraniot
   });
   if (under.size() < 3) {
     throw std::invalid_argument("craniotomy: only " + std::to_string(under.size()) +
-                                " vertices of the brain's surface lie within " + std::to_string(opening.radius) +
+                                " vertices of the brain's surface lie within " + write_number(opening.radius) +
                                 " mm of the opening's centre; use a wider opening or a finer surface");
   }
   CraniotomyLoad load{brain.vertices(under, Eigen::all), Points(static_cast<Eigen::Index>(under.size()), 3)};

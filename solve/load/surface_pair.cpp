@@ -11,6 +11,7 @@
 #include "segmentation/geometry/loose_vertices.hpp"
 #include "segmentation/geometry/quantile.hpp"
 #include "segmentation/geometry/surface_tree.hpp"
+#include "segmentation/options/values.hpp"
 #include "solve/load/craniotomy_load.hpp"
 
 namespace brainshift::solve {
@@ -81,7 +82,7 @@ void check_together(const Points& positions, const std::vector<SurfacePlace>& pl
     distances.push_back((places[v].position.transpose() - positions.row(static_cast<Eigen::Index>(v))).norm());
   }
   if (const double usual = median(std::move(distances)); usual > farthest_median) {
-    throw std::invalid_argument("load: the surfaces before and after are " + std::to_string(usual) +
+    throw std::invalid_argument("load: the surfaces before and after are " + with_decimals(usual) +
                                 " mm apart (median), farther than a brain shifts; are both in the same frame?");
   }
 }

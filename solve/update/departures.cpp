@@ -68,7 +68,11 @@ void Departures::add_expected(const Responses& responses, const Points& change, 
     known(i, i) += lesson.left_open * lesson.left_open;
     with_asked[i] = covariance(lesson, asked);
   });
-  const Eigen::VectorXf shares = known.llt().solve(with_asked).cast<float>();
+  const Eigen::LLT<Eigen::MatrixXd> factor(known);
+  if (factor.info() != Eigen::Success) {
+    return;  // lessons that tell the same
+  }
+  const Eigen::VectorXf shares = factor.solve(with_asked).cast<float>();
   const auto nodes = static_cast<Eigen::Index>(first_order.size() / 4);
   Eigen::Map<Eigen::Matrix4Xd> start(first_order.data(), 4, nodes);
   share_work((nodes + nodes_a_part - 1) / nodes_a_part, 1, [&](std::int64_t part) {

@@ -264,6 +264,7 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
   if (!stepped.failure.empty() && course.settled && std::isfinite(run.trusted)) {  // a trial is to see it fail
     run.fine.body = std::move(stepped.body);
     course.settled.reset();
+    course.start = told;
     stepped = come_to_rest(run, course, progress);
   }
   if (!stepped.failure.empty()) {

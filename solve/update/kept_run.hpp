@@ -44,7 +44,8 @@ inline SolveResult update(KeptRun& kept, const Points& prescribed, const Progres
   return update(kept, Conditions{.displacement = prescribed}, progress);
 }
 
-/// Writes it whole or not at all. key: of what it was made from. Throws std::runtime_error, naming the file.
+/// Writes it whole or not at all. key: a checksum of what it was made from, at most 128 characters. Throws
+/// std::runtime_error, naming the file.
 void write_kept(const std::filesystem::path& file, const KeptRun& kept, const std::string& key);
 
 /// Nothing where there is no such file, it has another key, or it is damaged. materials, options: those of

@@ -21,7 +21,7 @@ COLUMNS = {  # name: where it stands in run.json, what it is, its unit
 }
 COSTS = {
     "seconds": ("Wall time of all stages", "s"),
-    "peak_memory_mb": ("Most memory that a stage held", "MB"),
+    "peak_memory_mb": ("Most memory that a stage held", "MiB"),
 }
 WARNINGS = {
     "warnings": ("Warnings that the stages of the run gave", ""),

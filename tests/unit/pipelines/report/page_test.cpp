@@ -83,7 +83,7 @@ TEST(Page, TurnsWithLibrariesAndAnImageAndElseSaysWhyNot) {
 TEST(Page, ShowsWhatTheRunMeasured) {
   const std::string page = make_page(full_content());
   for (const char* text : {"scene &lt;a &amp; b&gt;.xml, brainshift 9.8, 3 threads", "12,000", "34,000", "12.5 s",
-                           "2.5 GB", "0 of 1", ">OUTSIDE<", "12 mm under the centre", "true to scale", "linear"}) {
+                           "2.62 GB", "0 of 1", ">OUTSIDE<", "12 mm under the centre", "true to scale", "linear"}) {
     EXPECT_TRUE(has(page, text)) << text;
   }
   EXPECT_FALSE(has(page, ">shape ")) << "an option without a value";

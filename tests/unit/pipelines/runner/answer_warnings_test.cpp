@@ -49,6 +49,9 @@ TEST(AnswerWarnings, TellOfABrainThatTurnsInItsSkullWhichIsNoAnswerWhereNothingE
   expect_parts(turn_fault(model, turned(30)), {"turned by 30 degrees", "give a measured load"});
   model.conditions.displacement = prescribed_on_top();
   EXPECT_EQ(turn_fault(model, turned(30)), "") << "as measured";
+  model.conditions = {};
+  model.conditions.measured.emplace();
+  EXPECT_EQ(turn_fault(model, turned(30)), "") << "as measured inside alone, where no node is prescribed";
 }
 
 TEST(AnswerWarnings, TellOfAnErrorThatIsLargeBesideTheAnswer) {

@@ -387,7 +387,11 @@ TEST_F(JobsTest, ARegistrationWarpsMoreFilesButNoTwoOfOneName) {
                   .options = {}};
   expect_parts(refusal([&] { run_job(job, folder_ / "out", {}); }),
                {"other/flair.nii.gz: there is a warped_flair.nii.gz already", "rename"});
-  EXPECT_FALSE(fs::exists(folder_ / "out/warped_flair.nii.gz"));
+  EXPECT_TRUE(fs::is_empty(folder_ / "out"));
+  job.warp.pop_back();
+  job.warp_labels = {folder_ / "mistyped.nii.gz"};
+  expect_parts(refusal([&] { run_job(job, folder_ / "out", {}); }), {"mistyped.nii.gz: no such file"});
+  EXPECT_TRUE(fs::is_empty(folder_ / "out")) << "what is missing is said before anything is computed";
 }
 
 }  // namespace brainshift::pipelines::jobs_test
