@@ -15,7 +15,7 @@ namespace brainshift::registration::device {
 namespace {
 
 VoxelGrid voxel_grid(const ImageGeometry& g) {
-  return {g.size, g.spacing, g.origin, g.direction, (g.direction * g.spacing.asDiagonal()).inverse()};
+  return {g.size, g.spacing, g.origin, g.direction, g.index_from_world()};
 }
 
 DistanceGrid put(const SignedDistance& distance, solve::device::Memory& memory) {

@@ -14,9 +14,7 @@ namespace brainshift::registration {
 class FieldSampler {
  public:
   explicit FieldSampler(const VectorImage& field)
-      : field_(field),
-        origin_(field.geometry.origin),
-        index_from_world_((field.geometry.direction * field.geometry.spacing.asDiagonal()).inverse()) {}
+      : field_(field), origin_(field.geometry.origin), index_from_world_(field.geometry.index_from_world()) {}
 
   const VectorImage& field() const { return field_; }
 

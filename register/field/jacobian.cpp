@@ -29,7 +29,7 @@ Eigen::Matrix3d gradient_by_index(const VectorImage& field, const Eigen::Array3i
 
 ScalarImage jacobian(const VectorImage& forward) {
   const ImageGeometry& g = forward.geometry;
-  const Eigen::Matrix3d index_from_world = (g.direction * g.spacing.asDiagonal()).inverse();
+  const Eigen::Matrix3d index_from_world = g.index_from_world();
   ScalarImage result{g, std::vector<float>(g.voxel_count())};
   for_each_voxel_in_parallel(g.size, [&](int i, int j, int k) {
     const Eigen::Matrix3d by_world = gradient_by_index(forward, {i, j, k}) * index_from_world;

@@ -6,27 +6,10 @@
 #include "register/field/forward_field.hpp"
 #include "register/field/outside.hpp"
 #include "solve/output/solution_file.hpp"
+#include "solve/shape/nodal_displacement.hpp"
 #include "solve/shape/shape_functions.hpp"
 
 namespace brainshift::registration {
-
-namespace {
-
-Points product(const solve::ShapeRows& rows, const Points& values) {
-  Points sums(static_cast<Eigen::Index>(rows.size()), 3);
-#pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const solve::ShapeRow row = rows[i];
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (std::size_t k = 0; k < row.node.size(); ++k) {
-      sum += row.value[k] * values.row(row.node[k]);
-    }
-    sums.row(static_cast<Eigen::Index>(i)) = sum;
-  }
-  return sums;
-}
-
-}  // namespace
 
 RepeatedField::RepeatedField(const Solution& solution, const Surface& brain, const ImageGeometry& grid, double fade)
     : grid_(grid), fade_(fade), spacing_(least_spacing(solution.spacing)), zones_(brain_zones(brain, grid, fade)) {
@@ -40,8 +23,8 @@ RepeatedField::RepeatedField(const Solution& solution, const Surface& brain, con
 
 VectorImage RepeatedField::forward(const Points& parameters) {
   std::size_t part = 0;
-  return forward_field([&](const Points&) { return product(rows_[part++], parameters); }, spacing_, zones_, grid_,
-                       fade_, {}, &plan_);
+  return forward_field([&](const Points&) { return solve::values_of(rows_[part++], parameters); }, spacing_, zones_,
+                       grid_, fade_, {}, &plan_);
 }
 
 ImageGeometry covering_grid(const ImageGeometry& image, double spacing) {

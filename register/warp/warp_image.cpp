@@ -30,7 +30,7 @@ Image<T> resample(const Image<T>& image, const VectorImage& resampling, const Im
   const FieldSampler field(resampling);
   const bool on_own_grid = same_geometry(g, grid);
   const bool on_the_fields_grid = same_geometry(grid, resampling.geometry);
-  const Eigen::Matrix3d to_voxels = (g.direction * g.spacing.asDiagonal()).inverse();
+  const Eigen::Matrix3d to_voxels = g.index_from_world();
   const Eigen::Array3d high = g.size.cast<double>() - 0.5;
   const auto field_at = [&](const Eigen::Vector3d& index) -> Eigen::Vector3d {
     const Eigen::Vector3d at = field.to_index(grid.to_world(index));

@@ -18,6 +18,10 @@ Eigen::Vector3d ImageGeometry::to_index(const Eigen::Vector3d& world) const {
   return (inverse * (world - origin)).cwiseQuotient(spacing);
 }
 
+Eigen::Matrix3d ImageGeometry::index_from_world() const {
+  return (direction * spacing.asDiagonal()).inverse();
+}
+
 bool same_geometry(const ImageGeometry& a, const ImageGeometry& b) {
   if ((a.size != b.size).any()) {
     return false;

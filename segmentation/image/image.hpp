@@ -32,6 +32,8 @@ struct ImageGeometry {
   Eigen::Vector3d to_world(const Eigen::Vector3d& index) const;
   /// Continuous voxel index of a world position.
   Eigen::Vector3d to_index(const Eigen::Vector3d& world) const;
+  /// ∂index/∂world, 1/mm: turns a displacement into voxels.
+  Eigen::Matrix3d index_from_world() const;
   /// Volume of a voxel, mm³.
   double voxel_volume() const { return spacing.prod(); }
 };

@@ -36,19 +36,6 @@ std::int32_t to(const Surface& sheet, const Side& side) {
   throw std::invalid_argument(text.str());
 }
 
-void check_triangles(const Surface& sheet, const std::string& name) {
-  constexpr double least_height = 1e-6;  // of the longest side
-  for (Eigen::Index t = 0; t < sheet.triangles.rows(); ++t) {
-    const Eigen::Vector3d a = sheet.vertices.row(sheet.triangles(t, 0));
-    const Eigen::Vector3d b = sheet.vertices.row(sheet.triangles(t, 1));
-    const Eigen::Vector3d c = sheet.vertices.row(sheet.triangles(t, 2));
-    const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    if (!((b - a).cross(c - a).norm() > least_height * longest)) {
-      refuse(name, "triangle " + std::to_string(t + 1) + " has no area", (a + b + c).transpose() / 3, "remove it");
-    }
-  }
-}
-
 Edges edges_of(const Surface& sheet) {
   Edges edges;
   for (Eigen::Index t = 0; t < sheet.triangles.rows(); ++t) {
@@ -190,6 +177,19 @@ void check_rims(const Surface& sheet, const Edges& edges, const std::string& nam
 }
 
 }  // namespace
+
+void check_triangles(const Surface& sheet, const std::string& name) {
+  constexpr double least_height = 1e-6;  // of the longest side
+  for (Eigen::Index t = 0; t < sheet.triangles.rows(); ++t) {
+    const Eigen::Vector3d a = sheet.vertices.row(sheet.triangles(t, 0));
+    const Eigen::Vector3d b = sheet.vertices.row(sheet.triangles(t, 1));
+    const Eigen::Vector3d c = sheet.vertices.row(sheet.triangles(t, 2));
+    const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    if (!((b - a).cross(c - a).norm() > least_height * longest)) {
+      refuse(name, "triangle " + std::to_string(t + 1) + " has no area", (a + b + c).transpose() / 3, "remove it");
+    }
+  }
+}
 
 Surface oriented_sheet(Surface sheet, const std::string& name) {
   check_triangles(sheet, name);

@@ -5,6 +5,7 @@
 
 #include "solve/measured/inner_rows.hpp"
 #include "solve/measured/weight.hpp"
+#include "solve/shape/nodal_displacement.hpp"
 
 namespace brainshift::solve {
 
@@ -34,17 +35,6 @@ Eigen::MatrixXd covariance_of(const ShapeRows& rows, const Eigen::MatrixXd& join
     result.row(static_cast<Eigen::Index>(i)) = six_entries(sum);
   }
   return result;
-}
-
-/// Φ û of each row, (rows × 3).
-Points values_of(const ShapeRows& rows, const Points& parameters) {
-  Points values = Points::Zero(static_cast<Eigen::Index>(rows.size()), 3);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t a = 0; a < rows[i].size(); ++a) {
-      values.row(static_cast<Eigen::Index>(i)) += rows[i].value[a] * parameters.row(rows[i].node[a]);
-    }
-  }
-  return values;
 }
 
 /// The displacement of an answer as rows of the thinned body see it. displacement: at the nodes of the whole cloud.

@@ -19,6 +19,19 @@ NodalVectors displacement_of(const ShapeRows& rows, const NodalVectors& paramete
   return displacement;
 }
 
+Points values_of(const ShapeRows& rows, const Points& nodal) {
+  Points values(static_cast<Eigen::Index>(rows.size()), 3);
+  share_work(values.rows(), nodes_a_part, [&](std::int64_t i) {
+    const ShapeRow row = rows[static_cast<std::size_t>(i)];
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      sum += row.value[k] * nodal.row(row.node[k]);
+    }
+    values.row(i) = sum;
+  });
+  return values;
+}
+
 Points nodal_displacement(const ShapeRows& rows, const NodalVectors& parameters,
                           const std::vector<std::int32_t>& original) {
   const NodalVectors ordered = displacement_of(rows, parameters);
