@@ -140,13 +140,14 @@ void write_wall(const std::vector<std::uint16_t>& resected, const LabelMap& labe
                                      {"boundary_distance_95_mm", wall.measures.boundary_distance_95}};
 }
 
-}  // namespace
+const fs::path& tumour_file(const SegmentJob& job) {
+  return job.image.tumour.empty() ? job.image.tumour_mask : job.image.tumour;
+}
 
-StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& progress) {
+/// The files as they are; what a table told of the labels goes to the options.
+segmentation::SegmentInput read_files(const SegmentJob& job, segmentation::SegmentOptions& options,
+                                      std::vector<std::string>& notes) {
   segmentation::SegmentInput input;
-  segmentation::SegmentOptions options = job.options;
-  std::vector<std::string> notes;
-  report(progress, 0, "reading");
   if (!job.image.t1.empty()) {
     input.t1 = read_image(job.image.t1);
   }
@@ -164,7 +165,12 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
   if (input.labels && job.reading.by_class) {
     set_classes(*input.labels, input.tumour_mask.has_value(), options);
   }
-  const fs::path& tumour = job.image.tumour.empty() ? job.image.tumour_mask : job.image.tumour;
+  return input;
+}
+
+/// Takes all maps to one grid, that of the T1 if there is one.
+void take_together(const SegmentJob& job, const segmentation::SegmentOptions& options,
+                   segmentation::SegmentInput& input, std::vector<std::string>& notes) {
   if (input.labels) {
     note_cut(*input.labels, job.image.labels, options.brain_labels, input.t1, notes);
   } else if (input.brain_mask) {
@@ -173,12 +179,22 @@ StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& 
   if (input.t1) {
     take_to_grid(input.labels, job.image.labels, input.t1->geometry, job.image.t1, notes, options.brain_labels);
     take_to_grid(input.brain_mask, job.image.brain_mask, input.t1->geometry, job.image.t1, notes);
-    take_to_grid(input.tumour_mask, tumour, input.t1->geometry, job.image.t1, notes);
+    take_to_grid(input.tumour_mask, tumour_file(job), input.t1->geometry, job.image.t1, notes);
   } else if (input.labels) {
-    take_to_grid(input.tumour_mask, tumour, input.labels->geometry, job.image.labels, notes);
+    take_to_grid(input.tumour_mask, tumour_file(job), input.labels->geometry, job.image.labels, notes);
   }
+}
+
+}  // namespace
+
+StageReport run_job(const SegmentJob& job, const fs::path& out, const Progress& progress) {
+  segmentation::SegmentOptions options = job.options;
+  std::vector<std::string> notes;
+  report(progress, 0, "reading");
+  segmentation::SegmentInput input = read_files(job, options, notes);
+  take_together(job, options, input, notes);
   if (input.labels && input.tumour_mask) {
-    note_both_tumours(*input.labels, *input.tumour_mask, job, tumour, notes);
+    note_both_tumours(*input.labels, *input.tumour_mask, job, tumour_file(job), notes);
   }
   std::ranges::copy(
       frame_warnings({job.image.t1, job.image.labels, job.image.brain_mask, job.image.tumour, job.image.tumour_mask}),
