@@ -37,16 +37,14 @@ if [[ $(nvcc --version 2> /dev/null) =~ release\ 1[2-9] ]]; then
   cuda=(-DBRAINSHIFT_CUDA=ON -DBRAINSHIFT_CUDA_ARCHITECTURES=$architecture)
 fi
 
-# Clang compiles the unit tests in a third of GCC's time, and the sanitizers' checks in half of it; and it warns of other
-# things. The tests that it has compiled are linked with both builds.
 developer=(-DBRAINSHIFT_TESTS=ON -DBRAINSHIFT_DEVELOPER=ON)
-sanitized=(-DBRAINSHIFT_SANITIZE=ON -DBRAINSHIFT_FUZZ=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1'
-  -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14)
-build build-sanitize unit_test_objects "${developer[@]}" "${sanitized[@]}"
-build build all "${developer[@]}" "${cuda[@]}" -DBRAINSHIFT_TEST_OBJECTS="$root/build-sanitize" \
-  -DCMAKE_BUILD_TYPE=Release
+build build all "${developer[@]}" "${cuda[@]}" -DCMAKE_BUILD_TYPE=Release
 ctest --test-dir build --output-on-failure --parallel "$(processors)"
 
-build build-sanitize unit_tests "${developer[@]}" "${sanitized[@]}"
+# Clang compiles the sanitizers' checks in half of GCC's time, and warns of other things. The tests themselves are those
+# of the release build.
+build build-sanitize unit_tests "${developer[@]}" -DBRAINSHIFT_SANITIZE=ON -DBRAINSHIFT_FUZZ=ON \
+  -DBRAINSHIFT_TEST_OBJECTS="$root/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' \
+  -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14
 LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
   ctest --test-dir build-sanitize --label-regex unit --output-on-failure --parallel "$(processors)"

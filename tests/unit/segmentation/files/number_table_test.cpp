@@ -30,8 +30,7 @@ TEST(NumberTable, IsRefusedWithFileAndLine) {
            {"x,y\n1,2,3\n", "t.csv:2: 2 numbers x,y are expected, found \"1,2,3\""},
            {"x,y\n1,\n", "t.csv:2: a finite number is expected"},
            {"x,y\n1,nan\n", "t.csv:2: a finite number is expected, found \"nan\""}}) {
-    const std::filesystem::path file = folder.write("t.csv", text);
-    const std::string fault = refusal([&] { read_number_table(file, headers); });
+    const std::string fault = refusal([&] { read_number_table(folder.write("t.csv", text), headers); });
     EXPECT_NE(fault.find(said), std::string::npos) << fault;
   }
 }

@@ -142,9 +142,8 @@ TEST(ImageHeader, ANiftiFieldWithScaledVectorsIsRefused) {
     return folder.write("a.nii", bytes);
   };
   for (const auto& [slope, intercept] : {std::pair(2.0F, 0.0F), {1.0F, -1.0F}}) {
-    const std::filesystem::path file = scaled(slope, intercept);
-    EXPECT_TRUE(
-        throws_saying<std::invalid_argument>([&] { read_nifti_header(file); }, {"a.nii", "its vectors are scaled"}));
+    EXPECT_TRUE(throws_saying<std::invalid_argument>([&] { read_nifti_header(scaled(slope, intercept)); },
+                                                     {"a.nii", "its vectors are scaled"}));
   }
   for (const float slope : {0.0F, 1.0F, not_a_number}) {
     EXPECT_EQ(read_nifti_header(scaled(slope, 0)).components, 3U) << slope;
