@@ -157,6 +157,10 @@ void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, co
   for (std::size_t a = 0; a < part.size(); ++a) {
     nodes[part[a]].push_back(static_cast<Eigen::Index>(a));
   }
+  if (nodes.size() == 1) {
+    return;  // check_held() has asked that of it
+  }
+  const bool pushed = is_pushed(model, cloud.conditions.force);
   for (const auto& [root, members] : nodes) {
     OrderedCloud alone;
     alone.positions = cloud.positions(members, Eigen::all);
@@ -164,7 +168,7 @@ void check_parts_held(const OrderedCloud& cloud, const ShapeRows& point_rows, co
       alone.conditions.displacement = cloud.conditions.displacement(members, Eigen::all);
     }
     try {
-      check_held(alone, model);
+      check_held(alone, model.plane, model.skull.has_value(), pushed);
     } catch (const std::invalid_argument& error) {
       const Eigen::RowVector3d middle = alone.positions.colwise().mean();
       std::ostringstream text;

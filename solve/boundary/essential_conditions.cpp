@@ -105,7 +105,8 @@ std::optional<std::size_t> repeated_condition(const EssentialConditions::Factor&
   const auto& [ldlt, pivot] = factor;
   const Eigen::VectorXd diagonal = ldlt.permutationP() * system.diagonal();
   const Eigen::VectorXd pivots = pivot.cwiseQuotient(diagonal);
-  if (ldlt.info() == Eigen::Success && pivots.minCoeff(&worst) > smallest_pivot) {
+  const double least = pivots.minCoeff(&worst);
+  if (ldlt.info() == Eigen::Success && least > smallest_pivot) {
     return std::nullopt;
   }
   return static_cast<std::size_t>(ldlt.permutationPinv().indices()[worst]);

@@ -11,6 +11,7 @@
 
 #include "segmentation/geometry/point_tree.hpp"
 #include "solve/arrays/shared_work.hpp"
+#include "solve/shape/support_search.hpp"
 
 namespace brainshift::solve {
 
@@ -52,8 +53,17 @@ FaceGaps::FaceGaps(std::vector<FacePlace> places, Points undeformed, Faces kind)
       undeformed_gap_(Eigen::VectorXd::Zero(undeformed_.rows())),
       gap_(undeformed_.rows()),
       presence_(undeformed_.rows()) {
+  Points where(static_cast<Eigen::Index>(places_.size()), 3);
+  std::vector<double> reach;
   for (const FacePlace& p : places_) {
-    append_neighbours(p);
+    where.row(static_cast<Eigen::Index>(reach.size())) = p.place;
+    reach.push_back(neighbourhood * p.spacing);
+  }
+  const SupportSearch search(where, reach);
+  std::vector<std::int32_t> near;
+  for (const FacePlace& p : places_) {
+    search.find(p.place, 1, near, neighbourhood * p.spacing);
+    append_neighbours(p, near);
   }
   move(undeformed_);
   undeformed_gap_.swap(gap_);  // which was 0
@@ -63,21 +73,22 @@ FaceGaps::FaceGaps(std::vector<FacePlace> places, Points undeformed, Faces kind)
 }
 
 /// The weights are those of least squares. Along a direction in which there are no neighbours the face does not turn.
-void FaceGaps::append_neighbours(const FacePlace& place) {
+void FaceGaps::append_neighbours(const FacePlace& place, std::span<const std::int32_t> near) {
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-  for (std::size_t j = 0; j < places_.size(); ++j) {
-    const FacePlace& other = places_[j];
+  for (const std::int32_t j : near) {
+    const FacePlace& other = places_[static_cast<std::size_t>(j)];
     if (are_neighbours(place, other)) {
       const Eigen::Vector3d apart = other.place - place.place;
       const double w = bell(apart.squaredNorm() / (radius(place, other) * radius(place, other)));
-      neighbours_.push_back({static_cast<Eigen::Index>(j), w * apart});
+      neighbours_.push_back({j, w * apart});
       moment += w * apart * apart.transpose();
     }
   }
   constexpr double small = 1e-6;
   moment.diagonal().array() += small * moment.trace();
+  const Eigen::Matrix3d inverse = moment.inverse();
   for (std::size_t i = begin_.back(); i < neighbours_.size(); ++i) {
-    neighbours_[i].weight = moment.inverse() * neighbours_[i].weight;
+    neighbours_[i].weight = inverse * neighbours_[i].weight;
   }
   begin_.push_back(neighbours_.size());
 }

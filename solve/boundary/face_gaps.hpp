@@ -58,7 +58,7 @@ class FaceGaps {
   };
   const FacePlace& at(Eigen::Index place) const { return places_[static_cast<std::size_t>(place)]; }
   std::span<const Neighbour> neighbours(Eigen::Index place) const;
-  void append_neighbours(const FacePlace& place);
+  void append_neighbours(const FacePlace& place, std::span<const std::int32_t> near);
   Eigen::Vector3d outward_normal(Eigen::Index face) const;
   Eigen::Index nearest_place(Eigen::Index face) const;
   bool met_through_cavity(Eigen::Index face, Eigen::Index other) const;

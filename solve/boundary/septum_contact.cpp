@@ -31,7 +31,8 @@ std::vector<std::int32_t> facing(const SheetWalls& walls, const Points& position
 
 SeptumContact::SeptumContact(const Surface& sheet, const Points& positions, std::span<const std::int32_t> nodes,
                              double reach, const ShapeRows& rows)
-    : walls_(sheet), nodes_(positions, facing(walls_, positions, nodes, reach, panel_), rows), fade_(reach / 8) {
+    : walls_(sheet), nodes_(positions, facing(walls_, positions, nodes, reach, first_panel_), rows), fade_(reach / 8) {
+  begin_anew();
   const double far = 3 * reach;
   const std::vector<Edge> rim = walls_.rim();
   for (std::size_t i = 0; i < nodes_.size(); ++i) {

@@ -23,6 +23,9 @@ class SeptumContact {
   SeptumContact(const Surface& sheet, const Points& positions, std::span<const std::int32_t> nodes, double reach,
                 const ShapeRows& rows);
 
+  /// Nodes know their sides as at the start again.
+  void begin_anew() { panel_ = first_panel_; }
+
   /// Sets the nodal masses (one a node) that weigh the pushes.
   void weigh(std::span<const double> mass) { nodes_.weigh(mass); }
 
@@ -45,7 +48,7 @@ class SeptumContact {
   void sweep(NodalVectors& parameters);
 
   SheetWalls walls_;
-  std::vector<std::int32_t> panel_;  ///< of each node, where it was last
+  std::vector<std::int32_t> first_panel_, panel_;  ///< of each node, at the start and where it was last
   PushedNodes nodes_;
   double fade_;                              ///< mm from the rim
   std::vector<std::vector<Edge>> near_rim_;  ///< of each node, within three times the reach

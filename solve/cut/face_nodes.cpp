@@ -10,8 +10,6 @@ namespace brainshift::solve {
 
 namespace {
 
-constexpr double off_face = 1e-3;  // spacings
-
 /// A node like another, at a place; returns its row.
 std::int32_t append_node(NodeCloud& cloud, Conditions& conditions, std::int32_t like, const Eigen::Vector3d& x,
                          bool held_alike) {

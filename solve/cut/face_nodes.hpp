@@ -11,6 +11,9 @@
 
 namespace brainshift::solve {
 
+/// Nodes of a pair lie so far off their face, in spacings, one on each side.
+constexpr double off_face = 1e-3;
+
 /// Gives a cut's faces their nodes where they have none yet. Nodes within a third of the spacing of the cut are split
 /// in two on it, at the mouth of a path, where it leaves the body, those of the surface within half of it; where there
 /// are none, pairs are added, so that no place of the cut is a spacing away from the next. Both of a split node are

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 #include <sstream>
+#include <vector>
 
 #include "solve/force/internal_force.hpp"
 #include "solve/force/patch_dilatation.hpp"
@@ -58,21 +59,23 @@ struct Neighbours {
 
 /// The nodes that the points that see a node see: what lies beside it, though it may be hidden from some of that.
 std::set<std::int32_t> nodes_about(const PointBlocks& points, std::int32_t node) {
-  std::set<std::int32_t> about_node, of_point;
+  std::set<std::int32_t> about_node;
+  std::vector<std::int32_t> of_point;
   std::int32_t last = -1;
+  const auto take = [&] {
+    if (std::ranges::find(of_point, node) != of_point.end()) {
+      about_node.insert(of_point.begin(), of_point.end());
+    }
+    of_point.clear();
+  };
   for_each_pair(points, [&](const Patch&, std::int32_t point, std::int32_t seen) {
     if (point != last) {
-      if (of_point.contains(node)) {
-        about_node.merge(of_point);
-      }
-      of_point.clear();
+      take();
       last = point;
     }
-    of_point.insert(seen);
+    of_point.push_back(seen);
   });
-  if (of_point.contains(node)) {
-    about_node.merge(of_point);
-  }
+  take();
   return about_node;
 }
 

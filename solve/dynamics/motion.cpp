@@ -29,7 +29,11 @@ Motion::Motion(Body whole, int snapshot_every)
       good_reactions_(Points::Zero(static_cast<Eigen::Index>(body.nodes()), 3)),
       rounding_energy_(rounding_energy(volumes_of_materials(body), body.laws) * energy_unit),
       snapshot_every_(snapshot_every),
-      next_snapshot_(snapshot_every) {}
+      next_snapshot_(snapshot_every) {
+  if (body.septum_contact) {
+    body.septum_contact->begin_anew();
+  }
+}
 
 void Motion::weigh(std::span<const double> mass, double alpha) {
   body.essential.factorise(mass, alpha);
@@ -188,7 +192,7 @@ bool Motion::look(const PointLaws& laws, std::span<const double> mass, double mo
   broken_.reset();
   result.state = state;
   result.fraction = fraction_;
-  squeezed_to_ = state.smallest_jacobian;
+  squeezed_to_ = jacobian_range(scratch).smallest;  // as squeezed() has it: of what swells, without its growth
   good_ = now;
   good_reactions_ = body.essential.reactions(alpha_, body.nodes());
   result.history.push_back(latest);

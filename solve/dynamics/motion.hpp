@@ -27,8 +27,8 @@ class Motion {
   /// Essential conditions and contact push in proportion to 1/mass. alpha: of the steps to come.
   void weigh(std::span<const double> mass, double alpha = 1);
 
-  /// True if the smallest J has dropped by a fifth since the last call that returned true: the body may have stiffened.
-  /// Notes the first point that turned inside out.
+  /// True if the smallest J, of the elastic part where tissue swells, has dropped by a fifth since the last look() or
+  /// call that returned true: the body may have stiffened. Notes the first point that turned inside out.
   bool squeezed();
 
   /// Goes on from û under the full load, at rest. Energies count as Books::look() says. smallest_jacobian: J down to

@@ -371,7 +371,9 @@ SteppingResult relax(Body body, const Course& course, const SolveOptions& option
                      const RelaxElsewhere& elsewhere) {
   SteppingResult result = relax_once(std::move(body), course, options, false, progress, elsewhere);
   if (result.unstable && !course.start.empty()) {
-    return relax(std::move(result.body), {course.curve, {}, course.change}, options, progress, elsewhere);
+    return relax(std::move(result.body),
+                 {.curve = course.curve, .start = {}, .change = course.change, .bound = course.bound}, options,
+                 progress, elsewhere);
   }
   if (result.unstable && !course.change) {  // a body that was cut does not heal
     result = relax_once(std::move(result.body), course, options, true, progress, elsewhere);

@@ -68,7 +68,7 @@ EachConditions::EachConditions(const EssentialConditions& essential, std::span<c
 void EachConditions::Factor::set(const EssentialConditions::Factor& of_member, std::size_t member) {
   const auto& l = of_member.ldlt.matrixL().nestedExpression();
   const auto entries = static_cast<std::size_t>(l.outerIndexPtr()[l.outerSize()]);
-  if (lower.empty()) {
+  if (place.empty()) {  // the first: conditions that nothing couples have no entry below the diagonal
     const auto& order = of_member.ldlt.permutationP().indices();
     place.assign(order.begin(), order.end());
     column_begin.assign(l.outerIndexPtr(), l.outerIndexPtr() + l.outerSize() + 1);

@@ -68,7 +68,8 @@ void ForceScratch::remember(const ForceScratch& other, std::span<const std::int3
       thickness[i] = other.thickness[k];
     }
     if (!viscous_begin.empty()) {
-      const std::size_t end = k + 1 < from.size() ? other.viscous_begin[k + 1] : other.viscous_state.size();
+      const std::size_t end =
+          k + 1 < other.viscous_begin.size() ? other.viscous_begin[k + 1] : other.viscous_state.size();
       std::copy(other.viscous_state.begin() + static_cast<std::ptrdiff_t>(other.viscous_begin[k]),
                 other.viscous_state.begin() + static_cast<std::ptrdiff_t>(end),
                 viscous_state.begin() + static_cast<std::ptrdiff_t>(viscous_begin[i]));

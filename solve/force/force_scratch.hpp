@@ -58,7 +58,7 @@ struct ForceScratch {
   NodalVectors parameters;                      ///< those of the last internal_force()
   SlotVectors force;                            ///< of the blocks
   std::vector<Batch> batches;                   ///< one a thread
-  std::vector<double> jacobian;                 ///< transient: J of each point
+  std::vector<double> jacobian;                 ///< transient: J of each point, of the elastic part
   std::vector<JacobianRange> block_jacobian;    ///< one a block
   std::vector<double> thickness;                ///< plane stress: F_33 of each point, where the next search starts
   std::vector<double> growth = {};              ///< with swelling: stretch at rest, one a row of the laws; see swell()

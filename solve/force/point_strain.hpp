@@ -7,7 +7,7 @@ namespace brainshift::solve {
 
 /// The strain of an integration point of a plane problem as a tear meets it.
 struct PointStrain {
-  Eigen::Matrix2d right_cauchy_green;  ///< C = FᵀF in the plane
+  Eigen::Matrix2d right_cauchy_green;  ///< C = FᵀF in the plane, of the elastic part of F where tissue swells
   double largest_stretch;              ///< principal, in the plane
   double largest_stress;               ///< principal Cauchy stress in the plane, Pa, of the elastic law
 };

@@ -53,6 +53,14 @@ LoadCurve::LoadCurve(std::vector<double> time, std::vector<double> factor, Join 
   }
 }
 
+double LoadCurve::largest() const {
+  double most = 0;
+  for (const double factor : factor_) {
+    most = std::max(most, std::abs(factor));
+  }
+  return most;
+}
+
 double LoadCurve::at(double time) const {
   const auto after = std::upper_bound(time_.begin(), time_.end(), time);
   if (after == time_.begin()) {

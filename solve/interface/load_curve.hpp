@@ -25,6 +25,8 @@ class LoadCurve {
 
   double at(double time) const;
   double duration() const { return time_.back(); }
+  /// The largest |factor|.
+  double largest() const;
 
  private:
   std::vector<double> time_, factor_;

@@ -14,15 +14,14 @@
 
 #include "segmentation/files/vtu_file.hpp"
 #include "segmentation/geometry/point_tree.hpp"
+#include "solve/cut/face_nodes.hpp"
 #include "solve/output/field_difference.hpp"
 
 namespace brainshift::solve {
 
 namespace {
 
-// both in spacings
-constexpr double fineness = 0.5;
-constexpr double off_face = 1e-3;
+constexpr double fineness = 0.5;  // spacings
 
 using Triple = std::array<std::int32_t, 3>;
 

@@ -69,7 +69,7 @@ void take_tissues(const BackgroundCells& cells, const LabelMap* labels, const st
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::int32_t at_point =
         labels ? label_at(*labels, points.positions.row(static_cast<Eigen::Index>(i)).transpose()) : 0;
-    const bool known = std::find(tissues.begin(), tissues.end(), at_point) != tissues.end();
+    const bool known = at_point != 0 && std::find(tissues.begin(), tissues.end(), at_point) != tissues.end();
     points.labelled_by_cell += labels && !known ? 1 : 0;
     points.label.push_back(known ? at_point : cells.label[static_cast<std::size_t>(points.cell[i])]);
   }

@@ -2,6 +2,7 @@
 #include "solve/region/region.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -11,6 +12,7 @@
 #include "solve/quadrature/cell_points.hpp"
 #include "solve/quadrature/gauss_points.hpp"
 #include "solve/quadrature/integration_points.hpp"
+#include "solve/quadrature/missing_octants.hpp"
 #include "solve/quadrature/taken_cells.hpp"
 #include "solve/run/coarse.hpp"
 #include "solve/run/completed.hpp"
@@ -72,15 +74,18 @@ std::vector<std::uint8_t> seen_by(const BackgroundCells& cells, const Model& mod
   return seen;
 }
 
+/// By the points that the cells have where they are whole or have octants, as those will have that are solved.
 Region choose(const Model& model, const SolveOptions& options, const Eigen::VectorXd& moved) {
   const NodeCloud& cloud = model.cloud;
+  const std::optional<BackgroundCells> completed = with_missing_octants(model.cells, model.boundary, cloud);
+  const BackgroundCells& cells = completed ? *completed : model.cells;
   const SupportSearch search(cloud.positions, support_radii(cloud.spacing, options.shape));
-  const std::vector<std::uint8_t> moving = moving_cells(model.cells, search, moved, options.region);
+  const std::vector<std::uint8_t> moving = moving_cells(cells, search, moved, options.region);
   const ShapeFunctions shape(cloud.positions, cloud.spacing, options.shape);
   Region region;
-  region.cells = taken_cells(model.cells, moving, 1);
+  region.cells = taken_cells(cells, moving, 1);
   const auto inside = seen_by(region.cells, model, options, shape);
-  const auto outside = seen_by(taken_cells(model.cells, moving, 0), model, options, shape);
+  const auto outside = seen_by(taken_cells(cells, moving, 0), model, options, shape);
   for (std::size_t a = 0; a < cloud.size(); ++a) {
     if (inside[a] != 0) {
       region.nodes.push_back(static_cast<std::int32_t>(a));
@@ -200,7 +205,7 @@ SolveResult solve_region(const Model& model, const SolveOptions& given, const Pr
   measures.seconds_setup = setup.seconds();
   SolveResult solved = step_to_end(part, options, std::move(prepared), measures, {}, progress);
   solved.measures.coarse_error = error_next_to_rim(region, solved.solution.displacement, *coarse, options.region);
-  if (solved.rounded || solved.measures.coarse_error > trusted * options.region) {
+  if (solved.unstable || solved.rounded || solved.measures.coarse_error > trusted * options.region) {
     return solve_whole(model, given, start.seconds(), progress);
   }
   return on_whole_cloud(model, region, *coarse, std::move(solved));

@@ -20,13 +20,13 @@ constexpr double most_of_both_under_forces = 1000;  // the same where a stiff pa
 constexpr double farthest_in_single = 0.5;          // what is imposed, over the size of the body: half turns
 constexpr double finest_in_single = 1e-5;           // error that may be left, over the size of the body
 
-/// The largest component that is prescribed, mm.
+/// The largest component that is prescribed at any time, mm.
 double largest_imposed(const Model& model) {
   double imposed = 0;
   for (const double u : model.conditions.displacement.reshaped()) {
     imposed = std::max(imposed, std::isnan(u) ? 0 : std::abs(u));
   }
-  return imposed;
+  return model.curve.largest() * imposed;
 }
 
 /// The error that relaxation may leave open, mm, as far as the load says it beforehand.

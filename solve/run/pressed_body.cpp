@@ -13,15 +13,17 @@
 namespace brainshift::solve {
 
 bool is_confined(const Model& model) {
+  bool has_surface = false;
   for (std::size_t a = 0; a < model.cloud.size(); ++a) {
     const auto node = static_cast<Eigen::Index>(a);
     const bool held = model.conditions.is_prescribed(node, 0) && model.conditions.is_prescribed(node, 1) &&
                       (model.plane != Plane::none || model.conditions.is_prescribed(node, 2));
+    has_surface = has_surface || model.cloud.on_surface[a] != 0;
     if (model.cloud.on_surface[a] != 0 && !held) {
       return false;
     }
   }
-  return !model.conditions.measured;
+  return has_surface && !model.conditions.measured;
 }
 
 namespace {

@@ -29,9 +29,10 @@ Points parameters_from_displacement(const RowMatrix& v, const Points& displaceme
   const double largest = displacement.cwiseAbs().maxCoeff();
   const double error = (v * parameters - displacement).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   if (!(error <= 1e-9 * largest)) {
-    throw std::runtime_error(
-        "no field can be laid through the displacements at the nodes: two of them lie too close together, or in one "
-        "place");
+    throw std::runtime_error(displacement.allFinite()
+                                 ? "no field can be laid through the displacements at the nodes: two of them lie too "
+                                   "close together, or in one place"
+                                 : "no field can be laid through the displacements at the nodes: one is not finite");
   }
   return parameters;
 }

@@ -140,4 +140,22 @@ TEST(CheckModel, WantsEachPartHeldWhereSomethingPushesIt) {
   }
 }
 
+/// Forces at some nodes, and a skull that stops all.
+TEST(CheckModel, WantsNoPartHeldThatTheSkullStops) {
+  OrderedCloud cloud;
+  cloud.positions = test::irregular_box(3, 60).positions;
+  cloud.conditions.force = Points::Zero(cloud.positions.rows(), 3);
+  cloud.conditions.force(0, 2) = -1;
+  ShapeRows points;
+  const std::vector<double> half(2, 0.5);
+  for (std::int32_t a = 0; a + 1 < cloud.positions.rows(); ++a) {
+    const std::vector<std::int32_t> pair = {a, a == 12 ? a : a + 1};  // 0 to 12, and the others
+    points.append({pair, half, {}});
+  }
+  Model model;
+  EXPECT_NE(test::refusal([&] { check_parts_held(cloud, points, model); }).find("left in parts"), std::string::npos);
+  model.skull.emplace();
+  EXPECT_EQ(test::refusal([&] { check_parts_held(cloud, points, model); }), "");
+}
+
 }  // namespace brainshift::solve::check_model_test

@@ -106,6 +106,13 @@ TEST(EachConditions, HoldEachMemberAsItWouldBeHeldAlone) {
   expect_each_alone(exact, held, true);
 }
 
+TEST(EachConditions, HoldEachMemberWhereNoConditionSeesAnother) {
+  Held held;
+  held.prescribed.bottomRows(held.prescribed.rows() - 1).setConstant(std::nan(""));
+  ASSERT_TRUE(held.prescribed.row(0).array().isFinite().any());
+  expect_each_alone(EssentialConditions(held.prescribed, held.cloud.rows, held.names), held, false);
+}
+
 TEST(EachConditions, GiveWayToEachMemberAsToItAlone) {
   const Held held;
   const EssentialConditions noisy = held.noisy();

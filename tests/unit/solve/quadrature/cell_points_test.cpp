@@ -35,6 +35,17 @@ TEST(IntegrationPoints, TakeTheTissueOfTheLabelMapAndElseOfTheirCell) {
   EXPECT_EQ(std::count(points.label.begin(), points.label.end(), 2), 12 * 12 * 12 - 1);
 }
 
+TEST(IntegrationPoints, TakeNoTissueFromABackground) {
+  const std::vector<std::int32_t> with_background = {0, 1, 2};
+  LabelMap labels;
+  labels.geometry.size.setConstant(12);
+  labels.voxels.assign(labels.geometry.voxel_count(), 0);
+  for (const LabelMap* map : {static_cast<const LabelMap*>(nullptr), static_cast<const LabelMap*>(&labels)}) {
+    const IntegrationPoints points = integration_points(box_cells(4, side), 1, map, with_background);
+    EXPECT_EQ(std::ranges::count(points.label, 1), 4 * 4 * 4) << "the cells' own";
+  }
+}
+
 TEST(IntegrationPoints, RefuseANumberThatTheCellsDoNotTake) {
   EXPECT_THROW(integration_points(box_cells(2, side), 4, nullptr, tissues), std::invalid_argument);
 }

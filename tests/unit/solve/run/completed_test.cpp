@@ -49,6 +49,9 @@ TEST(Completed, TakesDoublePrecisionWhereABodyIsMovedFarForItsSize) {
   options.precision = Precision::single_precision;
   EXPECT_EQ(completed(options, uniaxial(1.4, 5)).precision, Precision::single_precision);
   EXPECT_EQ(completed(options, uniaxial(1.6, 5)).precision, Precision::double_precision);
+  Model further = uniaxial(1.4, 5);
+  further.curve = LoadCurve({0, 1, 2}, {0, 1.6, 1}, LoadCurve::Join::smooth);
+  EXPECT_EQ(completed(options, further).precision, Precision::double_precision) << "on the way";
 }
 
 }  // namespace brainshift::solve::completed_test

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/cut/face_nodes.hpp"
 #include "solve/output/field_difference.hpp"
 #include "tests/unit/solve/models.hpp"
 
@@ -53,8 +54,11 @@ TEST(ErrorEstimate, OfTheFacesOfASeptumIsThatOfTheNodesAbout) {
   Solution fine = resting(cloud);
   const Eigen::Index nodes = cloud.positions.rows(), split = nodes / 2;
   fine.positions.conservativeResize(nodes + 1, 3);
+  const double spacing = cloud.spacing[static_cast<std::size_t>(split)];
   fine.positions.row(nodes) = fine.positions.row(split);
-  fine.spacing.push_back(cloud.spacing[static_cast<std::size_t>(split)]);
+  fine.positions(split, 2) += off_face * spacing;
+  fine.positions(nodes, 2) -= off_face * spacing;
+  fine.spacing.push_back(spacing);
   fine.displacement = Points::Zero(nodes + 1, 3);
   Points coarse = Points::Zero(nodes, 3);
   coarse.col(1).setConstant(2);
@@ -62,6 +66,20 @@ TEST(ErrorEstimate, OfTheFacesOfASeptumIsThatOfTheNodesAbout) {
   const std::vector<double> error = estimated_error(fine, coarse, 2);
   ASSERT_EQ(error.size(), static_cast<std::size_t>(nodes + 1));
   EXPECT_NEAR(*std::ranges::max_element(error), 0.8 * 2, 1e-12);
+  EXPECT_NEAR(error.back(), 0.8 * 2, 1e-12);
+}
+
+TEST(ErrorEstimate, OfAFlapThatHasFacesAloneIsThatOfTheNextNodesBeyond) {
+  Solution fine = resting({});
+  fine.positions = Points(4, 3);
+  fine.positions << 0, 0, off_face, 50, 0, 0, 60, 0, 0, 0, 0, -off_face;
+  fine.spacing.assign(4, 1);
+  fine.displacement = Points::Zero(4, 3);
+  Points coarse = Points::Constant(3, 3, 0);
+  coarse(0, 1) = 100;  // of the other face
+  coarse.bottomRows(2).col(1).setConstant(2);
+  const std::vector<double> error = estimated_error(fine, coarse, 2);
+  EXPECT_NEAR(error.front(), 0.8 * 2, 1e-12);
   EXPECT_NEAR(error.back(), 0.8 * 2, 1e-12);
 }
 
