@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 
 #include "discretise/cells/cut_cell.hpp"
 
@@ -91,9 +92,9 @@ std::vector<Box> boxes_of(const Lattice& lattice, const std::vector<std::uint8_t
 
 /// What became of a box on one side.
 struct Outcome {
-  double fraction = 0;
+  double fraction = 0, volume = 0;  // volume: of a box that the surface touches, mm³
   std::int32_t label = 0;
-  InsidePart part;
+  std::unique_ptr<InsideOctants> octants = {};  // of a box that is cut: most are not
 };
 
 Outcome examine(const Box& box, const Lattice& lattice, const BodySide& side) {
@@ -101,15 +102,20 @@ Outcome examine(const Box& box, const Lattice& lattice, const BodySide& side) {
   const double edge = lattice.fine_edge() * static_cast<double>(box.edge);
   const Eigen::Vector3d low = lattice.corner(box.low);
   Outcome outcome;
+  Eigen::Vector3d centroid = low.array() + 0.5 * edge;
   if (box.touched) {
-    outcome.part = inside_part(body, low, edge);
-    outcome.fraction = std::min(1.0, outcome.part.volume / (edge * edge * edge));
+    const InsidePart part = inside_part(body, low, edge);
+    centroid = part.centroid;
+    outcome.volume = part.volume;
+    outcome.fraction = std::min(1.0, part.volume / (edge * edge * edge));
+    if (outcome.fraction >= negligible_cell && outcome.fraction < whole_cell) {
+      outcome.octants = std::make_unique<InsideOctants>(part.octants);
+    }
   } else {
-    outcome.part.centroid = low.array() + 0.5 * edge;
-    outcome.fraction = body.inside(outcome.part.centroid) ? 1.0 : 0.0;
+    outcome.fraction = body.inside(centroid) ? 1.0 : 0.0;
   }
   if (outcome.fraction >= negligible_cell) {
-    outcome.label = side.tissue.tissue_at(outcome.part.centroid);
+    outcome.label = side.tissue.tissue_at(centroid);
   }
   return outcome;
 }
@@ -161,16 +167,16 @@ CellGrid cut_hexahedra(std::span<const Surface> surfaces, std::span<const BodySi
     const Outcome& outcome = outcomes[i];
     if (outcome.fraction < negligible_cell) {
       grid.dropped_cells += outcome.fraction > 0 ? 1 : 0;
-      grid.dropped_volume += outcome.part.volume;
+      grid.dropped_volume += outcome.volume;
       continue;
     }
-    const bool cut = outcome.fraction < whole_cell;
+    const bool cut = outcome.octants != nullptr;
     kept.push_back(boxes[i / sides.size()]);
     grid.cells.inside_fraction.push_back(cut ? outcome.fraction : 1.0);
     grid.cells.label.push_back(outcome.label);
     grid.cells.cut_index.push_back(cut ? static_cast<std::int32_t>(grid.cells.cut_parts.size()) : -1);
     if (cut) {
-      grid.cells.cut_parts.push_back(outcome.part.octants);
+      grid.cells.cut_parts.push_back(*outcome.octants);
     }
   }
   add_vertices(kept, lattice, grid.cells);

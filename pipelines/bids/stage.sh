@@ -15,7 +15,7 @@ mkdir -p marks logs
 mark=marks/$stage
 
 leave_mark() { # CODE SENTENCE
-  printf '%s\n' "$begin" "$EPOCHREALTIME" "$1" "$2" > "$mark.partial"
+  printf '%s\n' "$begin" "${EPOCHREALTIME/,/.}" "$1" "$2" > "$mark.partial"
   mv "$mark.partial" "$mark"
   exit 0
 }
@@ -27,7 +27,7 @@ leave_fault() { # CODE LOG
   leave_mark "$1" "${said:-$stage ended with $1 without a word}"
 }
 
-begin=$EPOCHREALTIME
+begin=${EPOCHREALTIME/,/.} # some locales have a comma
 if [ -n "$before" ]; then
   mapfile -t said < "marks/$before"
   [ "${said[2]}" = 0 ] || leave_mark "${said[2]}" "${said[3]}"
@@ -35,7 +35,7 @@ fi
 # If this shell is killed, its program may go on: it inherits the lock, and whoever comes next waits for it.
 exec 9> lock
 flock 9
-begin=$EPOCHREALTIME
+begin=${EPOCHREALTIME/,/.}
 source ./case.sh # scene, files, options
 if [ -z "$scene" ]; then
   scene=$PWD/scene.xml

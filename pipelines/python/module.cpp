@@ -324,7 +324,12 @@ void add_warps(py::module_& m) {
       "warp_points",
       [](const VectorImage& forward, const RowMajor<double>& points) {
         const Points given = points_of(points, "points");
-        return given_away(registration::move_points(forward, given));
+        Points moved;
+        {
+          const Free free;
+          moved = registration::move_points(forward, given);
+        }
+        return given_away(std::move(moved));
       },
       py::arg("forward"), py::arg("points"),
       "Points (n, 3), mm, LPS, moved by the field of their own brain: preop points by the forward field. Outside the "
@@ -359,6 +364,7 @@ void add_runs(py::module_& m) {
       [](const std::filesystem::path& out, const py::kwargs& named) {
         pipelines::PhantomOptions options;
         set_options(pipelines::phantom_options(), named, options);
+        const Free free;
         pipelines::Interruption interruption;
         pipelines::StageFolder folder(out, interruption);
         pipelines::write_phantom(options, folder.path());

@@ -66,7 +66,7 @@ def show_brain(file, view, pv):
 
 def read_load(file):
     """The rows x, y, z, ux, uy, uz of a load.csv."""
-    plain = [line for line in file.read_text().splitlines() if line and not line.startswith("#")]
+    plain = [line for line in file.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
     return [[float(value) for value in line.split(",")[:6]] for line in plain[1:]]
 
 

@@ -33,7 +33,7 @@ COLOURS = "vtkMRMLColorTableNodeFileViridis.txt"
 def record_of(run):
     """run.json, or an empty record."""
     file = Path(run) / "run.json"
-    return json.loads(file.read_text()) if file.is_file() else {}
+    return json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
 
 
 def files_of(run):
@@ -59,7 +59,7 @@ def is_the_same(place, given):
 
 def measured_points(file):
     """[(before, after)] of a load.csv, in Slicer's frame, RAS."""
-    with open(file, newline="") as lines:
+    with open(file, newline="", encoding="utf-8") as lines:
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     points = []
     for row in rows:

@@ -5,13 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
 #include "segmentation/files/free_name.hpp"
 #include "segmentation/files/lower_case.hpp"
-#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/text_lines.hpp"
+#include "segmentation/files/write_text.hpp"
 
 namespace brainshift {
 
@@ -105,9 +104,7 @@ void check_width(std::string_view text, std::size_t line, const PointTable& tabl
 
 /// One more field at the end of a line.
 void append_field(std::string& line, const std::string& field) {
-  const bool dos = line.ends_with('\r');
-  line.resize(line.size() - (dos ? 1 : 0));
-  line += "," + field + (dos ? "\r" : "");
+  line += "," + field;
 }
 
 /// A field with words behind its own, within its quotes.
@@ -216,13 +213,12 @@ void write_point_table(const std::filesystem::path& out, const PointTable& table
       append_field(lines[table.rows[row]], std::isnan(each.values[row]) ? "" : decimal(each.values[row]));
     }
   }
-  std::ofstream stream(out);
+  const char* line_end = read_text(table.file).find("\r\n") == std::string::npos ? "\n" : "\r\n";
+  std::string text;
   for (const std::string& line : lines) {
-    stream << line << '\n';
+    text += line + line_end;
   }
-  if (!stream.flush()) {
-    fail_to_write(out);
-  }
+  write_text(out, text);
 }
 
 }  // namespace brainshift

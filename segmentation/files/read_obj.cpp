@@ -65,6 +65,10 @@ PolygonSoup read_obj(const std::filesystem::path& file) {
   PolygonSoup soup;
   std::string line;
   for (std::size_t line_number = 1; std::getline(in, line); ++line_number) {
+    for (std::string more; line.ends_with('\\') && std::getline(in, more); ++line_number) {
+      line.back() = ' ';  // a statement goes on behind a backslash
+      line += more;
+    }
     std::istringstream words(line);
     std::string keyword;
     words >> keyword;

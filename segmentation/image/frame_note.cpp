@@ -11,7 +11,7 @@ std::string frame_note(const std::filesystem::path& file) {
   if (name.ends_with(".nrrd")) {
     return read_nrrd_header(file).frame_note;
   }
-  if (name.ends_with(".mgh") || name.ends_with(".mgz")) {
+  if (name.ends_with(".mgh") || name.ends_with(".mgz") || name.ends_with(".mgh.gz")) {
     return read_mgh_header(file).frame_note;
   }
   return name.ends_with(".nii") || name.ends_with(".nii.gz") ? read_nifti_header(file).frame_note : "";

@@ -128,15 +128,23 @@ void write_gzip(const std::filesystem::path& file, const std::filesystem::path& 
   const std::size_t count = std::max<std::size_t>(1, (size + block_size - 1) / block_size);
   std::vector<DeflatedBlock> blocks(count);
   const auto size_of = [&](std::size_t i) { return std::min(block_size, size - i * block_size); };
-  bool whole = true;
-#pragma omp parallel for schedule(dynamic) reduction(&& : whole)
+  bool whole = true, memory = true;
+#pragma omp parallel for schedule(dynamic) reduction(&& : whole, memory)
   for (std::size_t i = 0; i < count; ++i) {
-    const GzipBytes block = read_block(plain, i * block_size, size_of(i));
-    blocks[i] = {deflate_block(block, i + 1 == count), crc32_z(0, block.data(), block.size())};
-    whole = whole && block.size() == size_of(i) && !blocks[i].deflated.empty();
+    try {
+      const GzipBytes block = read_block(plain, i * block_size, size_of(i));
+      blocks[i] = {deflate_block(block, i + 1 == count), crc32_z(0, block.data(), block.size())};
+      whole = whole && block.size() == size_of(i) && !blocks[i].deflated.empty();
+    } catch (const std::bad_alloc&) {
+      memory = false;
+    }
+  }
+  if (!memory) {
+    throw std::bad_alloc();
   }
 
   std::ofstream out(file, std::ios::binary);
+  const bool ours = out.is_open();
   constexpr std::array<std::uint8_t, 10> header = {0x1f, 0x8b, Z_DEFLATED, 0, 0, 0, 0, 0, 0, 0xff};
   put_bytes(out, header);
   uLong checksum = crc32_z(0, nullptr, 0);
@@ -149,7 +157,9 @@ void write_gzip(const std::filesystem::path& file, const std::filesystem::path& 
   out.close();
   if (!out || !whole) {
     std::error_code ignored;
-    std::filesystem::remove(file, ignored);
+    if (ours) {
+      std::filesystem::remove(file, ignored);
+    }
     fail_to_write(file);
   }
 }

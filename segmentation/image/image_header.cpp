@@ -37,8 +37,10 @@ void check_shape(const fs::path& file, const ImageHeader& header, std::uint64_t 
     constexpr double bytes_a_value = 30;  // of a whole head at the most, measured on heads of 256³
     std::ostringstream memory;
     memory << std::fixed << std::setprecision(0) << bytes_a_value * values / 1e9;
-    refuse(file, "the header promises " + size + " voxels, which would need some " + memory.str() +
-                     " GB of memory; not more than " + std::to_string(most_values) +
+    refuse(file, "the header promises " + size + " voxels" +
+                     (components > 1 ? " of " + std::to_string(components) + " values" : "") +
+                     ", which would need some " + memory.str() + " GB of memory; not more than " +
+                     std::to_string(most_values) +
                      " values are read: resample the image to coarser voxels, or repair the header if it is damaged");
   }
 }

@@ -183,6 +183,8 @@ auto naming_faults(const fs::path& file, const Read& read) {
     throw;
   } catch (const itk::MemoryAllocationError&) {
     throw std::bad_alloc();
+  } catch (const fs::filesystem_error& fault) {
+    refuse(file, "cannot be read (" + fault.code().message() + "); change its permissions, or copy it again");
   } catch (const std::exception&) {
     refuse(file, "cannot be read, damaged or truncated; copy it again, or convert it to .nii.gz");
   }

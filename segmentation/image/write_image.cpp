@@ -12,9 +12,11 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 #include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/not_written.hpp"
+#include "segmentation/files/unfinished_file.hpp"
 #include "segmentation/image/gzip_file.hpp"
 #include "segmentation/image/image_format.hpp"
 #include "segmentation/image/image_series.hpp"
@@ -35,15 +37,12 @@ void write_with_itk(const fs::path& file, const ItkImageType& image) {
   writer->Update();
 }
 
-// Makes the file. The libraries say lines of their own on a full disk, so the room is asked for before.
+// The libraries say lines of their own on a full disk, so the room is asked for before.
 void ask_for_room(const fs::path& file, std::size_t bytes) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    throw std::runtime_error("cannot be opened for writing");
-  }
-  const int fault = ::posix_fallocate(descriptor, 0, static_cast<off_t>(bytes));
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+  const int fault = descriptor < 0 ? errno : ::posix_fallocate(descriptor, 0, static_cast<off_t>(bytes));
   ::close(descriptor);
-  if (fault == ENOSPC || fault == EFBIG || fault == EDQUOT) {
+  if (descriptor < 0 || fault == ENOSPC || fault == EFBIG || fault == EDQUOT) {
     throw std::runtime_error("has not enough room");
   }
 }
@@ -66,38 +65,47 @@ void check_written(const fs::path& file, const ItkImageType& image) {
   reader->Update();
 }
 
-/// What ITK writes first. It compresses NIfTI on one thread at zlib's slow default; ours runs on all of them and checks
-/// what it writes. It knows no ending in capitals.
-fs::path written_first(const fs::path& file) {
-  if (image_format(file) == ImageFormat::nifti_gz) {
-    return file.string() + ".part.nii";
+/// Throws std::invalid_argument where the format holds no such image.
+template <class ItkImageType>
+void check_format(const fs::path& file, const ItkImageType& image) {
+  const ImageFormat format = image_format(file);
+  make_image_io(format);
+  if (format == ImageFormat::nifti || format == ImageFormat::nifti_gz) {
+    constexpr itk::SizeValueType most = std::numeric_limits<std::int16_t>::max();
+    const auto size = image.GetLargestPossibleRegion().GetSize();
+    if (*std::max_element(size.begin(), size.end()) > most) {
+      throw std::invalid_argument(file.string() + ": NIfTI holds at most " + std::to_string(most) +
+                                  " voxels along an axis; choose .nrrd");
+    }
+  } else if (ItkImageType::ImageDimension > 3) {
+    throw std::invalid_argument(file.string() + ": series are written as .nii or .nii.gz alone");
   }
-  return file.extension() == ending_of(file) ? file : fs::path(file.string() + ".part" + ending_of(file));
 }
 
+/// ITK compresses NIfTI on one thread at zlib's slow default; ours runs on all of them and checks what it writes. ITK
+/// knows no ending in capitals, but what it writes has a name of its own.
 template <class ItkImageType>
 void write_itk(const fs::path& file, const ItkImageType& image) {
-  const fs::path written = written_first(file);
-  std::error_code ignored;
+  check_format(file, image);
+  const bool compressed = image_format(file) == ImageFormat::nifti_gz;
+  UnfinishedFile plain(file, compressed ? ".nii" : ending_of(file));
   try {
-    ask_for_room(written,
+    ask_for_room(plain.path(),
                  image.GetLargestPossibleRegion().GetNumberOfPixels() * sizeof(typename ItkImageType::PixelType));
-    write_with_itk(written, image);
-    check_written(written, image);
-    if (image_format(file) == ImageFormat::nifti_gz) {
-      write_gzip(file, written);
-      fs::remove(written, ignored);
-    } else if (written != file) {
-      fs::rename(written, file);
+    write_with_itk(plain.path(), image);
+    check_written(plain.path(), image);
+    if (compressed) {
+      UnfinishedFile packed(file, ".nii.gz");
+      write_gzip(packed.path(), plain.path());
+      packed.finish();
+    } else {
+      plain.finish();
     }
   } catch (const std::bad_alloc&) {
-    fs::remove(written, ignored);
     throw;
   } catch (const itk::MemoryAllocationError&) {
-    fs::remove(written, ignored);
     throw std::bad_alloc();
   } catch (const std::exception&) {
-    fs::remove(written, ignored);
     fail_to_write(file);
   }
 }

@@ -34,6 +34,17 @@ Surface of_triangles(const Surface& surface, const std::vector<Eigen::Index>& ro
   return without_loose_vertices({surface.vertices, surface.triangles(rows, Eigen::all)});
 }
 
+/// Of a closed piece.
+double volume_of(const Surface& surface, const std::vector<Eigen::Index>& rows) {
+  const Eigen::Vector3d origin = surface.vertices.row(surface.triangles(rows.front(), 0));
+  double sum = 0;
+  for (const Eigen::Index t : rows) {
+    const Triangle corners = triangle(surface, t);
+    sum += (corners.a - origin).dot((corners.b - origin).cross(corners.c - origin));
+  }
+  return sum / 6;
+}
+
 /// How often a closed surface winds around a point: 1 inside it, 0 outside (solid angles by Van Oosterom and Strackee
 /// 1983).
 double winding_number(const Surface& surface, const Eigen::RowVector3d& point) {
@@ -58,7 +69,7 @@ OneBody one_body(const Surface& surface) {
   }
   std::map<std::int32_t, double> volumes;
   for (const auto& [piece, rows] : triangles) {
-    volumes[piece] = volume(of_triangles(surface, rows));
+    volumes[piece] = volume_of(surface, rows);
   }
   const auto largest = std::ranges::max_element(volumes, {}, [](const auto& each) { return each.second; });
   const Surface body = of_triangles(surface, triangles[largest->first]);

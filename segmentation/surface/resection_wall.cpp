@@ -18,8 +18,15 @@ namespace {
 constexpr double reach = 4;  // mm that tissues go on outside the brain, at least
 constexpr int reach_in_voxels = 3;
 
+/// Of the shortest edges of voxels.
 int reach_of(const ImageGeometry& grid) {
   return std::max(reach_in_voxels, static_cast<int>(std::ceil(reach / grid.spacing.minCoeff())));
+}
+
+/// mm; of thick slices beyond the next.
+double farthest_of(const ImageGeometry& grid) {
+  constexpr double slices = 1.5;
+  return std::max(reach_of(grid) * grid.spacing.minCoeff(), slices * grid.spacing.maxCoeff());
 }
 
 template <class Visit>
@@ -47,10 +54,10 @@ Mask continued(const Mask& taken, const Mask& other) {
   Mask result = taken;
   const Points of_taken = centres_of(taken), of_other = centres_of(other);
   if (of_other.rows() == 0) {
-    return grown(taken, reach_of(taken.geometry) * taken.geometry.spacing.minCoeff());
+    return grown(taken, farthest_of(taken.geometry));
   }
   const PointTree to_taken(of_taken), to_other(of_other);
-  const double most = reach_of(taken.geometry) * taken.geometry.spacing.maxCoeff();
+  const double most = farthest_of(taken.geometry);
   for_voxels(taken.geometry, [&](std::size_t voxel, const Eigen::Vector3d& centre) {
     if (taken.voxels[voxel] == 0 && other.voxels[voxel] == 0) {
       const double near = distance(to_taken, centre);
@@ -72,7 +79,9 @@ MeasuredSurface resection_wall(const LabelMap& labels, std::span<const std::uint
   std::vector<std::uint16_t> left;
   std::ranges::copy_if(brain, std::back_inserter(left),
                        [&](std::uint16_t label) { return std::ranges::find(taken, label) == taken.end(); });
-  const Mask part = cropped(whole, 2 * reach_of(labels.geometry));
+  const ImageGeometry& grid = labels.geometry;
+  const int beyond = static_cast<int>(std::ceil(farthest_of(grid) / grid.spacing.minCoeff()));
+  const Mask part = cropped(whole, reach_of(grid) + beyond);
   return extract_surface(continued(part, cropped_to(mask_of(labels, left), part.geometry)), edge_length,
                          "the resection");
 }

@@ -14,7 +14,7 @@ from unittest import mock
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipelines/bids"))
 
-from cohort import dataset, derivatives, files, group, marks, measures, names, pages, plan, program  # noqa: E402
+from cohort import dataset, derivatives, files, group, limits, marks, measures, names, pages, plan, program  # noqa: E402
 from cohort.finder import Finder  # noqa: E402
 
 POINTS = "derivatives/plan/sub-01/anat/sub-01_desc-cortex_points.csv"
@@ -306,6 +306,44 @@ class PlanTest(Folder):
     def test_a_mark_that_the_disk_cut_off_is_none(self):
         self.make("marks/solve", text="1.0\n2.")
         self.assertIsNone(marks.read(self.root, "solve"))
+
+
+class LimitsTest(Folder):
+    def place(self, groups, **values):
+        for name, value in values.items():
+            self.make(name.replace("__", "/").replace("_dot_", "."), text=value)
+        self.make("own", text=groups)
+        return {"own": self.root / "own", "mount": self.root / "mount"}
+
+    def test_the_least_of_the_groups_above_counts(self):
+        where = self.place("0::/queue/job\n", mount__queue__job__memory_dot_max="max\n",
+                           mount__queue__memory_dot_max=f"{8 * 2**30}\n", mount__queue__job__cpu_dot_max="250000 100000\n",
+                           mount__cpu_dot_max="max 100000\n")
+        self.assertEqual(limits.memory_limit_mb(**where), 8192)
+        self.assertEqual(limits.processor_quota(**where), 2.5)
+
+    def test_of_the_first_version_too(self):
+        where = self.place("5:memory:/docker/1\n4:cpu,cpuacct:/docker/1\n",
+                           mount__memory__memory_dot_limit_in_bytes=f"{2**30}\n",
+                           mount__cpu__cpu_dot_cfs_quota_us="300000\n", mount__cpu__cpu_dot_cfs_period_us="100000\n")
+        self.assertEqual(limits.memory_limit_mb(**where), 1024)
+        self.assertEqual(limits.processor_quota(**where), 3)
+
+    def test_without_a_limit_the_machine_counts(self):
+        where = self.place("0::/\n")
+        self.assertEqual(limits.memory_limit_mb(**where), float("inf"))
+        self.assertEqual(limits.processor_quota(**where), float("inf"))
+        self.assertGreaterEqual(limits.processors(), 1)
+        self.assertGreater(limits.free_memory_mb(), 0)
+
+
+class MarksTest(Folder):
+    def test_of_a_dry_run_are_what_they_were(self):
+        self.make("sub-01/marks/solve", text="1\n2\n3\nwhy\n")
+        with marks.kept([self.root / "sub-01", self.root / "sub-02"]):
+            marks.drop(self.root / "sub-01", ["solve", "register"])
+            self.assertIsNone(marks.read(self.root / "sub-01", "solve"))
+        self.assertEqual(marks.read(self.root / "sub-01", "solve").sentence, "why")
 
 
 class FilesTest(Folder):

@@ -12,7 +12,7 @@ import sys
 import time
 from pathlib import Path
 
-from . import plan, program
+from . import limits, marks, plan, program
 
 STEPS = re.compile(r"^(\d+) of (\d+) steps")
 WHOLE = ("report",)  # the run to its end in one rule
@@ -81,12 +81,14 @@ def compute(options, cases, version, call="all"):
         raise program.Unusable("Snakemake is not installed; on Debian: apt-get install snakemake")
     with take_lock(own) as lock:
         local = options.profile == "local"
-        cores = (options.jobs if local else None) or len(os.sched_getaffinity(0))
+        cores = (options.jobs if local else None) or limits.processors()
         threads = options.threads or (max(1, cores // max(len(cases), 1)) if local else 1)
-        plan.write(own, work, cases, stages_of(options), brainshift, version, threads, cores, options.share_samples)
-        place = on_this_machine(options, cores) if local else in_queue(options, threads)
-        command = words(own, profile, options.dry_run) + place + options.snakemake
-        code = run(command, own, lock, Progress(options.quiet or options.dry_run))
+        folders = [work / case.name for case in cases]
+        with marks.kept(folders) if options.dry_run else contextlib.nullcontext():
+            plan.write(own, work, cases, stages_of(options), brainshift, version, threads, cores, options.share_samples)
+            place = on_this_machine(options, cores) if local else in_queue(options, threads)
+            command = words(own, profile, options.dry_run) + place + options.snakemake
+            code = run(command, own, lock, Progress(options.quiet or options.dry_run))
     if options.dry_run:
         print((own / "snakemake.log").read_text(encoding="utf-8"), end="")
     elif code != 0:
@@ -112,12 +114,6 @@ def profile_folder(name):
     raise program.Unusable(f"--profile {name}: local, slurm or a folder with a config.yaml of Snakemake is wanted")
 
 
-def free_memory_mb():
-    with open("/proc/meminfo", encoding="ascii") as stream:
-        fields = dict(line.split(":", 1) for line in stream)
-    return int(fields["MemAvailable"].split()[0]) // 1024
-
-
 def words(own, profile, dry_run):
     return ["snakemake", "--snakefile", str(plan.HOME / "Snakefile"), "--directory", str(own), "--configfile",
             str(own / "plan.json"), "--profile", profile, "--nolock", "--rerun-incomplete", "--keep-going",
@@ -125,7 +121,7 @@ def words(own, profile, dry_run):
 
 
 def on_this_machine(options, cores):
-    return ["--jobs", str(cores), "--resources", f"mem_mb={options.mem_mb or free_memory_mb()}"]
+    return ["--jobs", str(cores), "--resources", f"mem_mb={options.mem_mb or limits.free_memory_mb()}"]
 
 
 def in_queue(options, threads):

@@ -86,6 +86,7 @@ class Runner:
 
     def _read(self):
         with self.process.stdout as lines:
+            lines.reconfigure(errors="replace")  # a path may hold any bytes
             for line in lines:
                 self.lines.put(line)
         self.process.wait()

@@ -102,6 +102,14 @@ TEST(PointTable, WrittenAgainHasOtherPlacesAndAllElseAsItWas) {
   EXPECT_EQ(vectors_in(read_point_table(folder / "moved.csv"), "x", "y", "z"), places);
 }
 
+TEST(PointTable, KeepsTheLineEndsOfWindows) {
+  const ScratchFolder folder;
+  const PointTable table = read_point_table(folder.write("t.csv", "# frame: LPS\r\nx,y,z\r\n1,2,3\r\n"));
+  write_point_table(folder / "moved.csv", table, Points::Zero(1, 3), {{"estimated_error", {0.5}}});
+  EXPECT_EQ(bytes_of(folder / "moved.csv"),
+            "# frame: LPS\r\nx,y,z,estimated_error\r\n0.000000,0.000000,0.000000,0.500000\r\n");
+}
+
 TEST(PointTable, ACsvGetsTheValuesAsItsLastColumnsAndAnFcsvAsWords) {
   const ScratchFolder folder;
   const std::vector<PointValues> values = {{"estimated_error", {0.125, 0.5}}, {"uncertainty", {1, 2}}};

@@ -45,6 +45,11 @@ TEST(ReadObj, WhatIsNeitherVertexNorFaceIsPassedOver) {
   EXPECT_TRUE(soup.polygons.empty());
 }
 
+TEST(ReadObj, AStatementGoesOnBehindABackslash) {
+  EXPECT_EQ(read(corners + "f 1 2 \\\n  3 \\\n4\n").polygons, (std::vector<Corners>{{0, 1, 2, 3}}));
+  EXPECT_NE(fault(corners + "f 1 2 \\\n3 4\nf 1 2\n").find("a.obj:7: expected a face"), std::string::npos);
+}
+
 TEST(ReadObj, WhatDoesNotParseIsNamedWithItsLine) {
   EXPECT_NE(fault("v 0 0 0\nv 1,5 0 0\n").find("a.obj:2"), std::string::npos);
   EXPECT_NE(fault("v 0 0 0\nv 1,5 0 0\n").find("1,5"), std::string::npos);

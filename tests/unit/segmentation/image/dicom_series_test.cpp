@@ -104,6 +104,12 @@ TEST(DicomSeries, SlicesThatAreMissingTwiceThereOrShiftedAreRefused) {
   EXPECT_TRUE(says(tilted.fault(), {"shifted"}));
 }
 
+TEST(DicomSeries, ALinkToNoFileIsNoSliceThatMayBePassedOver) {
+  const Series series;
+  std::filesystem::create_symlink(series.folder / "annexed", series.folder / "slice10.dcm");
+  EXPECT_TRUE(says(series.fault(), {"slice10.dcm: is a link to no file", "datalad get"})) << series.fault();
+}
+
 TEST(DicomSeries, NoneOrTwoInAFolderAreRefused) {
   const ScratchFolder folder;
   folder.write("timezone", "Etc/UTC\n");

@@ -69,4 +69,68 @@ TEST(ImageIo, AFieldCarriesNiftisVectorIntentAndItkReadsItAsVectors) {
   EXPECT_EQ(reader->GetOutput()->GetPixel({3, 4, 5})[2], 3.0F);
 }
 
+/// Files may be no longer than that while it lives, as on a full disk.
+class LongestFile {
+ public:
+  explicit LongestFile(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~LongestFile() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, signal_);
+  }
+  LongestFile(const LongestFile&) = delete;
+  LongestFile& operator=(const LongestFile&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*signal_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+};
+
+TEST(ImageIo, WhatCannotBeWrittenLeavesEachFileAsItWas) {
+  const ScratchFolder folder;
+  const ScalarImage image = wavy_image();
+  for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.mha"}) {
+    folder.write(name, "of before");
+    folder.write(std::string(name) + ".part.nii", "somebody's");
+    {
+      const LongestFile full(1000);
+      EXPECT_TRUE(throws_saying<std::runtime_error>([&] { write_image(folder / name, image); },
+                                                    {name, "could not be written whole"}));
+    }
+    EXPECT_EQ(bytes_of(folder / name), "of before");
+    write_image(folder / name, image);
+    EXPECT_EQ(read_image(folder / name).voxels, image.voxels) << name;
+    EXPECT_EQ(bytes_of(folder / (std::string(name) + ".part.nii")), "somebody's");
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 8) << "nothing half-written";
+}
+
+TEST(ImageIo, WhatIsRefusedIsNotTouched) {
+  const ScratchFolder folder;
+  ScalarImage image = wavy_image();
+  folder.write("t1.mgz", "a patient's");
+  EXPECT_NE(refusal([&] { write_image(folder / "t1.mgz", image); }).find("choose .nii.gz"), std::string::npos);
+  EXPECT_EQ(bytes_of(folder / "t1.mgz"), "a patient's");
+  std::filesystem::create_directory(folder / "d.nrrd");
+  EXPECT_TRUE(
+      throws_saying<std::runtime_error>([&] { write_image(folder / "d.nrrd", image); }, {"d.nrrd: is a folder"}));
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "d.nrrd"));
+  image.geometry.size = {40000, 1, 1};
+  image.voxels.assign(40000, 0);
+  EXPECT_NE(refusal([&] { write_image(folder / "long.nii", image); }).find("at most 32767 voxels"), std::string::npos);
+}
+
+TEST(ImageIo, ALinkIsFollowed) {
+  const ScratchFolder folder;
+  const ScalarImage image = wavy_image();
+  folder.write("there.nii", "of before");
+  std::filesystem::create_symlink(folder / "there.nii", folder / "a.nii");
+  write_image(folder / "a.nii", image);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.nii"));
+  EXPECT_EQ(read_image(folder / "there.nii").voxels, image.voxels);
+}
+
 }  // namespace brainshift::test::write_image_test

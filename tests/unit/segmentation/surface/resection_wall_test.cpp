@@ -55,6 +55,27 @@ TEST(ResectionWall, CrossesTheBrainsSurface) {
   EXPECT_EQ(beside, 0U) << "it runs along the brain's surface";
 }
 
+/// Slices of 5 mm with voxels of 1 mm: beyond the brain the wall goes on for a few millimetres along each axis.
+TEST(ResectionWall, OfThickSlicesEndsAFewMillimetresOutside) {
+  LabelMap labels;
+  labels.geometry.size = {64, 64, 16};
+  labels.geometry.spacing = {1, 1, 5};
+  labels.geometry.origin = {-31.5, -31.5, -37.5};
+  for (int k = 0; k < 16; ++k) {
+    for (int j = 0; j < 64; ++j) {
+      for (int i = 0; i < 64; ++i) {
+        const Eigen::Vector3d x = labels.geometry.to_world(Eigen::Vector3d(i, j, k));
+        labels.voxels.push_back(x.norm() > 25 ? 0 : (x - Eigen::Vector3d(0, 0, 22)).norm() < 10 ? 3 : 1);
+      }
+    }
+  }
+  const MeasuredSurface wall = resection_wall(labels, brain, tumour, 3);
+  EXPECT_TRUE(wall.measures.is_sound());
+  const double farthest = wall.surface.vertices.rowwise().norm().maxCoeff();
+  EXPECT_GT(farthest, 25 + 2);
+  EXPECT_LT(farthest, 25 + 14);
+}
+
 TEST(ResectionWall, NeedsAVoxel) {
   const LabelMap none = head({100, 0, 0}, 5);
   EXPECT_NE(test::refusal([&] { resection_wall(none, brain, tumour, 5); }).find("label 3, which no voxel"),
