@@ -85,8 +85,9 @@ void check_parts(const Scene& scene) {
   check_septa(scene);
   check_resection(scene);
   if (scene.load) {
+    const bool noisy = has_noise(*scene.load);
     const auto need_noise = [&](bool asked, const std::string& option, const std::string& text) {
-      if (asked && !has_noise(*scene.load)) {
+      if (asked && !noisy) {
         fail(
             scene, "load." + option,
             text + " needs to know how well the points were measured; give <load> a noise, or the file a column sigma");
@@ -95,7 +96,7 @@ void check_parts(const Scene& scene) {
     need_noise(scene.load->robust, "robust", "robust=\"yes\"");
     need_noise(scene.load->registration_unknown, "registration", "an unknown registration");
     need_noise(scene.load->weight > 0, "weight", "a weight");
-    if (has_noise(*scene.load)) {
+    if (noisy) {
       check_at(scene, "load", [&] { solve::check_measured(parts_of(scene), scene.solve); });
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/load/noisy_load.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

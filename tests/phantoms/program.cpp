@@ -46,10 +46,18 @@ std::vector<std::map<std::string, double>> read_table(const fs::path& file) {
 
 std::vector<std::string> half_written(const fs::path& folder) {
   std::vector<std::string> found;
+  const auto look_at = [&](const fs::path& file) {
+    const std::string ending = file.extension().string();
+    if (ending == ".partial" || ending == ".old" || file.filename().string().find(".part.") != std::string::npos) {
+      found.push_back(file.string());
+    }
+  };
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string ending = entry.path().extension().string();
-    if (ending == ".partial" || ending == ".old") {
-      found.push_back(entry.path().string());
+    look_at(entry.path());
+  }
+  for (const auto& entry : fs::directory_iterator(folder.parent_path())) {
+    if (entry.path().filename().string().starts_with(folder.filename().string() + ".")) {
+      look_at(entry.path());
     }
   }
   return found;

@@ -26,7 +26,8 @@ ProgramResult run_shell(const std::string& command);
 /// The rows of a .csv, lines of comments left out: values by the names of their columns.
 std::vector<std::map<std::string, double>> read_table(const std::filesystem::path& file);
 
-/// Names ending in .partial or .old anywhere under the folder, and beside it: what a stopped program must not leave.
+/// Names ending in .partial or .old, or with .part. in them, anywhere under the folder, and of its own beside it: what
+/// a stopped program must not leave.
 std::vector<std::string> half_written(const std::filesystem::path& folder);
 
 }  // namespace brainshift
