@@ -156,7 +156,9 @@ void leave_out(const Resection& resection, AdaptivePoints& placed) {
     points.label.push_back(placed.points.label[i]);
   }
   placed.points = std::move(points);
+  const std::size_t grown = std::min(placed.rows.grown, left.size());  // those taken out may have grown, too
   placed.rows = rows_at(placed.rows, left);
+  placed.rows.grown = grown;
 }
 
 std::vector<std::int32_t> tissues_of(const Model& model) {

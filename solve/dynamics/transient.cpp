@@ -65,8 +65,10 @@ class Transient {
     const double end = course_.curve.duration();
     while (result.failure.empty() && !is_at_the_end()) {
       if (result.steps == options_.max_steps) {
-        result.failure = "stopped after " + std::to_string(result.steps) + " steps, at " +
-                         std::to_string(motion_.time) + " s of " + std::to_string(end) + " s; allow more steps";
+        std::ostringstream text;
+        text << "stopped after " << result.steps << " steps, at " << motion_.time << " s of " << end
+             << " s; allow more steps";
+        result.failure = text.str();
         break;
       }
       change_if_due();
