@@ -176,6 +176,23 @@ void check_labels(const SolveJob& job, const solve::Model& model) {
   }
 }
 
+/// A load ends at the septum that it was not measured beyond.
+void end_at_septum(const std::optional<solve::CraniotomyLoad>& measured, solve::Model& model,
+                   std::vector<std::string>& notes) {
+  Points& prescribed = model.conditions.displacement;
+  if (!model.septum || prescribed.rows() == 0) {
+    return;
+  }
+  if (measured) {
+    prescribed = solve::not_through(*model.septum, measured->positions, model.cloud, std::move(prescribed));
+  }
+  if (const std::size_t nodes = solve::moved_through(*model.septum, model.cloud, prescribed); nodes > 0) {
+    notes.push_back("warning: the load takes " + std::to_string(nodes) +
+                    " nodes of the surface through the septum, which holds no node that is loaded; do load and septum "
+                    "lie where they should?");
+  }
+}
+
 /// Reads a load that is no field into the input and imposes it, after an unknown registration was found. Throws
 /// std::invalid_argument, naming the load's files, where it cannot be imposed.
 void read_measured_load(const SolveJob& job, SolveInput& input) {
@@ -268,8 +285,10 @@ SolveInput read_input(const SolveJob& job) {
   }
   if (job.load && job.load->field) {
     impose_field(*job.load, input);
+    end_at_septum({}, model, input.notes);
   } else if (job.load) {
     read_measured_load(job, input);
+    end_at_septum(input.load, model, input.notes);
   }
   if (job.load && job.load->robust) {
     warn(warnings_of(naming(load_files(*job.load),

@@ -2,6 +2,7 @@
 #include "solve/cut/face_nodes.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 #include "solve/cut/face_places.hpp"
@@ -11,8 +12,7 @@ namespace brainshift::solve {
 namespace {
 
 /// A node like another, at a place; returns its row.
-std::int32_t append_node(NodeCloud& cloud, Conditions& conditions, std::int32_t like, const Eigen::Vector3d& x,
-                         bool held_alike) {
+std::int32_t append_node(NodeCloud& cloud, Conditions& conditions, std::int32_t like, const Eigen::Vector3d& x) {
   const Eigen::Index row = cloud.positions.rows();
   const auto from = static_cast<std::size_t>(like);
   cloud.positions.conservativeResize(row + 1, 3);
@@ -22,9 +22,6 @@ std::int32_t append_node(NodeCloud& cloud, Conditions& conditions, std::int32_t 
   if (conditions.displacement.rows() == row) {
     conditions.displacement.conservativeResize(row + 1, 3);
     conditions.displacement.row(row).setConstant(std::nan(""));
-    if (held_alike) {
-      conditions.displacement.row(row) = conditions.displacement.row(like);
-    }
   }
   if (conditions.force.rows() == row) {
     conditions.force.conservativeResize(row + 1, 3);
@@ -33,20 +30,20 @@ std::int32_t append_node(NodeCloud& cloud, Conditions& conditions, std::int32_t 
   return static_cast<std::int32_t>(row);
 }
 
-/// What a node that moves onto a face gets more of what is prescribed, mm: by a linear function through its value and
-/// those of the nodes about it, on its side of the face. NaN where nothing is prescribed.
-Eigen::RowVector3d more_there(const PairPlace& p, const NodeCloud& cloud, const Points& prescribed) {
-  const Eigen::RowVector3d from = cloud.positions.row(p.node), value = prescribed.row(p.node);
+/// By how much more is prescribed at a place of a face than at a node, mm: by a linear function through the values of
+/// the node and of those about it, on its side of the face. NaN where nothing is prescribed.
+Eigen::RowVector3d more_there(const PairPlace& p, Eigen::Index node, const NodeCloud& cloud, const Points& prescribed) {
+  const Eigen::RowVector3d from = cloud.positions.row(node), value = prescribed.row(node);
   Eigen::RowVector3d more = 0 * value;
   if (value.array().isNaN().all()) {
     return more;
   }
   const auto side = [&](const Eigen::RowVector3d& x) { return p.normal.dot(x.transpose() - p.x) >= 0; };
-  const double reach = next_on_surface * cloud.spacing[static_cast<std::size_t>(p.node)];
+  const double reach = next_on_surface * cloud.spacing[static_cast<std::size_t>(node)];
   std::vector<Eigen::Index> about;
   for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
     const Eigen::RowVector3d x = cloud.positions.row(a);
-    if (a != p.node && (x - from).norm() < reach && side(x) == side(from)) {
+    if (a != node && (x - from).norm() < reach && side(x) == side(from)) {
       about.push_back(a);
     }
   }
@@ -65,34 +62,79 @@ Eigen::RowVector3d more_there(const PairPlace& p, const NodeCloud& cloud, const 
   return more;
 }
 
-/// Of all nodes that are split, before any has moved.
-void prescribe_at(const std::vector<PairPlace>& places, const NodeCloud& cloud, Points& prescribed) {
-  const Points before = prescribed;
-  for (const PairPlace& p : places) {
-    if (p.node != no_node) {
-      prescribed.row(p.node) += more_there(p, cloud, before);
+/// What is prescribed at the two nodes of a pair, mm.
+struct HeldPair {
+  Eigen::RowVector3d above = Eigen::RowVector3d::Constant(std::nan("")), below = above;
+};
+
+/// Where a face comes out of the body within a patch that is held, free nodes would depart from the nodes about them,
+/// which their side sees few of: a pair that is added there is held as its side of the patch is.
+HeldPair held_there(const PairPlace& p, const std::vector<Eigen::Index>& patch, const NodeCloud& cloud,
+                    const Points& prescribed) {
+  constexpr double on_patch = 0.75;  // spacings from a node of it
+  const double h = cloud.spacing[static_cast<std::size_t>(p.like)];
+  double near_above = next_on_surface * h, near_below = near_above;
+  Eigen::Index above = no_node, below = no_node;
+  for (const Eigen::Index a : patch) {
+    const Eigen::Vector3d apart = cloud.positions.row(a).transpose() - p.x;
+    const bool is_above = p.normal.dot(apart) >= 0;
+    if (apart.norm() < (is_above ? near_above : near_below)) {
+      (is_above ? above : below) = a;
+      (is_above ? near_above : near_below) = apart.norm();
     }
   }
+  HeldPair held;
+  if (std::min(near_above, near_below) < on_patch * h) {
+    const auto at = [&](Eigen::Index a) { return prescribed.row(a) + more_there(p, a, cloud, prescribed); };
+    held.above = above != no_node ? at(above) : held.above;
+    held.below = below != no_node ? at(below) : held.below;
+  }
+  return held;
+}
+
+/// What is prescribed at all pairs, before any node has moved: of a node that is split at both.
+std::vector<HeldPair> held_pairs(const std::vector<PairPlace>& places, const NodeCloud& cloud,
+                                 const Points& prescribed) {
+  std::vector<Eigen::Index> patch;
+  for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
+    if (cloud.on_surface[static_cast<std::size_t>(a)] != 0 && prescribed.row(a).allFinite()) {
+      patch.push_back(a);
+    }
+  }
+  std::vector<HeldPair> held;
+  for (const PairPlace& p : places) {
+    if (p.node == no_node) {
+      held.push_back(held_there(p, patch, cloud, prescribed));
+    } else {
+      const Eigen::RowVector3d value = prescribed.row(p.node) + more_there(p, p.node, cloud, prescribed);
+      held.push_back({.above = value, .below = value});
+    }
+  }
+  return held;
 }
 
 std::size_t add_at(const std::vector<PairPlace>& places, NodeCloud& cloud, Conditions& conditions,
                    std::vector<FacePair>& pairs) {
   std::size_t split = 0;
-  if (conditions.displacement.rows() > 0) {
-    prescribe_at(places, cloud, conditions.displacement);
-  }
-  for (const PairPlace& p : places) {
+  const bool prescribes = conditions.displacement.rows() > 0;
+  const std::vector<HeldPair> held =
+      prescribes ? held_pairs(places, cloud, conditions.displacement) : std::vector<HeldPair>();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const PairPlace& p = places[i];
     const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;
     FacePair pair{p.node, no_node, p.x, p.normal};
-    const bool was_there = p.node != no_node;
-    if (was_there) {
+    if (p.node != no_node) {
       ++split;
       cloud.positions.row(p.node) = p.x + off;
       cloud.on_surface[static_cast<std::size_t>(p.node)] = 1;
     } else {
-      pair.above = append_node(cloud, conditions, p.like, p.x + off, false);
+      pair.above = append_node(cloud, conditions, p.like, p.x + off);
     }
-    pair.below = append_node(cloud, conditions, pair.above, p.x - off, was_there);
+    pair.below = append_node(cloud, conditions, pair.above, p.x - off);
+    if (prescribes) {
+      conditions.displacement.row(pair.above) = held[i].above;
+      conditions.displacement.row(pair.below) = held[i].below;
+    }
     if (conditions.force.rows() > 0) {
       conditions.force.row(pair.above) /= 2;
       conditions.force.row(pair.below) = conditions.force.row(pair.above);

@@ -17,8 +17,9 @@ constexpr double off_face = 1e-3;
 /// Gives a cut's faces their nodes where they have none yet. Nodes within a third of the spacing of the cut are split
 /// in two on it, at the mouth of a path, where it leaves the body, those of the surface within half of it; where there
 /// are none, pairs are added, so that no place of the cut is a spacing away from the next. Both of a split node are
-/// held as it was and take half its force each. None are put nearer than half a spacing to a front. Appends to the
-/// cloud, to the conditions where they have rows, and to the pairs; returns how many were split.
+/// held as it was and take half its force each; a pair that is added within a patch that is held, each as its side of
+/// it. None are put nearer than half a spacing to a front. Appends to the cloud, to the conditions where they have
+/// rows, and to the pairs; returns how many were split.
 std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeCloud& cloud, Conditions& conditions,
                            std::vector<FacePair>& pairs);
 

@@ -15,4 +15,11 @@ Septum read_septum(const std::filesystem::path& file);
 /// problem.
 void check_septum(const Septum& septum, bool planar);
 
+/// Of what is prescribed at nodes, (n × 3) mm, NaN: free, what a measured point tells that a node sees past the septum,
+/// of the nearest; the other nodes are freed, as what one hemisphere does is not the other's. measured: (m × 3) mm.
+Points not_through(const Septum& septum, const Points& measured, const NodeCloud& cloud, Points prescribed);
+
+/// How many nodes what is prescribed takes to the septum's other side.
+std::size_t moved_through(const Septum& septum, const NodeCloud& cloud, const Points& prescribed);
+
 }  // namespace brainshift::solve

@@ -105,18 +105,23 @@ NodalVectors near_start(const Model& model, const SolveOptions& options, const s
       return in_body_order(*last, body.original);
     }
   }
-  return coarse && starts_coarse(model, options) ? in_body_order(coarse->displacement, body.original) : NodalVectors();
+  return coarse ? in_body_order(coarse->displacement, body.original) : NodalVectors();
 }
 
-/// coarse: if it was solved. A tear's way hangs on single nodes: there is none on others to hold it against.
+/// coarse: where it was solved to start from, if it came to rest. A tear's way hangs on single nodes: there is none on
+/// others to hold it against.
 void estimate_error(const Model& model, const SolveOptions& options, std::optional<CoarseSolution> coarse,
                     SolveResult& result, const Progress& progress) {
   if (model.rupture) {
     return;
   }
   const Stopwatch begin;
-  const SolveOptions of_coarse = of_coarse_start(options);
-  if (!coarse && !ends_alike(model, options)) {
+  SolveOptions of_coarse = of_coarse_start(options);
+  if (model.septum) {  // a coarse cloud may slide along it for tens of thousands of steps
+    constexpr int times = 3, least = 1000;
+    of_coarse.max_steps = std::min(options.max_steps, std::max(least, times * result.measures.steps));
+  }
+  if (!coarse && !starts_coarse(model, options)) {
     const auto wait = [&](double, std::string_view) { report(progress, 1, "estimating the error on a coarse cloud"); };
     coarse = coarse_solution(model, of_coarse, wait);
   }
@@ -149,7 +154,7 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
   }
   measures.seconds_setup = start.seconds();
   std::optional<CoarseSolution> coarse;
-  if (ends_alike(model, options)) {
+  if (starts_coarse(model, options)) {
     const Stopwatch begin;
     report(progress, 0, "solving a coarse cloud");
     coarse = coarse_solution(model, of_coarse_start(options), {});
@@ -170,7 +175,7 @@ SolveResult attempt(const Model& model, const SolveOptions& options, const Solve
     draw_faces(*inside, result);
   }
   if (result.failure.empty()) {
-    if (coarse && starts_coarse(model, options)) {
+    if (coarse) {
       result.measures.error_bound = std::max(result.measures.error_bound, left_by_coarse(*coarse, result.measures));
     }
     estimate_error(model, options, std::move(coarse), result, progress);

@@ -149,4 +149,41 @@ TEST(FaceNodes, OfASheetCoverBothItsFaces) {
   EXPECT_LT(widest, 3) << "a spacing from any place of it there is a pair";
 }
 
+/// A sheet between two layers of nodes, one face of the box held, each side of the sheet by a motion of its own.
+TEST(FaceNodes, WithinAHeldPatchAreHeldAsTheirSideOfIt) {
+  const Eigen::RowVector3d to_middle(0, 9 + 1.5, 9);
+  NodeCloud cloud = test::irregular_box(7, 18, 0.2);
+  Conditions conditions = test::all_free(cloud);
+  cloud.positions.rowwise() -= to_middle;
+  BackgroundCells cells = test::box_cells(6, 18);
+  cells.vertices.rowwise() -= to_middle;
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    const Eigen::RowVector3d x = cloud.positions.row(a);
+    if (x.z() > 9 - 1e-9) {
+      conditions.displacement.row(a) << 0.1 * x.x(), (x.y() > 0 ? 1 : -2), 0.2 * x.y() - 3;
+    }
+  }
+  const IntegrationPoints points = integration_points(cells, 8, nullptr, {1});
+  std::vector<FacePair> pairs;
+  const std::size_t split = add_face_nodes(test::sheet_along_x(18), InsideBody(points.positions, points.volume, false),
+                                           cloud, conditions, pairs);
+  ASSERT_EQ(split, 0U);
+  std::size_t on_patch = 0, inside = 0;
+  for (const FacePair& p : pairs) {
+    if (p.place.z() > 9 - 1) {
+      ++on_patch;
+      for (const std::int32_t node : {p.above, p.below}) {
+        const bool positive = cloud.positions(node, 1) > 0;
+        const Eigen::RowVector3d expected(0.1 * p.place.x(), positive ? 1 : -2, -3);
+        EXPECT_LT((conditions.displacement.row(node) - expected).norm(), 1e-9) << p.place.transpose();
+      }
+    } else if (p.place.z() < 9 - 3) {
+      ++inside;
+      EXPECT_FALSE(conditions.is_prescribed(p.above) || conditions.is_prescribed(p.below));
+    }
+  }
+  EXPECT_GT(on_patch, 3U);
+  EXPECT_GT(inside, 10U);
+}
+
 }  // namespace brainshift::solve::face_nodes_test

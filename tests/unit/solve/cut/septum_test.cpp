@@ -122,6 +122,38 @@ TEST(Septum, GoesWithACutContactAndDrainedFluid) {
   EXPECT_NEAR(result.measures.septum->area, 15 * 26, 1e-9);
 }
 
+/// Measured above the sheet alone, and prescribed on both sides.
+TEST(Septum, EndsALoadThatWasMeasuredOnOneSide) {
+  const NodeCloud cloud = test::irregular_box(5, side);
+  Points prescribed = Points::Constant(cloud.positions.rows(), 3, 1);
+  prescribed.row(0).setConstant(std::nan(""));
+  Points measured(3, 3);
+  measured << 5, 5, side, 15, 5, side, 10, 15, side;
+  const Points ended = not_through(sheet(10.3), measured, cloud, prescribed);
+  for (Eigen::Index a = 1; a < cloud.positions.rows(); ++a) {
+    EXPECT_EQ(ended.row(a).allFinite(), cloud.positions(a, 2) > 10.3) << cloud.positions.row(a);
+  }
+  EXPECT_TRUE(ended.row(0).array().isNaN().all());
+  measured(2, 2) = 0;
+  EXPECT_EQ(not_through(sheet(10.3), measured, cloud, prescribed).bottomRows(prescribed.rows() - 1),
+            prescribed.bottomRows(prescribed.rows() - 1))
+      << "measured on both sides";
+}
+
+TEST(Septum, CountsTheNodesThatALoadTakesThroughIt) {
+  const NodeCloud cloud = test::irregular_box(5, side);
+  Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::nan(""));
+  EXPECT_EQ(moved_through(sheet(10.3), cloud, prescribed), 0U);
+  std::size_t through = 0;
+  for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
+    if (cloud.positions(a, 2) == side) {
+      prescribed.row(a) << 0, 0, a % 2 == 0 ? -12.0 : -2.0;
+      through += a % 2 == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(moved_through(sheet(10.3), cloud, prescribed), through);
+}
+
 TEST(Septum, IsRefusedWhereItPartsNothing) {
   Model model = pressed_box();
   model.septum = sheet(40);
