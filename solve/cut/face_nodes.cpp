@@ -85,7 +85,9 @@ HeldPair held_there(const PairPlace& p, const std::vector<Eigen::Index>& patch, 
   }
   HeldPair held;
   if (std::min(near_above, near_below) < on_patch * h) {
-    const auto at = [&](Eigen::Index a) { return prescribed.row(a) + more_there(p, a, cloud, prescribed); };
+    const auto at = [&](Eigen::Index a) -> Eigen::RowVector3d {
+      return prescribed.row(a) + more_there(p, a, cloud, prescribed);
+    };
     held.above = above != no_node ? at(above) : held.above;
     held.below = below != no_node ? at(below) : held.below;
   }
