@@ -2,8 +2,10 @@
 #include "pipelines/runner/answer_warnings.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "segmentation/geometry/quantile.hpp"
+#include "solve/body/check_model.hpp"
 #include "solve/body/ordered_cloud.hpp"
 #include "solve/load/rigid_fit.hpp"
 #include "solve/material/material.hpp"
@@ -20,6 +22,26 @@ std::vector<double> lengths_of(const Points& displacement) {
 
 double turn_of(const Solution& solution) {
   return solve::fit_rigid(solution.positions, solution.positions + solution.displacement, Points(0, 3)).angle();
+}
+
+/// Nothing but the load moves such a brain, and nothing in it farther than the load, or hardly.
+Warnings warnings_beside_septum(const solve::Model& model, const Points& displacement) {
+  constexpr double much_farther = 1.2;
+  const Points& prescribed = model.conditions.displacement;
+  if (!model.septum || solve::is_pushed(model)) {
+    return {};
+  }
+  double loaded = 0;
+  for (const auto& u : prescribed.rowwise()) {
+    loaded = std::max(loaded, u.allFinite() ? u.norm() : 0);
+  }
+  const double moved = displacement.rowwise().norm().maxCoeff();
+  if (loaded == 0 || moved <= much_farther * loaded) {
+    return {};
+  }
+  return {"beside the septum single nodes move by up to " + with_digits(moved) + " mm, the load by " +
+          with_digits(loaded) +
+          " mm at most: there the answer is wrong; take more nodes, or an opening farther from it"};
 }
 
 }  // namespace
@@ -50,6 +72,7 @@ Warnings warnings_of(const solve::Model& model, const Solution& solution) {
                          " mm; take more nodes");
     }
   }
+  std::ranges::copy(warnings_beside_septum(model, solution.displacement), std::back_inserter(warnings));
   return warnings;
 }
 

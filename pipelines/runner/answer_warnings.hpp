@@ -12,8 +12,9 @@ namespace brainshift::pipelines {
 /// (n × 3) mm.
 Warnings warnings_of(const solve::Model& model, const Points& displacement);
 
-/// Of a brain that has turned in its skull, where it slides without friction, and of an answer that is hardly larger
-/// than its estimated error. Without a measured load a turn that is no small one is no answer: turn_fault().
+/// Of a brain that has turned in its skull, where it slides without friction, of an answer that is hardly larger
+/// than its estimated error, and of nodes beside a septum that move farther than all that is loaded. Without a measured
+/// load a turn that is no small one is no answer: turn_fault().
 Warnings warnings_of(const solve::Model& model, const Solution& solution);
 
 /// Empty, or why a body that nothing but contact holds has no answer: fluid that drains or tissue that swells as the

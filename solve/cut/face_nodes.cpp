@@ -68,10 +68,9 @@ struct HeldPair {
 };
 
 /// Where a face comes out of the body within a patch that is held, free nodes would depart from the nodes about them,
-/// which their side sees few of: a pair that is added there is held as its side of the patch is.
-HeldPair held_there(const PairPlace& p, const std::vector<Eigen::Index>& patch, const NodeCloud& cloud,
+/// which their side sees few of: a pair there is held as its side of the patch is. within: of a node of it, spacings.
+HeldPair held_there(const PairPlace& p, double within, const std::vector<Eigen::Index>& patch, const NodeCloud& cloud,
                     const Points& prescribed) {
-  constexpr double on_patch = 0.75;  // spacings from a node of it
   const double h = cloud.spacing[static_cast<std::size_t>(p.like)];
   double near_above = next_on_surface * h, near_below = near_above;
   Eigen::Index above = no_node, below = no_node;
@@ -84,7 +83,7 @@ HeldPair held_there(const PairPlace& p, const std::vector<Eigen::Index>& patch, 
     }
   }
   HeldPair held;
-  if (std::min(near_above, near_below) < on_patch * h) {
+  if (std::min(near_above, near_below) < within * h) {
     const auto at = [&](Eigen::Index a) -> Eigen::RowVector3d {
       return prescribed.row(a) + more_there(p, a, cloud, prescribed);
     };
@@ -94,19 +93,33 @@ HeldPair held_there(const PairPlace& p, const std::vector<Eigen::Index>& patch, 
   return held;
 }
 
-/// What is prescribed at all pairs, before any node has moved: of a node that is split at both.
-std::vector<HeldPair> held_pairs(const std::vector<PairPlace>& places, const NodeCloud& cloud,
+/// What is prescribed at all pairs, before any node has moved. Of a node that is split at both as it was; by a septum,
+/// which parts what its sides do, of a held node as its sides of the patch are.
+std::vector<HeldPair> held_pairs(const std::vector<PairPlace>& places, bool septum, const NodeCloud& cloud,
                                  const Points& prescribed) {
+  constexpr double on_patch = 0.75, of_patch = next_on_surface;  // spacings
+  std::vector<std::uint8_t> is_split(cloud.size(), 0);
+  for (const PairPlace& p : places) {
+    if (p.node != no_node) {
+      is_split[static_cast<std::size_t>(p.node)] = septum ? 1 : 0;
+    }
+  }
   std::vector<Eigen::Index> patch;
   for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
-    if (cloud.on_surface[static_cast<std::size_t>(a)] != 0 && prescribed.row(a).allFinite()) {
+    const auto k = static_cast<std::size_t>(a);
+    if (cloud.on_surface[k] != 0 && is_split[k] == 0 && prescribed.row(a).allFinite()) {
       patch.push_back(a);
     }
   }
   std::vector<HeldPair> held;
   for (const PairPlace& p : places) {
-    if (p.node == no_node) {
-      held.push_back(held_there(p, patch, cloud, prescribed));
+    const bool is_free = p.node == no_node || prescribed.row(p.node).array().isNaN().all();
+    HeldPair of_patches;
+    if (is_free || (septum && prescribed.row(p.node).allFinite())) {
+      of_patches = held_there(p, is_free ? on_patch : of_patch, patch, cloud, prescribed);
+    }
+    if (is_free || of_patches.above.allFinite() || of_patches.below.allFinite()) {
+      held.push_back(of_patches);
     } else {
       const Eigen::RowVector3d value = prescribed.row(p.node) + more_there(p, p.node, cloud, prescribed);
       held.push_back({.above = value, .below = value});
@@ -115,12 +128,12 @@ std::vector<HeldPair> held_pairs(const std::vector<PairPlace>& places, const Nod
   return held;
 }
 
-std::size_t add_at(const std::vector<PairPlace>& places, NodeCloud& cloud, Conditions& conditions,
+std::size_t add_at(const std::vector<PairPlace>& places, bool septum, NodeCloud& cloud, Conditions& conditions,
                    std::vector<FacePair>& pairs) {
   std::size_t split = 0;
   const bool prescribes = conditions.displacement.rows() > 0;
   const std::vector<HeldPair> held =
-      prescribes ? held_pairs(places, cloud, conditions.displacement) : std::vector<HeldPair>();
+      prescribes ? held_pairs(places, septum, cloud, conditions.displacement) : std::vector<HeldPair>();
   for (std::size_t i = 0; i < places.size(); ++i) {
     const PairPlace& p = places[i];
     const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;
@@ -150,7 +163,7 @@ std::size_t add_at(const std::vector<PairPlace>& places, NodeCloud& cloud, Condi
 
 std::size_t add_face_nodes(const CutFacets& cut, const InsideBody& inside, NodeCloud& cloud, Conditions& conditions,
                            std::vector<FacePair>& pairs) {
-  return add_at(face_places(cut, inside, cloud, pairs), cloud, conditions, pairs);
+  return add_at(face_places(cut, inside, cloud, pairs), false, cloud, conditions, pairs);
 }
 
 std::size_t add_septum_nodes(const CutFacets& septum, const InsideBody& inside, NodeCloud& cloud,
@@ -161,7 +174,7 @@ std::size_t add_septum_nodes(const CutFacets& septum, const InsideBody& inside, 
     const Eigen::Vector3d off = off_face * cloud.spacing[static_cast<std::size_t>(p.like)] * p.normal;
     return !visibility.detour(p.x + off, p.x - off);
   });
-  return add_at(places, cloud, conditions, pairs);
+  return add_at(places, true, cloud, conditions, pairs);
 }
 
 }  // namespace brainshift::solve

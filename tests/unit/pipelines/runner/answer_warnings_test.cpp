@@ -62,6 +62,28 @@ TEST(AnswerWarnings, TellOfAnErrorThatIsLargeBesideTheAnswer) {
   expect_one(warnings_of(solve::Model(), solution), {"1.5 mm", "more than half", "more nodes"});
 }
 
+TEST(AnswerWarnings, TellOfNodesBesideASeptumThatMoveFartherThanTheLoad) {
+  solve::Model model;
+  model.cloud = ball();
+  model.conditions.displacement = prescribed_on_top();
+  const Solution solution = turned(2);
+  const double moved = solution.displacement.rowwise().norm().maxCoeff();
+  double loaded = 0;
+  for (auto u : model.conditions.displacement.rowwise()) {
+    loaded = u.allFinite() ? std::max(loaded, u.norm()) : loaded;
+  }
+  ASSERT_GT(loaded, 0);
+  model.conditions.displacement *= moved / loaded / 1.5;
+  EXPECT_TRUE(warnings_of(model, solution).empty()) << "no septum";
+  model.septum.emplace();
+  expect_one(warnings_of(model, solution), {"beside the septum single nodes move by up to", "take more nodes"});
+  model.gravity = {0, 0, -1};
+  EXPECT_TRUE(warnings_of(model, solution).empty()) << "the load is not all that moves it";
+  model.gravity.setZero();
+  model.conditions.displacement *= 1.4;
+  EXPECT_TRUE(warnings_of(model, solution).empty());
+}
+
 TEST(AnswerWarnings, TellOfFluidThatStandsAboveTheBrain) {
   solve::Model model;
   model.cloud = ball();
