@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "solve/shape/support_search.hpp"
+#include "solve/shape/visibility.hpp"
 
 namespace brainshift::solve {
 
@@ -146,10 +147,12 @@ struct Near {
 /// Finds the surface nodes about one.
 class Surroundings {
  public:
-  Surroundings(const NodeCloud& cloud, const Points& prescribed, std::span<const std::int32_t> fixed)
+  Surroundings(const NodeCloud& cloud, const Points& prescribed, std::span<const std::int32_t> fixed,
+               const Visibility* visibility)
       : cloud_(cloud),
         prescribed_(prescribed),
         fixed_(fixed),
+        visibility_(visibility),
         surface_(surface_nodes(cloud)),
         places_(cloud.positions(surface_, Eigen::all)),
         search_(places_, radii()) {}
@@ -160,7 +163,8 @@ class Surroundings {
     Near near;
     for (const std::int32_t s : found) {
       const std::int32_t b = surface_[static_cast<std::size_t>(s)];
-      if (cloud_.positions.row(b) == cloud_.positions.row(node) || is_fixed(b)) {
+      if (cloud_.positions.row(b) == cloud_.positions.row(node) || is_fixed(b) ||
+          (visibility_ != nullptr && visibility_->detour(cloud_.positions.row(node), cloud_.positions.row(b)))) {
         continue;
       }
       if (is_held(prescribed_, b)) {
@@ -187,6 +191,7 @@ class Surroundings {
   const NodeCloud& cloud_;
   const Points& prescribed_;
   std::span<const std::int32_t> fixed_;
+  const Visibility* visibility_;
   std::vector<std::int32_t> surface_;
   Points places_;
   SupportSearch search_;
@@ -208,9 +213,10 @@ void append_extension(std::int32_t node, std::vector<std::int32_t> others, const
 
 }  // namespace
 
-PatchRim patch_rim(const NodeCloud& cloud, const Points& prescribed, std::span<const std::int32_t> fixed) {
+PatchRim patch_rim(const NodeCloud& cloud, const Points& prescribed, std::span<const std::int32_t> fixed,
+                   const Visibility* visibility) {
   PatchRim rim;
-  const Surroundings surroundings(cloud, prescribed, fixed);
+  const Surroundings surroundings(cloud, prescribed, fixed, visibility);
   std::vector<Eigen::RowVector3d> places;
   for (const std::int32_t a : surroundings.surface()) {
     if (!is_held(prescribed, a) || surroundings.is_fixed(a)) {

@@ -11,6 +11,8 @@
 
 namespace brainshift::solve {
 
+class Visibility;
+
 /// The nodes on the rim of a patch of prescribed displacement, and the places where their conditions are imposed
 /// instead. Beyond its rim a surface follows the patch as a square root of the distance. Shape functions are smooth
 /// there, so conditions at the rim's nodes carry the patch on by some 0.4 spacings; conditions `rim_inset` inside leave
@@ -29,7 +31,9 @@ inline constexpr double rim_inset = 0.375;
 /// Nodes of the surface with all components prescribed (n × 3, mm, NaN: free) such that in more than 140 degrees no
 /// such node is near, but free ones are, with the surface going on smoothly. A patch that ends with its face, at an
 /// edge, has none. fixed: nodes, ascending, whose conditions stay where they are and that belong to no patch. What is
-/// prescribed is extended linearly from the nodes of the patch near by, so that a linear field stays exact.
-PatchRim patch_rim(const NodeCloud& cloud, const Points& prescribed, std::span<const std::int32_t> fixed);
+/// prescribed is extended linearly from the nodes of the patch near by, so that a linear field stays exact. visibility:
+/// of a cut or septum, past which a node sees none; nullptr: there is none.
+PatchRim patch_rim(const NodeCloud& cloud, const Points& prescribed, std::span<const std::int32_t> fixed,
+                   const Visibility* visibility = nullptr);
 
 }  // namespace brainshift::solve

@@ -185,7 +185,7 @@ PatchRim rim_of(const Model& model, const SolveOptions& options, std::shared_ptr
   if (at_nodes || model.plane != Plane::none || cuts_go_on(model)) {
     return {};
   }
-  PatchRim rim = patch_rim(cloud, cloud.conditions.displacement, held);
+  PatchRim rim = patch_rim(cloud, cloud.conditions.displacement, held, visibility.get());
   rim.rows =
       rows_at_rim({cloud.positions, cloud.spacing, options.shape, std::move(visibility), parts.node_modulus}, rim);
   return rim;

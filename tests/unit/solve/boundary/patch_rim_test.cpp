@@ -8,7 +8,9 @@
 #include <numeric>
 
 #include "solve/boundary/essential_conditions.hpp"
+#include "solve/cut/cut_facets.hpp"
 #include "solve/shape/shape_functions.hpp"
+#include "solve/shape/visibility.hpp"
 #include "tests/unit/solve/clouds.hpp"
 
 namespace brainshift::solve::patch_rim_test {
@@ -54,6 +56,21 @@ struct Patch {
     return x;
   }
 };
+
+/// A sheet from below to above the top, along the patch's last nodes: past it they see no free ones.
+TEST(PatchRim, IsNoneWhereAPatchEndsAtASheet) {
+  const Patch patch;
+  const double x = 6.5 * spacing;
+  Cut sheet{"sheet", Points(4, 3), Triangles(2, 3), {}};
+  sheet.vertices << x, -9, -9, x, side + 9, -9, x, side + 9, side + 9, x, -9, side + 9;
+  sheet.triangles << 0, 1, 2, 0, 2, 3;
+  const Visibility visibility(facets_between(std::span(&sheet, 1), from_the_start, 0));
+  const auto beside = [&](std::int32_t node) { return std::abs(patch.cloud.positions(node, 0) - x) < spacing; };
+  const PatchRim open = patch.found(), ended = patch_rim(patch.cloud, patch.prescribed, {}, &visibility);
+  EXPECT_GE(std::ranges::count_if(open.node, beside), 3);
+  EXPECT_LE(std::ranges::count_if(ended.node, beside), 2) << "at the corners alone";
+  EXPECT_GE(ended.node.size() + 5, open.node.size());
+}
 
 TEST(PatchRim, IsTheOutermostNodesWhoseConditionsMoveInwards) {
   const Patch patch;
