@@ -113,7 +113,8 @@ std::vector<HeldPair> held_pairs(const std::vector<PairPlace>& places, bool sept
   }
   std::vector<HeldPair> held;
   for (const PairPlace& p : places) {
-    const bool is_free = p.node == no_node || prescribed.row(p.node).array().isNaN().all();
+    const bool is_free = p.node == no_node || (cloud.on_surface[static_cast<std::size_t>(p.node)] != 0 &&
+                                               prescribed.row(p.node).array().isNaN().all());
     HeldPair of_patches;
     if (is_free || (septum && prescribed.row(p.node).allFinite())) {
       of_patches = held_there(p, is_free ? on_patch : of_patch, patch, cloud, prescribed);
