@@ -61,7 +61,8 @@ void check_load(const CraniotomyLoad& load) {
   }
 }
 
-void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed) {
+void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed,
+                        std::span<const Eigen::Index> rows, Eigen::Index all) {
   const PointTree tree(surface);
   const Distances as_given = distances_to(tree, measured);
   constexpr double off = 10.0;  // mm, in the median: points on a cortex lie within a spacing of its nodes
@@ -78,10 +79,12 @@ void check_near_surface(const Points& measured, const Points& surface, double fa
   }
   if (as_given.farthest > farthest_allowed) {
     const Eigen::RowVector3d p = measured.row(as_given.farthest_row);
-    throw std::invalid_argument(  // by its place: the caller may have left out points, and joined others
-        "load: the measured point at (" + with_decimals(p.x()) + ", " + with_decimals(p.y()) + ", " +
-        with_decimals(p.z()) + ") LPS is " + with_decimals(as_given.farthest) + " mm from the nearest surface node, " +
-        with_decimals(farthest_allowed) + " mm are allowed; are image and load in the same frame?");
+    const Eigen::Index row = all == 0 ? as_given.farthest_row : rows[static_cast<std::size_t>(as_given.farthest_row)];
+    throw std::invalid_argument(
+        "load: measured point " + std::to_string(row + 1) + " of " + std::to_string(all == 0 ? measured.rows() : all) +
+        " at (" + with_decimals(p.x()) + ", " + with_decimals(p.y()) + ", " + with_decimals(p.z()) + ") LPS is " +
+        with_decimals(as_given.farthest) + " mm from the nearest surface node, " + with_decimals(farthest_allowed) +
+        " mm are allowed; are image and load in the same frame?");
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
+
 #include "discretise/interface/node_cloud.hpp"
 #include "segmentation/geometry/points.hpp"
 #include "solve/load/craniotomy_load.hpp"
@@ -11,10 +13,11 @@ namespace brainshift::solve {
 /// where a number is not finite.
 void check_load(const CraniotomyLoad& load);
 
-/// Throws std::invalid_argument, with the distance and the place, when a measured point lies farther from every node of
+/// Throws std::invalid_argument, with the distance and the point, when a measured point lies farther from every node of
 /// the surface than is allowed (mm); and when the points lie off the surface as they are and on it with x and y turned:
-/// RAS was then taken for LPS, or LPS for RAS.
-void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed);
+/// RAS was then taken for LPS, or LPS for RAS. rows, all: of the points in a load of so many; all 0: these are all.
+void check_near_surface(const Points& measured, const Points& surface, double farthest_allowed,
+                        std::span<const Eigen::Index> rows = {}, Eigen::Index all = 0);
 
 /// The same of points that may lie inside the brain: throws std::invalid_argument when they lie three times as far off
 /// the surface, in the median, as with x and y turned, and all of these within the allowed distance (mm); and when

@@ -119,14 +119,18 @@ Conditions noisy_conditions(const NodeCloud& cloud, const CraniotomyLoad& load, 
   if (load.sigma.rows() != load.positions.rows() || !(load.sigma.array() >= smallest_noise).all()) {
     throw std::invalid_argument("load: each measured point needs a standard deviation of 0.000001 mm or more");
   }
+  const std::vector<Eigen::Index> inside = inner_points(cloud, load);
+  const std::vector<Eigen::Index> outside = rows_but(inside, load.positions.rows());
   if (const std::vector<std::int32_t> nodes = surface_nodes(cloud); !nodes.empty()) {
     const Points surface = cloud.positions(nodes, Eigen::all);
     check_frame(load.positions, surface, options.farthest);
+    if (!outside.empty()) {
+      check_near_surface(load.positions(outside, Eigen::all), surface, options.farthest, outside,
+                         load.positions.rows());
+    }
     check_no_places(load);
     check_moved(load.displacement, surface);
   }
-  const std::vector<Eigen::Index> inside = inner_points(cloud, load);
-  const std::vector<Eigen::Index> outside = rows_but(inside, load.positions.rows());
   Conditions conditions;
   conditions.displacement = Points::Constant(cloud.positions.rows(), 3, std::numeric_limits<double>::quiet_NaN());
   Measurement& measured = conditions.measured.emplace();

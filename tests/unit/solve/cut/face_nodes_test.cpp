@@ -165,11 +165,13 @@ TEST(FaceNodes, WithinAHeldPatchAreHeldAsTheirSideOfIt) {
   }
   const IntegrationPoints points = integration_points(cells, 8, nullptr, {1});
   std::vector<FacePair> pairs;
-  const std::size_t split = add_face_nodes(test::sheet_along_x(18), InsideBody(points.positions, points.volume, false),
-                                           cloud, conditions, pairs);
-  ASSERT_EQ(split, 0U);
+  const auto before = static_cast<std::int32_t>(cloud.size());
+  add_face_nodes(test::sheet_along_x(18), InsideBody(points.positions, points.volume, false), cloud, conditions, pairs);
   std::size_t on_patch = 0, inside = 0;
   for (const FacePair& p : pairs) {
+    if (p.above < before) {
+      continue;  // split
+    }
     if (p.place.z() > 9 - 1) {
       ++on_patch;
       for (const std::int32_t node : {p.above, p.below}) {
