@@ -58,7 +58,7 @@ std::vector<double> estimated_error(const Solution& solution, const Points& coar
       for (const std::int32_t node : near) {
         sum += squared[node];
       }
-      error[a] = share * std::sqrt(sum / static_cast<double>(near.size()));
+      error[a] = share * std::sqrt(sum / static_cast<double>(std::max<std::size_t>(near.size(), 1)));
       near.clear();
     }
   }
