@@ -152,7 +152,7 @@ TEST(FaceNodes, OfASheetCoverBothItsFaces) {
 /// A sheet between two layers of nodes, one face of the box held, each side of the sheet by a motion of its own.
 TEST(FaceNodes, WithinAHeldPatchAreHeldAsTheirSideOfIt) {
   const Eigen::RowVector3d to_middle(0, 9 + 1.5, 9);
-  NodeCloud cloud = test::irregular_box(7, 18, 0.2);
+  NodeCloud cloud = test::irregular_box(7, 18, 0.1);
   Conditions conditions = test::all_free(cloud);
   cloud.positions.rowwise() -= to_middle;
   BackgroundCells cells = test::box_cells(6, 18);
