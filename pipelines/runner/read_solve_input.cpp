@@ -22,6 +22,7 @@
 #include "solve/load/noisy_load.hpp"
 #include "solve/output/solution_file.hpp"
 #include "solve/run/outliers.hpp"
+#include "solve/shape/visibility.hpp"
 
 namespace brainshift::pipelines {
 namespace fs = std::filesystem;
@@ -183,10 +184,11 @@ void end_at_septum(const std::optional<solve::CraniotomyLoad>& measured, solve::
   if (!model.septum || prescribed.rows() == 0) {
     return;
   }
+  const solve::Visibility past(solve::facets_of(*model.septum));
   if (measured) {
-    prescribed = solve::not_through(*model.septum, measured->positions, model.cloud, std::move(prescribed));
+    prescribed = solve::not_through(past, measured->positions, model.cloud, std::move(prescribed));
   }
-  if (const std::size_t nodes = solve::moved_through(*model.septum, model.cloud, prescribed); nodes > 0) {
+  if (const std::size_t nodes = solve::moved_through(past, model.cloud, prescribed); nodes > 0) {
     notes.push_back("warning: the load takes " + std::to_string(nodes) +
                     " nodes of the surface through the septum, which holds no node that is loaded; do load and septum "
                     "lie where they should?");

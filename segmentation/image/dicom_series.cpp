@@ -20,14 +20,12 @@ std::vector<fs::path> dicom_files(const fs::path& folder) {
   std::error_code fault;
   for (const auto& entry : fs::directory_iterator(folder, fault)) {
     std::error_code none;
-    if (entry.is_symlink(none) && !fs::exists(entry.path(), none)) {
-      refuse(entry.path(), "is a link to no file; fetch what it names (as 'datalad get' does), or remove it");
-    }
-    if (fs::is_regular_file(entry.path(), none) && !std::ifstream(entry.path())) {
-      refuse(entry.path(), "cannot be read, and may be a slice; change its permissions, or move it elsewhere");
-    }
     if (is_dicom_slice(entry.path())) {
       files.push_back(entry.path());
+    } else if (entry.is_symlink(none) && !fs::exists(entry.path(), none)) {
+      refuse(entry.path(), "is a link to no file; fetch what it names (as 'datalad get' does), or remove it");
+    } else if (fs::is_regular_file(entry.path(), none) && !std::ifstream(entry.path())) {
+      refuse(entry.path(), "cannot be read, and may be a slice; change its permissions, or move it elsewhere");
     }
   }
   if (fault) {

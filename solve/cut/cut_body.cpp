@@ -59,7 +59,7 @@ void add_septum(const Septum& septum, double spacing, CutBody& body) {
                                 ": the septum does not meet the body; are its coordinates in mm and in the body's "
                                 "frame?");
   }
-  body.septum = facets_between(std::span(&sheet, 1), from_the_start, 0);
+  body.septum = facets_of(septum);
   find_fronts(body.inside, spacing, body.septum);
   body.split += add_septum_nodes(body.septum, body.inside, body.cloud, body.conditions, body.pairs);
   body.septum_pairs = body.pairs.size();

@@ -33,18 +33,13 @@ void check_septum(const Septum& septum, bool planar) {
   check_triangles(septum.sheet, septum.name);
 }
 
-namespace {
-
-Visibility visibility_past(const Septum& septum) {
+CutFacets facets_of(const Septum& septum) {
   const Cut sheet{septum.name, septum.sheet.vertices, septum.sheet.triangles, {}};
-  return Visibility(facets_between(std::span(&sheet, 1), from_the_start, 0));
+  return facets_between(std::span(&sheet, 1), from_the_start, 0);
 }
 
-}  // namespace
-
-Points not_through(const Septum& septum, const Points& measured, const NodeCloud& cloud, Points prescribed) {
+Points not_through(const Visibility& septum, const Points& measured, const NodeCloud& cloud, Points prescribed) {
   constexpr std::size_t most = 16;  // points that are looked at
-  const Visibility visibility = visibility_past(septum);
   const PointTree points(measured);
   share_work(prescribed.rows(), places_a_part, [&](std::int64_t a) {
     if (prescribed.row(a).array().isNaN().all()) {
@@ -55,7 +50,7 @@ Points not_through(const Septum& septum, const Points& measured, const NodeCloud
     std::array<double, most> squared{};
     const std::size_t found = points.nearest(x.data(), most, row.data(), squared.data());
     if (std::none_of(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(found), [&](std::size_t point) {
-          return !visibility.detour(x, measured.row(static_cast<Eigen::Index>(point)));
+          return !septum.detour(x, measured.row(static_cast<Eigen::Index>(point)));
         })) {
       prescribed.row(a).setConstant(std::nan(""));
     }
@@ -63,12 +58,11 @@ Points not_through(const Septum& septum, const Points& measured, const NodeCloud
   return prescribed;
 }
 
-std::size_t moved_through(const Septum& septum, const NodeCloud& cloud, const Points& prescribed) {
-  const Visibility visibility = visibility_past(septum);
+std::size_t moved_through(const Visibility& septum, const NodeCloud& cloud, const Points& prescribed) {
   std::size_t moved = 0;
   for (Eigen::Index a = 0; a < prescribed.rows(); ++a) {
     const Eigen::RowVector3d x = cloud.positions.row(a), u = prescribed.row(a);
-    moved += u.allFinite() && visibility.detour(x, x + u) ? 1 : 0;
+    moved += u.allFinite() && septum.detour(x, x + u) ? 1 : 0;
   }
   return moved;
 }

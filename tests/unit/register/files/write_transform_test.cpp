@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ITK brings an Eigen of its own, which must be read before ours.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-
-#include <csignal>
 
 #include "register/files/write_transform.hpp"
 #include "segmentation/image/itk_bridge.hpp"
+#include "tests/unit/file_size_limit.hpp"
 #include "tests/unit/register/builders.hpp"
 #include "tests/unit/register/read_transform.hpp"
 #include "tests/unit/scratch_folder.hpp"
@@ -14,6 +12,7 @@
 namespace brainshift::registration::write_transform_test {
 
 using namespace builders;
+using test::FileSizeLimit;
 using test::ScratchFolder;
 
 TEST(WriteTransform, OfAFieldThatIsZeroIsTheIdentity) {
@@ -38,26 +37,6 @@ TEST(WriteTransform, MovesAPlaceAlikeDeflatedAndPlain) {
   EXPECT_EQ(one, other);
   EXPECT_GT(one[1], x[1]);
 }
-
-/// The size that files may have, until the end of the scope: a write beyond it fails as on a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit before_{};
-  sighandler_t handler_;
-};
 
 TEST(WriteTransform, ThatFindsNoRoomSaysSoAndHarmsNoLaterOne) {
   const ScratchFolder folder;

@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 #include <itkImageFileWriter.h>
 #include <itkNiftiImageIO.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <limits>
 
+#include "tests/unit/file_size_limit.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/segmentation/builders.hpp"
 
@@ -94,17 +93,11 @@ TEST_P(EveryFormat, IsRefusedWhenEmptyOrText) {
 TEST_P(EveryFormat, LeavesNoFileWhenTheDiskIsFull) {
   const ScratchFolder folder;
   const auto file = folder / GetParam();
-  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit old_limit{};
-  getrlimit(RLIMIT_FSIZE, &old_limit);
-  rlimit small = old_limit;
-  small.rlim_cur = 4096;
-  setrlimit(RLIMIT_FSIZE, &small);
-  const auto result =
-      throws_saying<std::runtime_error>([&] { write_image(file, wavy_image()); }, {file.string(), "written whole"});
-  setrlimit(RLIMIT_FSIZE, &old_limit);
-  std::signal(SIGXFSZ, old_handler);
-  EXPECT_TRUE(result);
+  {
+    const FileSizeLimit full(4096);
+    EXPECT_TRUE(
+        throws_saying<std::runtime_error>([&] { write_image(file, wavy_image()); }, {file.string(), "written whole"}));
+  }
   EXPECT_TRUE(std::filesystem::is_empty(file.parent_path()));
 }
 

@@ -4,10 +4,8 @@
 #include <gtest/gtest.h>
 #include <itkImageFileReader.h>
 #include <itkNiftiImageIO.h>
-#include <sys/resource.h>
 
-#include <csignal>
-
+#include "tests/unit/file_size_limit.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/segmentation/builders.hpp"
 
@@ -69,26 +67,6 @@ TEST(ImageIo, AFieldCarriesNiftisVectorIntentAndItkReadsItAsVectors) {
   EXPECT_EQ(reader->GetOutput()->GetPixel({3, 4, 5})[2], 3.0F);
 }
 
-/// Files may be no longer than that while it lives, as on a full disk.
-class LongestFile {
- public:
-  explicit LongestFile(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~LongestFile() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, signal_);
-  }
-  LongestFile(const LongestFile&) = delete;
-  LongestFile& operator=(const LongestFile&) = delete;
-
- private:
-  rlimit before_{};
-  void (*signal_)(int) = std::signal(SIGXFSZ, SIG_IGN);
-};
-
 TEST(ImageIo, WhatCannotBeWrittenLeavesEachFileAsItWas) {
   const ScratchFolder folder;
   const ScalarImage image = wavy_image();
@@ -96,7 +74,7 @@ TEST(ImageIo, WhatCannotBeWrittenLeavesEachFileAsItWas) {
     folder.write(name, "of before");
     folder.write(std::string(name) + ".part.nii", "somebody's");
     {
-      const LongestFile full(1000);
+      const FileSizeLimit full(1000);
       EXPECT_TRUE(throws_saying<std::runtime_error>([&] { write_image(folder / name, image); },
                                                     {name, "could not be written whole"}));
     }

@@ -9,6 +9,7 @@
 
 #include "segmentation/files/surface_file.hpp"
 #include "solve/cut/cut_body.hpp"
+#include "solve/shape/visibility.hpp"
 #include "solve/solve.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/solve/all_free.hpp"
@@ -129,21 +130,22 @@ TEST(Septum, EndsALoadThatWasMeasuredOnOneSide) {
   prescribed.row(0).setConstant(std::nan(""));
   Points measured(3, 3);
   measured << 5, 5, side, 15, 5, side, 10, 15, side;
-  const Points ended = not_through(sheet(10.3), measured, cloud, prescribed);
+  const Points ended = not_through(Visibility(facets_of(sheet(10.3))), measured, cloud, prescribed);
   for (Eigen::Index a = 1; a < cloud.positions.rows(); ++a) {
     EXPECT_EQ(ended.row(a).allFinite(), cloud.positions(a, 2) > 10.3) << cloud.positions.row(a);
   }
   EXPECT_TRUE(ended.row(0).array().isNaN().all());
   measured(2, 2) = 0;
-  EXPECT_EQ(not_through(sheet(10.3), measured, cloud, prescribed).bottomRows(prescribed.rows() - 1),
-            prescribed.bottomRows(prescribed.rows() - 1))
+  EXPECT_EQ(
+      not_through(Visibility(facets_of(sheet(10.3))), measured, cloud, prescribed).bottomRows(prescribed.rows() - 1),
+      prescribed.bottomRows(prescribed.rows() - 1))
       << "measured on both sides";
 }
 
 TEST(Septum, CountsTheNodesThatALoadTakesThroughIt) {
   const NodeCloud cloud = test::irregular_box(5, side);
   Points prescribed = Points::Constant(cloud.positions.rows(), 3, std::nan(""));
-  EXPECT_EQ(moved_through(sheet(10.3), cloud, prescribed), 0U);
+  EXPECT_EQ(moved_through(Visibility(facets_of(sheet(10.3))), cloud, prescribed), 0U);
   std::size_t through = 0;
   for (Eigen::Index a = 0; a < cloud.positions.rows(); ++a) {
     if (cloud.positions(a, 2) == side) {
@@ -151,7 +153,7 @@ TEST(Septum, CountsTheNodesThatALoadTakesThroughIt) {
       through += a % 2 == 0 ? 1 : 0;
     }
   }
-  EXPECT_EQ(moved_through(sheet(10.3), cloud, prescribed), through);
+  EXPECT_EQ(moved_through(Visibility(facets_of(sheet(10.3))), cloud, prescribed), through);
 }
 
 TEST(Septum, IsRefusedWhereItPartsNothing) {
