@@ -4,12 +4,10 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "segmentation/geometry/point_tree.hpp"
 #include "solve/arrays/shared_work.hpp"
 #include "solve/shape/support_search.hpp"
 
@@ -22,7 +20,6 @@ constexpr double neighbourhood = 2.2;    // of a place on its cut
 constexpr double opposite_within = 1.2;  // of a node to the opposite face: more than half the widest hole between nodes
 
 constexpr double look_ahead = 0.5;  // beyond that, for nodes of a cavity's wall: how far they come before the next look
-constexpr std::size_t looked_at = 32;  // nearest nodes
 
 double bell(double squared) {
   return squared < 1 ? (1 - squared) * (1 - squared) : 0;
@@ -152,18 +149,15 @@ bool FaceGaps::has_come_near() const {
 void FaceGaps::look_for_opposite() {
   looked_at_ = now_;
   opposite_.assign(static_cast<std::size_t>(now_.rows()), {});
-  const PointTree tree(looked_at_);
+  std::vector<double> reach(opposite_.size());
+  for (std::size_t f = 0; f < reach.size(); ++f) {
+    reach[f] = (opposite_within + look_ahead) * spacing(static_cast<Eigen::Index>(f));
+  }
+  const SupportSearch search(looked_at_, std::move(reach));
   share_work(now_.rows(), places_a_part, [&](Eigen::Index f) {
-    std::array<std::size_t, looked_at> index{};
-    std::array<double, looked_at> squared{};
-    const std::size_t found = tree.nearest(now_.row(f).data(), looked_at, index.data(), squared.data());
-    for (std::size_t k = 0; k < found; ++k) {
-      const auto other = static_cast<Eigen::Index>(index[k]);
-      if (std::sqrt(squared[k]) < (opposite_within + look_ahead) * spacing(other) && met_through_cavity(f, other)) {
-        opposite_[static_cast<std::size_t>(f)].push_back(other);
-      }
-    }
-    std::ranges::sort(opposite_[static_cast<std::size_t>(f)]);
+    std::vector<std::int32_t>& opposite = opposite_[static_cast<std::size_t>(f)];
+    search.find(looked_at_.row(f), 1, opposite);
+    std::erase_if(opposite, [&](std::int32_t other) { return !met_through_cavity(f, other); });
   });
 }
 

@@ -76,7 +76,7 @@ class FaceGaps {
   Points undeformed_, now_, normal_;  ///< of the face nodes
   Eigen::VectorXd undeformed_gap_, gap_, presence_;
   Points looked_at_ = Points(0, 3);  ///< of a cavity: where the face nodes were when others were looked for
-  std::vector<std::vector<Eigen::Index>> opposite_;  ///< that were found, of each face node
+  std::vector<std::vector<std::int32_t>> opposite_;  ///< that were found, of each face node
 };
 
 }  // namespace brainshift::solve

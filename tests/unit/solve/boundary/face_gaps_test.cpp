@@ -131,4 +131,30 @@ TEST(FaceGaps, LinkAFaceNodeToThoseOppositeByShares) {
   }
 }
 
+/// Of which more neighbours on its own wall are nearer than a node of the opposite one.
+TEST(FaceGaps, OfACavityAreSeenFromAFineWallToACoarseOne) {
+  constexpr double fine = 0.1, apart = 0.5;
+  std::vector<FacePlace> places;
+  const auto add_wall = [&](double y, double normal, double step) {
+    const int half = static_cast<int>(2 / step);
+    for (int i = -half; i <= half; ++i) {
+      for (int k = -half; k <= half; ++k) {
+        places.push_back({{i * step, y, k * step}, normal * Eigen::Vector3d::UnitY(), step});
+      }
+    }
+  };
+  add_wall(0, -1, fine);
+  const auto below = static_cast<Eigen::Index>(places.size());
+  add_wall(3, 1, spacing);
+  Points nodes(static_cast<Eigen::Index>(places.size()), 3);
+  for (Eigen::Index f = 0; f < nodes.rows(); ++f) {
+    nodes.row(f) = places[static_cast<std::size_t>(f)].place;
+  }
+  FaceGaps gaps(places, nodes, solve::Faces::of_cavity);
+  EXPECT_TRUE(gaps.gaps().array().isInf().all()) << "out of reach";
+  nodes.bottomRows(nodes.rows() - below).col(1).array() = apart;
+  gaps.move(nodes);
+  EXPECT_LE((gaps.gaps().head(below).array() - apart).abs().maxCoeff(), 1e-9);
+}
+
 }  // namespace brainshift::solve::face_gaps_test
