@@ -7,6 +7,7 @@
 
 #include "pipelines/report/slice_figures.hpp"
 #include "segmentation/geometry/point_tree.hpp"
+#include "segmentation/geometry/quantile.hpp"
 
 namespace brainshift::pipelines {
 
@@ -49,10 +50,9 @@ std::pair<double, double> grey_window(const std::array<Slice, 3>& slices) {
   if (sample.empty()) {
     return {0, 1};
   }
-  const auto high = sample.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(sample.size() - 1));
-  std::nth_element(sample.begin(), high, sample.end());
-  const double low = std::min(0.0, static_cast<double>(*std::min_element(sample.begin(), sample.end())));
-  return {low, *high > low ? low + headroom * (*high - low) : low + 1};
+  const double low = std::min(0.0, static_cast<double>(std::ranges::min(sample)));
+  const double high = quantile(std::move(sample), 0.995);
+  return {low, high > low ? low + headroom * (high - low) : low + 1};
 }
 
 // Where most of the surface is loaded, as by a whole field, nothing is open.

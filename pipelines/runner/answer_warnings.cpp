@@ -64,8 +64,8 @@ Warnings warnings_of(const solve::Model& model, const Solution& solution) {
                        "other nodes it may turn by as much another way; measure displacements all over the opening");
   }
   if (!solution.estimated_error.empty()) {
-    const double error = solve::percentile_95(solution.estimated_error);
-    const double most = solve::percentile_95(lengths_of(solution.displacement));
+    const double error = quantile(solution.estimated_error, 0.95);
+    const double most = quantile(lengths_of(solution.displacement), 0.95);
     if (error > most / 2) {
       warnings.push_back("the estimated error, " + with_digits(error) +
                          " mm in 95 % of the nodes, is more than half of what they move, " + with_digits(most) +

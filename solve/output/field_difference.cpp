@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/output/field_difference.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
+#include "segmentation/geometry/quantile.hpp"
 #include "solve/output/solution_file.hpp"
 
 namespace brainshift::solve {
@@ -19,9 +19,7 @@ FieldDifference field_difference(const Points& u, const Points& v) {
     throw std::invalid_argument("two fields can be compared at the same points only, at least one");
   }
   const Eigen::VectorXd distance = (u - v).rowwise().norm();
-  std::vector<double> sorted(distance.begin(), distance.end());
-  std::sort(sorted.begin(), sorted.end());
-  return {sorted.back(), sorted[sorted.size() * 95 / 100], distance.mean()};
+  return {distance.maxCoeff(), quantile(std::vector<double>(distance.begin(), distance.end()), 0.95), distance.mean()};
 }
 
 FieldDifference field_difference(const Solution& reference, const Solution& other) {

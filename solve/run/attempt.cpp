@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "segmentation/geometry/quantile.hpp"
 #include "segmentation/progress/stopwatch.hpp"
 #include "solve/body/nodal_order.hpp"
 #include "solve/output/field_difference.hpp"
@@ -131,7 +132,7 @@ void estimate_error(const Model& model, const SolveOptions& options, std::option
   result.measures.seconds_coarse += begin.seconds();
   if (coarse) {
     result.solution.estimated_error = estimated_error(result.solution, coarse->displacement, coarse->wider);
-    result.measures.estimated_error_95 = percentile_95(result.solution.estimated_error);
+    result.measures.estimated_error_95 = quantile(result.solution.estimated_error, 0.95);
   }
 }
 

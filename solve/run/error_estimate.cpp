@@ -65,9 +65,4 @@ std::vector<double> estimated_error(const Solution& solution, const Points& coar
   return error;
 }
 
-double percentile_95(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() * 95 / 100];
-}
-
 }  // namespace brainshift::solve

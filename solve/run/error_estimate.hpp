@@ -14,7 +14,4 @@ namespace brainshift::solve {
 /// spacing of the coarse nodes over that of the cloud. It knows nothing of loads, materials or images that are wrong.
 std::vector<double> estimated_error(const Solution& solution, const Points& coarse, double wider);
 
-/// Below which 95 % of the values lie.
-double percentile_95(std::vector<double> values);
-
 }  // namespace brainshift::solve

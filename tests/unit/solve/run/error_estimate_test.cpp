@@ -143,12 +143,4 @@ TEST(ErrorEstimate, ComesWithAMotionInTimeThatEndsOnItsWay) {
   expect_honest(solve(coarse, options), solve(fine, options));
 }
 
-TEST(ErrorEstimate, TellsBelowWhatMostValuesLie) {
-  std::vector<double> values;
-  for (int i = 0; i < 100; ++i) {
-    values.push_back((i * 37) % 100);
-  }
-  EXPECT_EQ(percentile_95(values), 95);
-}
-
 }  // namespace brainshift::solve::error_estimate_test
