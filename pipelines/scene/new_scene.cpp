@@ -15,6 +15,7 @@
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
 #include "segmentation/files/whole_path.hpp"
+#include "segmentation/image/image_ending.hpp"
 #include "segmentation/interface/options.hpp"
 #include "segmentation/labels/label_table.hpp"
 #include "segmentation/labels/segmentation_file.hpp"
@@ -42,11 +43,7 @@ bool has_empty_background(const ScalarImage& t1) {
 /// A table that lies beside a label map under the map's name: of BIDS, or of 3D Slicer. Empty without one.
 fs::path table_beside(const fs::path& labels) {
   std::string stem = labels.string();
-  for (const char* ending : {".gz", ".nii", ".nrrd", ".mha", ".mgz", ".mgh"}) {
-    if (in_lower_case(stem).ends_with(ending)) {
-      stem.resize(stem.size() - std::string_view(ending).size());
-    }
-  }
+  stem.resize(stem.size() - image_ending(labels).size());
   for (const char* ending : {".tsv", ".ctbl", "_ColorTable.ctbl"}) {
     std::error_code unknown;
     if (fs::is_regular_file(stem + ending, unknown)) {
@@ -214,7 +211,7 @@ class Writer {
 
   void write_load() {
     xml_.OpenElement("load");
-    if (files_.points.size() == 1 && in_lower_case(files_.points[0].extension().string()) != ".csv") {
+    if (files_.points.size() == 1 && ending_of(files_.points[0]) != ".csv") {
       throw std::invalid_argument(files_.points[0].string() +
                                   ": markups and surfaces come in pairs, before and after; give both to --points");
     }
@@ -234,7 +231,7 @@ class Writer {
   }
 
   void write_pair(const fs::path& before, const fs::path& after) {
-    if (std::ranges::count(surface_endings, in_lower_case(before.extension().string())) > 0) {
+    if (std::ranges::count(surface_endings, ending_of(before)) > 0) {
       read_surface(before);
       read_surface(after);
       take(before, "the exposed cortex before, with " + after.string() + " after");

@@ -23,6 +23,7 @@
 #include "segmentation/files/points_file.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/surface_file.hpp"
+#include "segmentation/image/image_ending.hpp"
 #include "segmentation/image/image_series.hpp"
 
 namespace brainshift::registration {
@@ -124,10 +125,7 @@ WarpedFile warp_series(const fs::path& in, RegisterFields& fields, const fs::pat
 
 /// Whether the name is one of an image, as image readers take it; a folder may hold DICOM.
 bool may_be_image(const fs::path& file) {
-  const std::string name = in_lower_case(file.filename().string());
-  constexpr std::array<std::string_view, 7> endings = {".nii", ".nii.gz", ".nrrd", ".mha", ".mgz", ".mgh", ".mgh.gz"};
-  return fs::is_directory(file) ||
-         std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
+  return fs::is_directory(file) || !image_ending(file).empty();
 }
 
 WarpedFile warp_image(const fs::path& in, RegisterFields& fields, const fs::path& out, const WarpAnyOptions& options) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "segmentation/files/lower_case.hpp"
+#include "segmentation/image/image_ending.hpp"
 
 namespace brainshift::registration {
 
@@ -27,13 +28,12 @@ std::filesystem::path warped_name(const std::filesystem::path& in) {
   if (std::filesystem::is_directory(in)) {
     return name + ".nii.gz";
   }
-  for (const std::string_view ending : {".mgz", ".mgh", ".mgh.gz", ".nii", ".nii.gz"}) {
-    if (in_lower_case(name).ends_with(ending)) {  // whatever its capitals
-      name.resize(name.size() - ending.size());
-      return name + (ending == ".nii" ? ".nii" : ".nii.gz");
-    }
+  const std::string_view ending = image_ending(file);
+  if (!is_nifti_ending(ending) && !is_mgh_ending(ending)) {
+    return name;
   }
-  return name;
+  name.resize(name.size() - ending.size());
+  return name + (ending == ".nii" ? ".nii" : ".nii.gz");
 }
 
 std::filesystem::path series_name(const std::filesystem::path& warped) {

@@ -7,25 +7,22 @@
 
 #include <stdexcept>
 
-#include "segmentation/files/lower_case.hpp"
+#include "segmentation/image/image_ending.hpp"
 
 namespace brainshift {
 
 ImageFormat image_format(const std::filesystem::path& file) {
-  const std::string name = in_lower_case(file.filename().string());
-  if (name.ends_with(".nii")) {
-    return ImageFormat::nifti;
+  const std::string_view ending = image_ending(file);
+  if (is_nifti_ending(ending)) {
+    return ending == ".nii" ? ImageFormat::nifti : ImageFormat::nifti_gz;
   }
-  if (name.ends_with(".nii.gz")) {
-    return ImageFormat::nifti_gz;
-  }
-  if (name.ends_with(".nrrd")) {
+  if (ending == ".nrrd") {
     return ImageFormat::nrrd;
   }
-  if (name.ends_with(".mha")) {
+  if (ending == ".mha") {
     return ImageFormat::meta;
   }
-  if (name.ends_with(".mgz") || name.ends_with(".mgh") || name.ends_with(".mgh.gz")) {
+  if (is_mgh_ending(ending)) {
     return ImageFormat::mgh;
   }
   throw std::invalid_argument(file.string() +

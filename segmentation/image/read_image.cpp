@@ -13,12 +13,12 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "segmentation/files/lower_case.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/image/bytes.hpp"
 #include "segmentation/image/dicom_series.hpp"
 #include "segmentation/image/field_with_gaps.hpp"
 #include "segmentation/image/gzip_file.hpp"
+#include "segmentation/image/image_ending.hpp"
 #include "segmentation/image/image_format.hpp"
 #include "segmentation/image/image_series.hpp"
 #include "segmentation/image/name_alone.hpp"
@@ -289,9 +289,8 @@ VectorImage read_field_with_gaps(const fs::path& file) {
 }
 
 bool is_image_series(const fs::path& file) {
-  const std::string name = in_lower_case(file.filename().string());
   std::error_code unknown;
-  if (!(name.ends_with(".nii") || name.ends_with(".nii.gz")) || !fs::is_regular_file(file, unknown)) {
+  if (!is_nifti_ending(image_ending(file)) || !fs::is_regular_file(file, unknown)) {
     return false;
   }
   check_readable(file);
