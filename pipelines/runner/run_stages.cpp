@@ -7,6 +7,7 @@
 #include "pipelines/runner/own_folder.hpp"
 #include "pipelines/runner/peak_memory.hpp"
 #include "pipelines/runner/plan.hpp"
+#include "pipelines/runner/require_gpu.hpp"
 #include "pipelines/runner/run_record.hpp"
 #include "pipelines/runner/stage_folder.hpp"
 #include "pipelines/runner/stage_record.hpp"
@@ -180,7 +181,7 @@ RunOutcome run_stages(const Scene& scene, const RunOptions& options, const fs::p
   InputStates states;
   RunOutcome outcome{begin_run_record(scene, states), {}};
   Tally tally(scene, options.until, observer);
-  bool memory_is_enough = false;
+  bool machine_is_enough = false;
   StageId last = StageId::segment;
   for (const StageId stage : all_stages) {
     if (stage > options.until || !outcome.failure.empty()) {
@@ -201,9 +202,10 @@ RunOutcome run_stages(const Scene& scene, const RunOptions& options, const fs::p
       tally.tell(RunEvent::Kind::kept, stage, 0, with_commas(old->edited));
       tally.tell_notes(stage, old->record.entry);
     } else {
-      if (!memory_is_enough) {
+      if (!machine_is_enough) {
+        require_gpu(scene, stage, options.until);
         require_memory(scene, stage, options.until, available_memory_mb());
-        memory_is_enough = true;
+        machine_is_enough = true;
       }
       const StageRecord record = make_told(plan, out / name, states, interruption, tally);
       outcome.record["stages"][name] = record.entry;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
-
 #include "register/device/tasks.hpp"
-#include "solve/device/device_fault.hpp"
+#include "solve/device/cuda_check.hpp"
 
 namespace brainshift::registration::device {
 
@@ -25,10 +23,7 @@ void launch(const View& view, std::size_t items) {
     return;
   }
   kernel<task><<<static_cast<unsigned>((items + threads - 1) / threads), threads>>>(view, items);
-  if (const cudaError_t error = cudaGetLastError(); error != cudaSuccess) {
-    throw solve::device::DeviceFault(std::string("the GPU failed while it was to begin a part of register: ") +
-                                     cudaGetErrorString(error) + "; register with device cpu");
-  }
+  solve::device::check(cudaGetLastError(), "begin a part of register");
 }
 
 }  // namespace brainshift::registration::device

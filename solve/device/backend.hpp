@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 
+#include "solve/device/gpu.hpp"
 #include "solve/device/tasks.hpp"
 
 namespace brainshift::solve::device {
@@ -27,9 +27,5 @@ struct Backend {
 
 /// One thread of the host: for tests, and for whoever looks for a fault.
 const Backend& one_thread();
-
-/// The GPU of this machine, or nullptr: why_no_gpu() says why in a sentence.
-const Backend* gpu();
-std::string why_no_gpu();
 
 }  // namespace brainshift::solve::device

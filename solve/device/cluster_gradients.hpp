@@ -178,11 +178,11 @@ BRAINSHIFT_ON_DEVICE BRAINSHIFT_APART inline double dilatation_of_other(const La
   return visit(law, [&](const auto& of) { return of.dilatation(d); });
 }
 
-/// w θ at the points, then Σ w ψ θ of the patches. Returns minus the smallest J that the thread has met.
+/// w θ at the points, then Σ w ψ θ of the patches. Returns minus the smallest J that the thread has met, at least -1.
 template <class Team, class Scalar>
 BRAINSHIFT_ON_DEVICE double find_dilatations(const Team& team, const View<Scalar>& v, const Cluster& c,
                                              const Room<Scalar>& room) {
-  double minus_smallest = -std::numeric_limits<double>::infinity();
+  double minus_smallest = -1;
   for (std::int32_t p = team.thread(); p < c.points; p += team.threads()) {
     const std::int32_t point = c.first_point + p;
     const Deformation d(room.gradient(p));

@@ -112,27 +112,36 @@ void* allocate(std::size_t bytes) {
   return memory;
 }
 
+/// As a sentence; empty: the first GPU can be used, and has these properties.
+std::string why_not_usable(cudaDeviceProp& properties) {
+  int devices = 0;
+  cudaError_t error = cudaGetDeviceCount(&devices);
+  if (error == cudaSuccess) {
+    error = devices == 0 ? cudaErrorNoDevice : cudaGetDeviceProperties(&properties, 0);
+  }
+  if (error != cudaSuccess) {
+    return std::string("there is no GPU that CUDA can use: ") + cudaGetErrorString(error);
+  }
+  const std::string name = properties.name;
+  cudaFuncAttributes attributes{};
+  error = cudaFuncGetAttributes(&attributes, reinterpret_cast<const void*>(kernel<Task::step, float>));
+  if (properties.cooperativeLaunch == 0 || error == cudaErrorNoKernelImageForDevice ||
+      error == cudaErrorInvalidDeviceFunction) {
+    return "this program was not built for the GPU " + name + " (BRAINSHIFT_CUDA_ARCHITECTURES)";
+  }
+  return error == cudaSuccess ? "" : "the GPU " + name + " cannot be used: " + cudaGetErrorString(error);
+}
+
 /// What there is, and why not, once and for all.
 struct Found {
   std::string why_not;
   Backend backend;
 
   Found() {
-    int devices = 0;
-    const cudaError_t error = cudaGetDeviceCount(&devices);
     cudaDeviceProp properties{};
-    if (error != cudaSuccess || devices == 0 || cudaGetDeviceProperties(&properties, 0) != cudaSuccess) {
-      why_not = std::string("there is no GPU that CUDA can use: ") +
-                cudaGetErrorString(error == cudaSuccess ? cudaErrorNoDevice : error);
+    why_not = why_not_usable(properties);
+    if (!why_not.empty()) {
       cudaGetLastError();
-      return;
-    }
-    cudaFuncAttributes attributes{};
-    if (properties.cooperativeLaunch == 0 ||
-        cudaFuncGetAttributes(&attributes, reinterpret_cast<const void*>(kernel<Task::step, float>)) != cudaSuccess) {
-      cudaGetLastError();
-      why_not =
-          std::string("this program was not built for the GPU ") + properties.name + " (BRAINSHIFT_CUDA_ARCHITECTURES)";
       return;
     }
     backend = {
@@ -144,7 +153,7 @@ struct Found {
         .to_device = [](void* to, const void* from,
                         std::size_t bytes) { check(cudaMemcpy(to, from, bytes, cudaMemcpyDefault), "take data"); },
         .from_device = [](void* to, const void* from,
-                          std::size_t bytes) { check(cudaMemcpy(to, from, bytes, cudaMemcpyDefault), "step"); },
+                          std::size_t bytes) { check(cudaMemcpy(to, from, bytes, cudaMemcpyDefault), "compute"); },
         .copy = [](void* to, const void* from,
                    std::size_t bytes) { check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice), "copy"); },
         .single = perform_on_gpu<float>,

@@ -58,8 +58,8 @@ Clusters<Scalar> make_fitting_clusters(const PointBlocks& points, const Backend&
     }
     if (wanted < rounds * backend.blocks) {
       throw DeviceFault(
-          "a patch of this body is larger than what a multiprocessor of the GPU holds; take device "
-          "cpu");
+          "a part of this body, as large patches or supports make it, is larger than what a multiprocessor of the GPU "
+          "holds; take device cpu");
     }
   }
 }

@@ -39,7 +39,8 @@ std::optional<SteppingResult> KeptOnDevice::relax_if_asked(Body& body, const Cou
   }
   return relax_where_asked(backend_, body, course, options, progress, [&](const Backend& backend) {
     try {
-      if (!course.settled) {  // once more, as a body that nothing is known of
+      if (!course.settled) {  // once more, as a body that nothing is known of; two may not fit there
+        forget_body();
         return relax(backend, body, course, options, cautious, progress);
       }
       return body.points.precision() == Precision::single_precision

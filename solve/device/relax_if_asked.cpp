@@ -15,9 +15,10 @@ namespace brainshift::solve::device {
 SteppingResult go_on(SteppingResult left, const Course& course, SolveOptions options, const Progress& progress) {
   report(progress, 0, "slow; the processor goes on, which makes rigid motions quicker");
   options.max_steps -= left.steps;
-  Course rest{.curve = course.curve, .start = std::move(left.parameters), .goes_on = true};
+  Course rest{.curve = course.curve, .start = std::move(left.parameters), .bound = course.bound, .goes_on = true};
   if (course.settled) {
     rest.settled = std::move(left.settled);
+    rest.settled->of_rigid = course.settled->of_rigid;
   }
   SteppingResult result = solve::relax(std::move(left.body), rest, options, progress);
   result.steps += left.steps;
@@ -57,6 +58,11 @@ std::optional<SteppingResult> relax_where_asked(const Backend* backend, const Bo
     Relaxed relaxed = relax(*backend);
     return relaxed.slow ? go_on(std::move(relaxed.result), course, options, progress) : std::move(relaxed.result);
   });
+}
+
+void leave_motion_to_processor(const SolveOptions& options, const Progress& progress) {
+  const auto why_not = [] { return std::string("a GPU does not follow motion in time"); };
+  where_asked(options.device, "device", why_not, progress, [] { return true; });
 }
 
 std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,

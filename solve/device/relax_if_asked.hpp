@@ -21,6 +21,9 @@ std::optional<SteppingResult> relax_where_asked(const Backend* backend, const Bo
                                                 const SolveOptions& options, const Progress& progress,
                                                 const std::function<Relaxed(const Backend&)>& relax);
 
+/// Motion in time is the processor's. Tells so, or throws NotOnDevice, where the options ask for a GPU.
+void leave_motion_to_processor(const SolveOptions& options, const Progress& progress);
+
 /// relax_on_device.hpp on the GPU where the options ask for it: relax_where_asked().
 std::optional<SteppingResult> relax_if_asked(Body& body, const Course& course, const SolveOptions& options,
                                              bool cautious, const Progress& progress);

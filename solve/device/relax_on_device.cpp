@@ -393,7 +393,8 @@ class Relaxation {
   /// relax() would make its rigid motions quicker. Not at the first sign: that ends the device's part.
   bool is_slow() {
     constexpr int slow_steps = 100;
-    const bool slow = time_ >= 1 && !cautious_ && std::isfinite(bound_.value()) &&
+    const bool steps_left = result_.steps + window_ <= options_.max_steps;
+    const bool slow = steps_left && time_ >= 1 && !cautious_ && std::isfinite(bound_.value()) &&
                       bound_.value() > far_from_rest * tolerance() && Quickening::wanted(lowest_);
     slow_steps_ = slow ? slow_steps_ + window_ : 0;
     return slow_steps_ >= slow_steps;

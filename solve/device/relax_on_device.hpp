@@ -18,8 +18,9 @@ struct Relaxed {
 
 /// relax() once, with the masses from the bound itself where `cautious`, wholly on a device: after each window of steps
 /// the host gets some sums, goes by the same rules, and says how to go on. Ends, to rounding, where and when relax()
-/// does, but that HistoryRow::residual has the damping of the window, not of the next. body: moved into the result;
-/// kept where it throws. Of a course without changes. Throws DeviceFault, and as EssentialConditions::factorise() does.
+/// does by BoundOf::parameters, but that HistoryRow::residual has the damping of the window, not of the next. body:
+/// moved into the result; kept where it throws. Of a course without changes. Throws DeviceFault, and as
+/// EssentialConditions::factorise() does.
 Relaxed relax(const Backend& backend, Body& body, const Course& course, const SolveOptions& options, bool cautious,
               const Progress& progress);
 

@@ -52,7 +52,7 @@ NamedPoints read_list(const std::filesystem::path& path) {
 
 /// A table of displacements is a load by itself: of a pair of them only the places would count.
 void refuse_displacements(const std::filesystem::path& file) {
-  if (in_lower_case(file.extension().string()) == ".csv" && read_point_table(file).find_column("ux")) {
+  if (ending_of(file) == ".csv" && read_point_table(file).find_column("ux")) {
     refuse(file, "holds displacements (a column ux), not points before or after; give it alone, as the craniotomy");
   }
 }

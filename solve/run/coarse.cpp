@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "solve/cut/boundary_normals.hpp"
-#include "solve/device/device_fault.hpp"
 #include "solve/output/field_difference.hpp"
 #include "solve/quadrature/missing_octants.hpp"
 #include "solve/run/prepare.hpp"
@@ -178,10 +177,12 @@ std::optional<CoarseSolution> solved_with(double wider, const Model& model, cons
   if (nodes.size() < fewest_coarse_nodes) {
     return std::nullopt;
   }
+  SolveOptions own = options;
+  if (own.device == Device::cuda) {
+    own.device = Device::automatic;  // what the whole cloud's answer can do without is no reason to refuse it
+  }
   try {
-    return solved_on(nodes, wider, model, options, progress);
-  } catch (const device::DeviceFault&) {
-    throw;  // nothing of the coarse cloud
+    return solved_on(nodes, wider, model, own, progress);
   } catch (const std::logic_error&) {
     return std::nullopt;  // what the whole cloud holds in place, the coarse one may not
   } catch (const std::runtime_error&) {

@@ -148,9 +148,12 @@ SolveResult step_to_end(const Model& model, const SolveOptions& options, Prepare
   }
   const Course course{
       .curve = model.curve, .start = std::move(start), .change = dissection ? dissection->change() : BodyChange()};
-  SteppingResult stepped = options.dynamics == Dynamics::relaxation
-                               ? relax(std::move(prepared.body), course, options, progress, device::relax_if_asked)
-                               : march(std::move(prepared.body), course, options, progress);
+  const bool moves = options.dynamics == Dynamics::transient;
+  if (moves) {
+    device::leave_motion_to_processor(options, progress);
+  }
+  SteppingResult stepped = moves ? march(std::move(prepared.body), course, options, progress)
+                                 : relax(std::move(prepared.body), course, options, progress, device::relax_if_asked);
   SolveResult result = result_of(stepped, options, std::move(measures));
   if (prepared.cut) {
     const CutBody& cut = dissection ? dissection->body() : *prepared.cut;

@@ -14,7 +14,7 @@ namespace brainshift::solve::device {
 
 namespace {
 
-constexpr Eigen::Index most_conditions_of_each = 1024;  // of a component: 256 MB of inverses
+constexpr Eigen::Index most_conditions_of_each = 1024;  // of a component: at most 256 MB of inverses each
 
 bool is_of_the_library(const ElasticLaw& law) {
   return std::visit([](const auto& one) { return std::is_constructible_v<Law, decltype(one)>; }, law);

@@ -56,7 +56,8 @@ void cut(std::int32_t longest, Pieces<Scalar>& made) {
     const auto number = static_cast<std::int32_t>(made.patches.size());
     made.patches.push_back({static_cast<std::int32_t>(made.pieces.size()), count, patch.material});
     for (std::int32_t i = 0; i < count; ++i) {
-      const std::int32_t first = patch.points * i / count, end = patch.points * (i + 1) / count;
+      const auto begin_of = [&](std::int64_t piece) { return static_cast<std::int32_t>(patch.points * piece / count); };
+      const std::int32_t first = begin_of(i), end = begin_of(i + 1);
       made.pieces.push_back({patch.first_point + first, end - first, number});
     }
   }
