@@ -12,6 +12,6 @@ run_table() {
     shift 2
   fi
   install_packages >&2
-  build "$root/build" "$program" -DCMAKE_BUILD_TYPE=Release >&2
+  build "$root/build" "$program" -DBRAINSHIFT_TESTS=ON -DCMAKE_BUILD_TYPE=Release >&2
   "$root/build/tests/$folder/$program" --out "$out" "$@"
 }

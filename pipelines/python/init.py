@@ -53,6 +53,10 @@ from ._core import (  # noqa: F401  (the module's face)
     write_surface,
 )
 
+if not _core.knows_numpy_2 and int(_numpy.__version__.partition(".")[0]) >= 2:
+    raise ImportError(f"brainshift was built with a pybind11 older than 2.12, which reads NumPy {_numpy.__version__}'s "
+                      "arrays wrongly; take NumPy 1, or build it with a newer pybind11")
+
 
 class NotConverged(RuntimeError):
     """The computation did not converge or went unstable. `result` is what it has: of run() the record, else the

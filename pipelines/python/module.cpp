@@ -380,6 +380,7 @@ void add_runs(py::module_& m) {
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
+  m.attr("knows_numpy_2") = PYBIND11_VERSION_HEX >= 0x020C0000;  // an older one reads sizes at NumPy 1's places
   add_images(m);
   add_results(m);
   add_stages(m);

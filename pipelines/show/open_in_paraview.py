@@ -17,7 +17,7 @@ from statistics import fmean
 
 
 def contour_levels(largest):
-    """Whole steps of 0.5, 1, 2 or 5 mm, eight at most."""
+    """About eight whole steps of 0.5, 1, 2 or 5 mm."""
     step = next((step for step in (0.5, 1, 2, 5) if largest <= 8 * step), 10)
     return [step * i for i in range(1, int(largest / step) + 1)] or [largest / 2]
 

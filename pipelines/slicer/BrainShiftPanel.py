@@ -292,6 +292,7 @@ class BrainShiftPanelWidget(ScriptedLoadableModuleWidget):
             for j, text in enumerate(row):
                 self.table.setItem(i, j, qt.QTableWidgetItem(text))
         self._enable_results()
+        self.contours.checked, self.overlay.value = True, 0  # as show() has it
         failure = logic.failure_of(record)
         if failure:
             slicer.util.warningDisplay(f"{failure}; what is shown is what there is.")

@@ -36,8 +36,8 @@ done
 [ ${#tables[@]} -gt 0 ] || tables=(machine kernels scale stages brain resample)
 
 [ $install = no ] || install_packages libbenchmark-dev calculix-ccx gmsh elastix plastimatch python3-numpy python3-scipy time >&2
-build "$root/build" benchmarks -DCMAKE_BUILD_TYPE=Release >&2
-[ $native = no ] || build "$root/build-native" kernels -DCMAKE_BUILD_TYPE=Release -DBRAINSHIFT_NATIVE=ON >&2
+build "$root/build" benchmarks -DBRAINSHIFT_TESTS=ON -DCMAKE_BUILD_TYPE=Release >&2
+[ $native = no ] || build "$root/build-native" kernels -DBRAINSHIFT_TESTS=ON -DBRAINSHIFT_NATIVE=ON -DCMAKE_BUILD_TYPE=Release >&2
 
 export OMP_WAIT_POLICY=passive # as the program is meant to run beside others
 export PYTHONDONTWRITEBYTECODE=1

@@ -121,6 +121,11 @@ class AppTest(unittest.TestCase):
         self.assertNotIn("sub-00002:", call(*group).stderr)
         tumour.unlink()
         self.assertIn(f"sub-00002: it was computed with {tumour}, which is no longer", call(*group).stderr)
+        made = {file: file.read_bytes() for file in [out / "sub-00002.html", *out.glob("sub-00002/anat/*")]}
+        self.assertGreater(len(made), 9)
+        for elsewhere in (("-w", self.root / "another_work"), ("--derivatives", extra)):  # knows of no run, of no labels
+            self.assertIn("an earlier run are left", call(*group, *elsewhere).stderr)
+            self.assertEqual(made, {file: file.read_bytes() for file in made})
 
     def test_a_sweep_with_another_program_in_a_stage(self):
         command = f"{PROGRAM} -q discretise --surface {{in}}/segment/brain.vtp --labels {{in}}/segment/labels.nii.gz " \

@@ -340,13 +340,32 @@ class LimitsTest(Folder):
 class MarksTest(Folder):
     def test_of_a_dry_run_are_what_they_were(self):
         self.make("sub-01/marks/solve", text="1\n2\n3\nwhy\n")
+        case = self.root / "sub-01/case.sh"
+        self.make("sub-01/case.sh", text="options=()")
+        os.utime(case, (1000, 1000))
         with marks.kept([self.root / "sub-01", self.root / "sub-02"]):
             marks.drop(self.root / "sub-01", ["solve", "register"])
             self.assertIsNone(marks.read(self.root / "sub-01", "solve"))
+            case.write_text("options=(--set discretise.nodes=6000)")
         self.assertEqual(marks.read(self.root / "sub-01", "solve").sentence, "why")
+        self.assertEqual((case.read_text(), case.stat().st_mtime), ("options=()", 1000))
+
+    def test_only_a_run_that_ended_has_failed(self):
+        self.assertFalse(marks.has_failed(self.root, ("report",)), "not run yet")
+        self.make("case.sh", "marks/report")
+        (self.root / "marks/report").write_text("1\n2\n2\nsolve: the load is empty\n")
+        os.utime(self.root / "case.sh", (1000, 1000))
+        self.assertTrue(marks.has_failed(self.root, ("report",)))
+        (self.root / "marks/report").write_text("1\n2\n0\n\n")
+        self.assertFalse(marks.has_failed(self.root, ("report",)))
 
 
 class FilesTest(Folder):
+    def test_a_name_that_is_not_utf_8_keeps_its_bytes(self):
+        name = os.fsdecode(b"M\xfcller.nii.gz")
+        files.replace_text(self.root / "case.sh", name)
+        self.assertEqual((self.root / "case.sh").read_bytes(), b"M\xfcller.nii.gz")
+
     def test_two_calls_may_write_the_same_file_at_the_same_time(self):
         target = self.root / "dataset_description.json"
         with files.replaced(target) as one:

@@ -77,6 +77,14 @@ class Frames(WithFolder):
         np.testing.assert_allclose(ours.voxels, nibabel.load(self.folder / "scaled.nii").get_fdata())
 
 
+class NumPy(unittest.TestCase):
+    @unittest.skipIf(brainshift._core.knows_numpy_2, "the module was built with pybind11 2.12 or later")
+    def test_of_another_layout_is_refused(self):
+        claims = "import numpy; numpy.__version__ = '2.0.1'; import brainshift"
+        ended = subprocess.run([sys.executable, "-c", claims], capture_output=True, text=True, check=False)
+        self.assertIn("ImportError: brainshift was built with a pybind11 older than 2.12", ended.stderr)
+
+
 class Memory(unittest.TestCase):
     def test_arrays_are_views_and_outlive_their_owner(self):
         image = brainshift.ScalarImage(np.zeros((3, 4, 5)), np.eye(4))

@@ -29,7 +29,7 @@ out=$(realpath "$out")
 mkdir -p "$out/bin"
 cat > "$out/bin/pvbatch" << end
 #!/bin/sh
-LD_LIBRARY_PATH=$out/root/usr/lib/x86_64-linux-gnu exec $out/root/usr/bin/pvbatch "\$@"
+LD_LIBRARY_PATH="$out/root/usr/lib/x86_64-linux-gnu" exec "$out/root/usr/bin/pvbatch" "\$@"
 end
 chmod +x "$out/bin/pvbatch"
 PATH=$out/bin:$PATH PYTHONPATH=$out/root/usr/lib/python3/dist-packages BRAINSHIFT_PICTURE=$out/picture.png \

@@ -53,8 +53,12 @@ def publish(out, case, run, known):
     return record
 
 
+def is_published(out, participant, session):
+    return file_of(out, participant, session, RECORD).exists()
+
+
 def withdraw(out, participant, session):
-    """What an earlier run wrote of a case that has no result now."""
+    """What an earlier run wrote of a case whose own run has failed."""
     for ending in (*FILES.values(), LABEL_TABLE, ABOUT_IMAGE, ABOUT_LABELS):
         file_of(out, participant, session, ending).unlink(missing_ok=True)
 

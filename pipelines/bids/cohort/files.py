@@ -23,8 +23,9 @@ def replaced(target):
 
 
 def replace_text(target, text):
+    """Names of files need not be UTF-8: their bytes stay what they are."""
     with replaced(target) as partial:
-        partial.write_text(text, encoding="utf-8")
+        partial.write_text(text, encoding="utf-8", errors="surrogateescape")
 
 
 def as_json(value):

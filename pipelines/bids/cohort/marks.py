@@ -35,18 +35,25 @@ def drop(folder, stages):
 
 @contextlib.contextmanager
 def kept(folders):
-    """The marks of cases are afterwards what they were, whatever was done to them."""
+    """The marks of cases, and what tells whether they hold, are afterwards what they were, whatever was done to them."""
     with tempfile.TemporaryDirectory() as place:
-        copies = {folder / "marks": Path(place, str(i)) for i, folder in enumerate(folders)
-                  if (folder / "marks").is_dir()}
-        for there, copy in copies.items():
-            shutil.copytree(there, copy)
+        copies = {folder: Path(place, str(i)) for i, folder in enumerate(folders) if (folder / "marks").is_dir()}
+        for folder, copy in copies.items():
+            shutil.copytree(folder / "marks", copy / "marks")
+            for file in plan_files(folder):
+                shutil.copy2(file, copy)
         try:
             yield
         finally:
-            for there, copy in copies.items():
-                shutil.rmtree(there, ignore_errors=True)
-                shutil.copytree(copy, there)
+            for folder, copy in copies.items():
+                shutil.rmtree(folder / "marks", ignore_errors=True)
+                shutil.copytree(copy / "marks", folder / "marks")
+                for file in plan_files(copy):
+                    shutil.copy2(file, folder)
+
+
+def plan_files(folder):
+    return [folder / name for name in ("case.sh", "scene.xml") if (folder / name).is_file()]
 
 
 def is_newer(file, than):
@@ -54,6 +61,12 @@ def is_newer(file, than):
         return file.stat().st_mtime_ns > than.stat().st_mtime_ns
     except FileNotFoundError:
         return False
+
+
+def has_failed(folder, stages):
+    """Whether its own run, of its files and options as they are, ended without a result."""
+    last = read(folder, stages[-1])
+    return bool(last) and last.code != 0 and not is_newer(folder / "case.sh", folder / "marks" / stages[-1])
 
 
 def fault(folder, stages):

@@ -49,7 +49,7 @@ def write_case(work, case, version):
              f"options=({shlex.join(set_words(case))})"]
     text = "\n".join(lines) + "\n"
     file = folder / "case.sh"
-    if not file.exists() or file.read_text(encoding="utf-8") != text:
+    if not file.exists() or file.read_text(encoding="utf-8", errors="surrogateescape") != text:
         replace_text(file, text)
 
 
