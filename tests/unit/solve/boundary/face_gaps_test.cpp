@@ -151,6 +151,7 @@ TEST(FaceGaps, OfACavityAreSeenFromAFineWallToACoarseOne) {
     nodes.row(f) = places[static_cast<std::size_t>(f)].place;
   }
   FaceGaps gaps(places, nodes, solve::Faces::of_cavity);
+  gaps.move(nodes);
   EXPECT_TRUE(gaps.gaps().array().isInf().all()) << "out of reach";
   nodes.bottomRows(nodes.rows() - below).col(1).array() = apart;
   gaps.move(nodes);
