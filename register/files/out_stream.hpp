@@ -3,23 +3,17 @@
 
 #include <filesystem>
 #include <fstream>
-#include <system_error>
 
-#include "segmentation/files/not_written.hpp"
+#include "segmentation/files/unfinished_file.hpp"
 
 namespace brainshift::registration {
 
-/// A file that is written bit by bit; it is removed when it is not finished.
+/// A file that is written bit by bit. Until it is finished, what was there before stays as it was.
 class OutStream {
  public:
-  explicit OutStream(std::filesystem::path file) : file_(std::move(file)), stream_(file_, std::ios::binary) {}
-  ~OutStream() {
-    if (!finished_) {
-      stream_.close();
-      std::error_code ignored;
-      std::filesystem::remove(file_, ignored);
-    }
-  }
+  /// Throws as UnfinishedFile does.
+  explicit OutStream(const std::filesystem::path& file)
+      : file_(file), unfinished_(file, ""), stream_(unfinished_.path(), std::ios::binary) {}
   OutStream(const OutStream&) = delete;
   OutStream& operator=(const OutStream&) = delete;
 
@@ -36,13 +30,13 @@ class OutStream {
     if (!stream_) {
       fail_to_write(file_);
     }
-    finished_ = true;
+    unfinished_.finish();
   }
 
  private:
   std::filesystem::path file_;
+  UnfinishedFile unfinished_;
   std::ofstream stream_;
-  bool finished_ = false;
 };
 
 }  // namespace brainshift::registration

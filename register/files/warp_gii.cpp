@@ -14,9 +14,9 @@
 
 #include "register/files/gii_claims.hpp"
 #include "register/files/warped_name.hpp"
-#include "segmentation/files/not_written.hpp"
 #include "segmentation/files/readable_file.hpp"
 #include "segmentation/files/refuse.hpp"
+#include "segmentation/files/unfinished_file.hpp"
 
 namespace brainshift::registration {
 
@@ -148,9 +148,11 @@ Points move_arrays(const fs::path& file, gifti_image& surface, PointMover& mover
 
 void write_gifti(const fs::path& file, gifti_image& image) {
   // The library does not look whether the disk took all of it.
-  if (gifti_write_image(&image, file.c_str(), 1) != 0 || !read_gifti(file, false)) {
+  UnfinishedFile unfinished(file, ".gii");
+  if (gifti_write_image(&image, unfinished.path().c_str(), 1) != 0 || !read_gifti(unfinished.path(), false)) {
     fail_to_write(file);
   }
+  unfinished.finish();
 }
 
 /// One value a vertex, as NIFTI_INTENT_SHAPE.

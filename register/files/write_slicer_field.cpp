@@ -8,13 +8,13 @@
 #include <string>
 
 #include "register/files/out_stream.hpp"
+#include "segmentation/files/unfinished_file.hpp"
 #include "segmentation/image/gzip_file.hpp"
 
 namespace brainshift::registration {
 
 namespace {
 
-namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little);
 
 std::string header(const ImageGeometry& grid) {
@@ -35,30 +35,16 @@ std::string header(const ImageGeometry& grid) {
   return text.str();
 }
 
-/// Files on the way to the whole one; gone in the end.
-struct Parts {
-  fs::path plain, packed;
-
-  explicit Parts(const fs::path& file) : plain(file.string() + ".part"), packed(file.string() + ".part.gz") {}
-  ~Parts() {
-    std::error_code ignored;
-    fs::remove(plain, ignored);
-    fs::remove(packed, ignored);
-  }
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
-};
-
 }  // namespace
 
-void write_slicer_field(const fs::path& file, const VectorImage& resampling) {
-  const Parts parts(file);
-  OutStream plain(parts.plain);
+void write_slicer_field(const std::filesystem::path& file, const VectorImage& resampling) {
+  const UnfinishedFile voxels(file, ""), compressed(file, ".gz");  // on the way to the whole one; gone in the end
+  OutStream plain(voxels.path());
   plain.write(resampling.voxels.data(), resampling.voxels.size() * sizeof(resampling.voxels[0]));
   plain.finish();
-  write_gzip(parts.packed, parts.plain);
+  write_gzip(compressed.path(), voxels.path());
   const std::string head = header(resampling.geometry);
-  std::ifstream packed(parts.packed, std::ios::binary);
+  std::ifstream packed(compressed.path(), std::ios::binary);
   OutStream out(file);
   out.write(head.data(), head.size());
   out.write(packed);

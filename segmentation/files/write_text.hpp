@@ -5,23 +5,28 @@
 #include <fstream>
 #include <string>
 
-#include "segmentation/files/not_written.hpp"
+#include "segmentation/files/unfinished_file.hpp"
 
 namespace brainshift {
 
-/// Throws as fail_to_write() where the disk does not take all of it; then nothing is left of the file.
+/// What was there before stays as it was where the disk does not take all of it. Throws as fail_to_write() and
+/// UnfinishedFile do. A device, as /dev/stdout, is written to itself.
 inline void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  std::error_code ignored;
-  const bool ours = stream.is_open() && std::filesystem::is_regular_file(file, ignored);  // and no device
-  stream << text;
-  stream.close();
-  if (!stream) {
-    if (ours) {
-      std::filesystem::remove(file, ignored);
+  const auto write_to = [&](const std::filesystem::path& place) {
+    std::ofstream stream(place, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) {
+      fail_to_write(file);
     }
-    fail_to_write(file);
+  };
+  std::error_code unknown;
+  if (std::filesystem::is_other(file, unknown)) {
+    return write_to(file);
   }
+  UnfinishedFile unfinished(file, "");
+  write_to(unfinished.path());
+  unfinished.finish();
 }
 
 }  // namespace brainshift

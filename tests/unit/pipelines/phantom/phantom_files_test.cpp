@@ -69,7 +69,7 @@ TEST(PhantomFiles, ThatCannotBeWrittenAreNamed) {
   folder.write("taken", "a file");
   std::filesystem::create_directories(folder / "out/answers.json");
   for (const auto& [place, words] : {std::pair<std::string, std::string>("taken/out", "cannot be made"),
-                                     std::pair<std::string, std::string>("out", "could not be written whole")}) {
+                                     std::pair<std::string, std::string>("out", "is a folder")}) {
     try {
       write_phantom(small, folder / place);
       ADD_FAILURE() << place;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "segmentation/files/write_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/file_size_limit.hpp"
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/segmentation/builders.hpp"
+
+namespace brainshift::test::write_text_test {
+
+TEST(WriteText, KeepsWhatWasThereWhereTheDiskIsFull) {
+  const ScratchFolder folder;
+  const auto file = folder.write("points.csv", "of before");
+  {
+    const FileSizeLimit full(1000);
+    EXPECT_TRUE(throws_saying<std::runtime_error>([&] { write_text(file, std::string(2000, 'x')); },
+                                                  {"points.csv", "could not be written whole"}));
+  }
+  EXPECT_EQ(bytes_of(file), "of before");
+  write_text(file, "of now");
+  EXPECT_EQ(bytes_of(file), "of now");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "nothing half-written";
+}
+
+TEST(WriteText, TakesADeviceAndNoFolder) {
+  EXPECT_NO_THROW(write_text("/dev/null", "text"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  const ScratchFolder folder;
+  EXPECT_TRUE(throws_saying<std::runtime_error>([&] { write_text(folder.path(), "text"); }, {"is a folder"}));
+}
+
+}  // namespace brainshift::test::write_text_test
