@@ -7,12 +7,13 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "segmentation/files/vtk_bridge.hpp"
+#include "segmentation/geometry/joined_nodes.hpp"
+#include "segmentation/geometry/loose_vertices.hpp"
 #include "segmentation/image/mask.hpp"
 #include "segmentation/image/voxels.hpp"
 #include "segmentation/interface/options.hpp"
@@ -185,53 +186,24 @@ Surface faces_between(const Parts& parts, const Mask& joined) {
   return sheet;
 }
 
-/// Of each vertex one of those that it hangs together with.
-std::vector<std::int32_t> pieces_of(const Surface& sheet) {
-  std::vector<std::int32_t> piece(static_cast<std::size_t>(sheet.vertices.rows()));
-  std::iota(piece.begin(), piece.end(), 0);
-  const auto root = [&](std::int32_t v) {
-    while (piece[static_cast<std::size_t>(v)] != v) {
-      v = piece[static_cast<std::size_t>(v)] = piece[static_cast<std::size_t>(piece[static_cast<std::size_t>(v)])];
-    }
-    return v;
-  };
-  for (const auto& t : sheet.triangles.rowwise()) {
-    piece[static_cast<std::size_t>(root(t[1]))] = root(t[0]);
-    piece[static_cast<std::size_t>(root(t[2]))] = root(t[0]);
-  }
-  for (std::size_t v = 0; v < piece.size(); ++v) {
-    piece[v] = root(static_cast<std::int32_t>(v));
-  }
-  return piece;
-}
-
 /// The sheet without its small pieces, and without vertices that no triangle names.
 Surface large_pieces(const Surface& sheet) {
-  const std::vector<std::int32_t> piece = pieces_of(sheet);
-  const auto piece_of = [&](Eigen::Index t) { return piece[static_cast<std::size_t>(sheet.triangles(t, 0))]; };
-  std::map<std::int32_t, double> areas;
-  for (Eigen::Index t = 0; t < sheet.triangles.rows(); ++t) {
-    areas[piece_of(t)] += triangle(sheet, t).area_vector().norm();
+  JoinedNodes pieces(static_cast<std::size_t>(sheet.vertices.rows()));
+  for (const auto& t : sheet.triangles.rowwise()) {
+    pieces.join(t[0], t[1]);
+    pieces.join(t[0], t[2]);
   }
-  std::vector<Eigen::Index> kept, vertices;
-  std::vector<std::int32_t> number(piece.size(), -1);
+  std::map<std::int32_t, double> areas;  // of a piece, by the vertex that stands for it
   for (Eigen::Index t = 0; t < sheet.triangles.rows(); ++t) {
-    if (areas[piece_of(t)] < smallest_piece) {
-      continue;
-    }
-    kept.push_back(t);
-    for (const std::int32_t v : sheet.triangles.row(t)) {
-      if (number[static_cast<std::size_t>(v)] < 0) {
-        number[static_cast<std::size_t>(v)] = static_cast<std::int32_t>(vertices.size());
-        vertices.push_back(v);
-      }
+    areas[pieces.root(sheet.triangles(t, 0))] += triangle(sheet, t).area_vector().norm();
+  }
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index t = 0; t < sheet.triangles.rows(); ++t) {
+    if (areas[pieces.root(sheet.triangles(t, 0))] >= smallest_piece) {
+      kept.push_back(t);
     }
   }
-  Surface large{sheet.vertices(vertices, Eigen::all), sheet.triangles(kept, Eigen::all)};
-  for (std::int32_t& v : large.triangles.reshaped()) {
-    v = number[static_cast<std::size_t>(v)];
-  }
-  return large;
+  return without_loose_vertices({sheet.vertices, sheet.triangles(kept, Eigen::all)});
 }
 
 /// Without the steps of the voxels; the rim stays a line, and three sheets that meet keep meeting.

@@ -2,7 +2,6 @@
 #include "solve/material/material_table.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -36,11 +35,6 @@ MaterialTable material_table(const std::map<std::int32_t, Material>& materials, 
 
 double density_per_cubic_millimetre(const Material& material) {
   return 1e-6 * material.density;
-}
-
-double wave_speed(const Material& material) {
-  const double modulus = bulk_modulus(material) + 4 * shear_modulus(material) / 3;
-  return std::sqrt(modulus / density_per_cubic_millimetre(material));
 }
 
 }  // namespace brainshift::solve

@@ -24,7 +24,4 @@ MaterialTable material_table(const std::map<std::int32_t, Material>& materials, 
 /// ρ in g/mm³.
 double density_per_cubic_millimetre(const Material& material);
 
-/// c_d = sqrt((λ + 2µ)/ρ), mm/s: the speed of dilatational waves.
-double wave_speed(const Material& material);
-
 }  // namespace brainshift::solve

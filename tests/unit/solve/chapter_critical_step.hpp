@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solve/force/point_blocks.hpp"
+#include "solve/material/material_table.hpp"
 
 namespace brainshift::solve {
 
@@ -32,13 +33,19 @@ inline std::vector<double> chapter_mass(const PointBlocks& points, std::span<con
   return mass;
 }
 
+/// c_d = sqrt((λ + 2µ)/ρ), mm/s: the speed of dilatational waves.
+inline double wave_speed(const Material& material) {
+  const double modulus = bulk_modulus(material) + 4 * shear_modulus(material) / 3;
+  return std::sqrt(modulus / density_per_cubic_millimetre(material));
+}
+
 /// The critical step as Wittek et al. print it, eq. 25, with (λ + 2µ)/ρ: min over points of 2 / (c_d sqrt(N Σ|B|²)), s.
-/// wave_speed: c_d, mm/s, one a row of the material table; points in double precision. What the solver's own bound is
+/// speed: c_d, mm/s, one a row of the material table; points in double precision. What the solver's own bound is
 /// held against.
-inline double chapter_critical_step(const PointBlocks& points, std::span<const double> wave_speed) {
+inline double chapter_critical_step(const PointBlocks& points, std::span<const double> speed) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Patch& patch : points.patches) {
-    const double c = wave_speed[static_cast<std::size_t>(patch.material)];
+    const double c = speed[static_cast<std::size_t>(patch.material)];
     for (std::int32_t p = patch.first_point; p < patch.last_point; ++p) {
       const auto nodes = static_cast<Eigen::Index>(points.support_size(p));
       const Eigen::Map<const Eigen::Matrix3Xd> derivative(points.derivatives_of<double>(p), 3, nodes);

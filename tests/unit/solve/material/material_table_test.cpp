@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/solve/chapter_critical_step.hpp"
 
 namespace brainshift::solve::material_table_test {
 
