@@ -14,15 +14,21 @@
 namespace brainshift {
 
 /// A new file of its own beside another, whose place it takes once it is whole. Until then the other stays as it was;
-/// what is not finished goes.
+/// what is not finished goes. In place of a device, as /dev/stdout, it is the device itself.
 class UnfinishedFile {
  public:
   /// Makes it, empty. ending: of its name, as libraries go by it. A link is followed to the file that it names. Throws
   /// std::runtime_error, naming the other, where that is a folder or write-protected, or its folder takes no file.
   UnfinishedFile(const std::filesystem::path& file, const std::string& ending)
-      : file_(file), place_(std::filesystem::exists(file) ? std::filesystem::canonical(file) : file) {
-    if (std::filesystem::is_directory(place_)) {
+      : file_(file), place_(file), path_(file) {
+    if (std::filesystem::is_directory(file)) {
       throw std::runtime_error(file_.string() + ": is a folder; give the name of a file");
+    }
+    if (std::filesystem::is_other(file)) {
+      return;
+    }
+    if (std::filesystem::exists(file)) {
+      place_ = std::filesystem::canonical(file);
     }
     if (std::filesystem::exists(place_) && ::access(place_.c_str(), W_OK) != 0) {
       throw std::runtime_error(file_.string() + ": is write-protected; give another name");
@@ -41,8 +47,10 @@ class UnfinishedFile {
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
   ~UnfinishedFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
+    if (path_ != place_) {
+      std::error_code ignored;
+      std::filesystem::remove(path_, ignored);
+    }
   }
 
   const std::filesystem::path& path() const { return path_; }
@@ -50,7 +58,9 @@ class UnfinishedFile {
   /// It takes the other's place. Throws std::runtime_error where it cannot.
   void finish() {
     std::error_code fault;
-    std::filesystem::rename(path_, place_, fault);
+    if (path_ != place_) {
+      std::filesystem::rename(path_, place_, fault);
+    }
     if (fault) {
       fail_to_write(file_);
     }

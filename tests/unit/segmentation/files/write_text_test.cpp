@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "segmentation/files/write_text.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
 
 #include "tests/unit/file_size_limit.hpp"
 #include "tests/unit/scratch_folder.hpp"
@@ -24,9 +29,15 @@ TEST(WriteText, KeepsWhatWasThereWhereTheDiskIsFull) {
 }
 
 TEST(WriteText, TakesADeviceAndNoFolder) {
-  EXPECT_NO_THROW(write_text("/dev/null", "text"));
-  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   const ScratchFolder folder;
+  const auto pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  write_text(pipe, "text");
+  std::array<char, 9> read{};
+  EXPECT_EQ(::read(reader, read.data(), read.size()), 4);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  ::close(reader);
   EXPECT_TRUE(throws_saying<std::runtime_error>([&] { write_text(folder.path(), "text"); }, {"is a folder"}));
 }
 
