@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -41,6 +42,9 @@ class UnfinishedFile {
     }
     if (descriptor < 0) {
       fail_to_write(file_);
+    }
+    if (struct stat other{}; ::stat(place_.c_str(), &other) == 0) {
+      ::fchmod(descriptor, other.st_mode & 0777U);  // whoever may not read the other may not read this either
     }
     ::close(descriptor);
   }

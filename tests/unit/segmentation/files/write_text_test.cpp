@@ -23,8 +23,11 @@ TEST(WriteText, KeepsWhatWasThereWhereTheDiskIsFull) {
                                                   {"points.csv", "could not be written whole"}));
   }
   EXPECT_EQ(bytes_of(file), "of before");
+  constexpr auto mine = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
+  std::filesystem::permissions(file, mine);
   write_text(file, "of now");
   EXPECT_EQ(bytes_of(file), "of now");
+  EXPECT_EQ(std::filesystem::status(file).permissions(), mine) << "nobody else may read it";
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "nothing half-written";
 }
 
