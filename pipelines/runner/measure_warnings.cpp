@@ -96,6 +96,13 @@ Warnings warnings_of_noise(const solve::SolveMeasures& measures) {
             " mm only, far more than the noise that is given: no cortex does, so the noise is likely larger, or some "
             "points are wrong; give the noise of one component in mm, as a standard deviation"};
   }
+  const solve::SmoothMotion& refused = measures.measured->refused;
+  if (const double size = std::hypot(refused.along, refused.across); size > measures.largest_displacement) {
+    return {"the measured points do not tell the opening's motion from their noise: it may be about " +
+            with_digits(size) + " mm, and the answer, at most " + with_digits(measures.largest_displacement) +
+            " mm, leaves it out; measure more points or more exactly, and give the noise of one component in mm, as a "
+            "standard deviation, no larger than it is"};
+  }
   const bool weight_is_given = measures.measured->weights.empty();  // then it is that, not the noise, that decides
   if (weight_is_given || measures.measured->noise_factor >= far_less) {
     return {};

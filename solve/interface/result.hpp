@@ -108,6 +108,8 @@ struct MeasuredFit {
   double weight = 0;    ///< s that was used, mJ
   SmoothMotion smooth;  ///< what the points say of it
   bool rough = false;   ///< alike over the shortest length that was tried, and no likelier than noise so far larger
+  /// The likeliest, where the points are as likely without: in what is said of errors, not in the answer's prior.
+  SmoothMotion refused;
   SmoothMotion hidden;  ///< of the opening, beside which an unknown registration is found; not in the answer's prior
   /// (m × 3) mm: with a smooth motion, the displacement of each point of the cortex as prior and noise have it.
   Points smoothed = Points(0, 3);

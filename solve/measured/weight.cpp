@@ -147,40 +147,55 @@ class Likelihood {
             amplitudes_[static_cast<std::size_t>(place[2])]};
   }
 
-  MeasuredFit with_motion(MeasuredFit fit, double likeliest, int chosen) const {
+  /// A smooth motion, its sizes and the weight beside it, and how likely these are.
+  struct Moved {
+    SmoothMotion smooth;
+    Place place{};
+    double likely = -std::numeric_limits<double>::infinity();
+  };
+
+  /// plain: without a motion, `chosen` its weight.
+  MeasuredFit with_motion(MeasuredFit fit, double plain, int chosen) const {
     const Eigen::JacobiSVD<Eigen::MatrixXd> main(displacement_, Eigen::ComputeFullV);
     SmoothMotion smooth{.direction = main.matrixV().col(0)};
     const double extent = extent_of(response_.sites);
     double first = 0;  // length that is tried
-    likeliest += least_gain;
+    Moved moved;
     for (const double share : lengths) {
       smooth.length = share * extent;
       if (smooth.length > 0 && smooth.length >= response_.shortest) {
         first = first > 0 ? first : smooth.length;
         smooth.fades = false;
-        take_if_likelier(smooth, chosen, likeliest, fit);
+        take_if_likelier(smooth, chosen, moved);
         smooth.fades = true;
-        take_if_likelier(smooth, chosen, likeliest, fit);
+        take_if_likelier(smooth, chosen, moved);
       }
     }
-    fit.rough = fit.smooth.length == first && std::max(fit.smooth.along, fit.smooth.across) > far_larger * noise_;
+    if (first == 0) {
+      return fit;
+    }
+    const Sizes sizes = mean_sizes(shapes_of(moved.smooth), moved.place);
+    moved.smooth.along = sizes.along;
+    moved.smooth.across = sizes.across;
+    if (moved.likely <= plain + least_gain) {
+      fit.refused = moved.smooth;
+      return fit;
+    }
+    fit.weight = sizes.weight;
+    fit.smooth = moved.smooth;
+    fit.rough = fit.smooth.length == first && std::max(sizes.along, sizes.across) > far_larger * noise_;
     return fit;
   }
 
   /// Of its sizes, and of the weight, whatever is likeliest. chosen: the weight without it.
-  void take_if_likelier(SmoothMotion smooth, int chosen, double& likeliest, MeasuredFit& fit) const {
+  void take_if_likelier(const SmoothMotion& smooth, int chosen, Moved& likeliest) const {
     if (smooth.fades && response_.fading.size() == 0) {
       return;
     }
     const Shapes shapes = shapes_of(smooth);
     for (Place place : {Place{chosen, 1, 0}, Place{0, 2 * amplitudes / 3, 0}}) {
-      if (const double likely = climb(shapes, place); likely > likeliest) {
-        likeliest = likely;
-        const Sizes sizes = mean_sizes(shapes, place);
-        fit.weight = sizes.weight;
-        smooth.along = sizes.along;
-        smooth.across = sizes.across;
-        fit.smooth = smooth;
+      if (const double likely = climb(shapes, place); likely > likeliest.likely) {
+        likeliest = {smooth, place, likely};
       }
     }
   }
@@ -312,6 +327,18 @@ MeasuredFit choose_weight(const Response& response, const Points& displacement, 
   return fit;
 }
 
+namespace {
+
+/// What of the opening's motion is believed where errors are told.
+const SmoothMotion& doubted(const Response& response, const MeasuredFit& fit) {
+  if (hides_motion(response)) {
+    return fit.hidden;
+  }
+  return fit.smooth.length > 0 ? fit.smooth : fit.refused;
+}
+
+}  // namespace
+
 Posterior::Posterior(const Response& response, const Points& displacement, const Points& sigma, const MeasuredFit& fit)
     : Posterior(response, stacked_rows(displacement), stacked_rows(sigma).cwiseAbs2(), fit,
                 fit.noise_factor * fit.noise_factor) {}
@@ -323,8 +350,7 @@ Posterior::Posterior(const Response& response, const Eigen::VectorXd& d, const E
       measured_(d.size()),
       factor_(hides_motion(response) ? 1 : larger),
       likely_(response, fit.weight, fit.smooth),
-      careful_(response, larger / factor_ * fit.weight, hides_motion(response) ? fit.hidden : fit.smooth,
-               Alike::matern),
+      careful_(response, larger / factor_ * fit.weight, doubted(response, fit), Alike::matern),
       answer_(likely_.between(0, measured_, 0, measured_),
               response.rigid.topRows(measured_).leftCols(hides_motion(response) ? 0 : response.rigid.cols()), d,
               variance),

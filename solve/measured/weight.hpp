@@ -12,11 +12,11 @@ namespace brainshift::solve {
 /// Chooses what is believed of the motion before it is measured, by restricted maximum likelihood (Patterson &
 /// Thompson 1971), log_likelihood of MeasuredGaussian: the weight s of the deformation's energy, exp(−W/s), and, where
 /// the response has sites, a smooth motion of the opening beside it, unless the points are as likely without: three
-/// more numbers must gain three in the likelihood (Akaike 1974). s is searched where the prior's standard deviation at
-/// the points is between a tenth of the usual σ (the lower quartile) and ten times the largest |d|; a weight that is
-/// given (mJ) is taken alone. displacement, sigma: (m × 3) mm, of the first m points of the response, of which the
-/// first 60 choose. `smoothed` are all m points; covariance and linear stay empty. Throws std::invalid_argument where
-/// the points do not fix a rigid motion.
+/// more numbers must gain three in the likelihood (Akaike 1974). One that does not is `refused`. s is searched where
+/// the prior's standard deviation at the points is between a tenth of the usual σ (the lower quartile) and ten times
+/// the largest |d|; a weight that is given (mJ) is taken alone. displacement, sigma: (m × 3) mm, of the first m points
+/// of the response, of which the first 60 choose. `smoothed` are all m points; covariance and linear stay empty. Throws
+/// std::invalid_argument where the points do not fix a rigid motion.
 MeasuredFit choose_weight(const Response& response, const Points& displacement, const Points& sigma, double weight = 0);
 
 /// What the linear body says of the displacements at the a places behind the m measured points of a response, by the

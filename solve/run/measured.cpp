@@ -41,7 +41,7 @@ void check_measured(const Model& model, const SolveOptions& options) {
 MeasuredFit fit_measured(const ThinnedBody& thinned, const Conditions& conditions) {
   const MeasuredPoints points(thinned, conditions);
   const Measurement& measured = *conditions.measured;
-  const Points places = stacked(points.positions, within_sight(measured.asked, thinned.stiff.cloud.positions));
+  const Points places = stacked(points.positions, within_sight(measured.asked, thinned.stiff.cloud));
   const Response response = points.response_and_motion(inner_rows(points.shape, places), places);
   MeasuredFit fit = choose_weight(response, points.displacement, points.sigma, measured.weight);
   if (measured.asked.rows() > 0) {

@@ -67,7 +67,7 @@ void say_by_answer(const ThinnedBody& thinned, const Points& asked, const Points
     return;
   }
   const ShapeFunctions shape = thinned.shape();
-  const ShapeRows rows = inner_rows(shape, within_sight(asked, thinned.stiff.cloud.positions));
+  const ShapeRows rows = inner_rows(shape, within_sight(asked, thinned.stiff.cloud));
   say(fit.linear, answered_at(rows, thinned, shape, displacement), fit.covariance);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solve/run/measured_points.hpp"
 
+#include <algorithm>
+
 #include "solve/load/openings.hpp"
 #include "solve/load/spread_out.hpp"
 #include "solve/measured/gaussian.hpp"
@@ -13,12 +15,13 @@ Points stacked(const Points& above, const Points& below) {
   return both;
 }
 
-Points within_sight(Points places, const Points& nodes) {
-  constexpr double sight = 20;  // mm
+Points within_sight(Points places, const NodeCloud& cloud) {
+  constexpr double sight = 20, in_spacings = 2;  // mm, and of the nearest node
   for (Eigen::Index i = 0; i < places.rows(); ++i) {
     Eigen::Index nearest = 0;
-    if ((nodes.rowwise() - places.row(i)).rowwise().norm().minCoeff(&nearest) > sight) {
-      places.row(i) = nodes.row(nearest);
+    const double off = (cloud.positions.rowwise() - places.row(i)).rowwise().norm().minCoeff(&nearest);
+    if (off > std::max(sight, in_spacings * cloud.spacing[static_cast<std::size_t>(nearest)])) {
+      places.row(i) = cloud.positions.row(nearest);
     }
   }
   return places;

@@ -10,8 +10,9 @@ namespace brainshift::solve {
 
 Points stacked(const Points& above, const Points& below);
 
-/// Places so far outside that no node sees them move to the nearest node: nothing is said there that anyone uses.
-Points within_sight(Points places, const Points& nodes);
+/// Places so far outside a thinned body that no node sees them move to the nearest node: nothing is said there that
+/// anyone uses. Within the body the nearest node is about a spacing off.
+Points within_sight(Points places, const NodeCloud& cloud);
 
 /// What is measured, the points of the cortex first.
 struct Seen {

@@ -45,6 +45,8 @@ struct KeptRun {
   Responses responses;               ///< none where noise leaves springs: of what is prescribed exactly alone
   Departures departures;             ///< from the first order; not kept on disk
   std::optional<ThinnedBody> thinned = {};  ///< of a load with noise, which chooses each load's weight; else absent
+  /// What was prescribed when `thinned` was made for other nodes than the run's own. Not kept on disk.
+  std::optional<Points> thinned_for = {};
   /// What the run was made from, asked for by a load on other nodes. Not kept on disk: whoever made or read the run
   /// says it.
   std::function<Model()> made_from = {};

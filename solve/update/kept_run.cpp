@@ -239,6 +239,7 @@ SolveResult update(KeptRun& run, const Conditions& given, const Progress& progre
     if (!run.thinned) {
       throw std::invalid_argument("it has standard deviations, but the run's load was met exactly");
     }
+    thin_for(load, run);
     fit = fit_measured(*run.thinned, load);
     load = weighed_conditions(std::move(load), *fit);
   }

@@ -78,6 +78,22 @@ bool same_bonded(const std::vector<std::uint8_t>& on_surface, const Points& a, c
   return bonded_nodes(on_surface, a) == bonded_nodes(on_surface, b);
 }
 
+bool hold_the_same(const Points& a, const Points& b) {
+  return (a.array().isNaN() == b.array().isNaN()).all();
+}
+
+/// What the run was made from, under another load.
+Model model_under(const Conditions& load, const KeptRun& run) {
+  Model model = run.made_from();
+  const Points& positions = run.fine.body.positions;
+  if (model.cloud.positions.rows() != positions.rows() || model.cloud.positions != positions) {
+    throw std::invalid_argument("it loads other nodes than the run did, and the run's cloud has changed since");
+  }
+  model.conditions.displacement = load.displacement;
+  model.conditions.measured = load.measured;
+  return model;
+}
+
 /// What was made of the body that `fine` had.
 void forget_body(KeptRun& run) {
   run.ready = false;
@@ -120,13 +136,7 @@ void prepare_for(const Conditions& load, KeptRun& run, const Progress& progress)
   if (!run.made_from) {
     throw std::invalid_argument("it loads other nodes than the run did, and what the run was made from is not known");
   }
-  Model model = run.made_from();
-  const Points& positions = run.fine.body.positions;
-  if (model.cloud.positions.rows() != positions.rows() || model.cloud.positions != positions) {
-    throw std::invalid_argument("it loads other nodes than the run did, and the run's cloud has changed since");
-  }
-  model.conditions.displacement = load.displacement;
-  model.conditions.measured = load.measured;
+  const Model model = model_under(load, run);
   SolveMeasures measures;
   Body body = prepare(model, run.options, {}, measures, progress).body;
   if (!run.own) {
@@ -135,6 +145,13 @@ void prepare_for(const Conditions& load, KeptRun& run, const Progress& progress)
   run.fine.body = std::move(body);
   run.prepared_for = Points(0, 3);
   forget_body(run);
+}
+
+void thin_for(const Conditions& load, KeptRun& run) {
+  if (run.made_from && !hold_the_same(load.displacement, run.thinned_for.value_or(run.origin.prescribed))) {
+    run.thinned = thinned_body(model_under(load, run), run.options.shape);
+    run.thinned_for = load.displacement;
+  }
 }
 
 }  // namespace brainshift::solve

@@ -19,4 +19,8 @@ bool is_prepared_for(const Points& prescribed, const KeptRun& run);
 /// set or of another cloud, and as prepare(): the run is then as it was.
 void prepare_for(const Conditions& load, KeptRun& run, const Progress& progress);
 
+/// Thins the body as a run under this load does: loaded nodes stay rather than others. Leaves it alone where that was
+/// done for the same nodes, or made_from is not set. Throws std::invalid_argument where that is of another cloud.
+void thin_for(const Conditions& load, KeptRun& run);
+
 }  // namespace brainshift::solve
