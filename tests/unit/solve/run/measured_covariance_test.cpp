@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "solve/run/measured.hpp"
+#include "solve/run/measured_points.hpp"
 #include "tests/unit/solve/measured_box.hpp"
 
 namespace brainshift::solve::measured_covariance_test {
@@ -48,6 +49,13 @@ TEST(MeasuredCovariance, OfALandmarkFarOutsideIsNoReasonToRefuse) {
   Model model = measured_box(0.5);
   model.conditions.measured->asked = Points::Constant(1, 3, 10 * model_side);
   EXPECT_TRUE(fit_measured(thinned_body(model, {}), model.conditions).covariance.allFinite());
+}
+
+/// A thinned body may have nodes so far from each other.
+TEST(WithinSight, IsWhatLiesAboutASpacingFromANode) {
+  const NodeCloud thinned{.positions = Points{{0, 0, 0}, {50, 0, 0}}, .spacing = {25, 25}, .on_surface = {0, 0}};
+  const Points places{{25, 0, 0}, {0, 19, 0}, {0, 60, 0}};
+  EXPECT_EQ(within_sight(places, thinned), (Points{{25, 0, 0}, {0, 19, 0}, {0, 0, 0}}));
 }
 
 }  // namespace brainshift::solve::measured_covariance_test
