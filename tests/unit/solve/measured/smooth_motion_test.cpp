@@ -207,27 +207,32 @@ TEST(SmoothMotion, ThatIsRefusedIsInWhatIsSaid) {
   std::mt19937 random(14);
   constexpr int known = 6, asked = 20, draws = 60;
   const Response response = opening_response(known + asked);
-  const Points sigma = Points::Constant(known, 3, 1);
-  int inside = 0, refused = 0;
+  const Points sigma = Points::Constant(known, 3, 2);
+  int inside = 0, without = 0, refused = 0;
   for (int draw = 0; draw < draws; ++draw) {
     Points truth = Points::Zero(known + asked, 3);
-    truth.col(2) = -2 * response.fading;
-    const Points d = truth.topRows(known) + Eigen::Map<const Points>(normals(3 * known, random).data(), known, 3);
+    truth.col(2) = -3 * response.fading;
+    const Points d = truth.topRows(known) + 2 * Eigen::Map<const Points>(normals(3 * known, random).data(), known, 3);
     const MeasuredFit fit = choose_weight(response, d, sigma);
     EXPECT_NE(fit.smooth.length > 0, fit.refused.length > 0) << "the one or the other";
     if (fit.smooth.length > 0) {
       continue;
     }
     ++refused;
-    const Posterior said(response, d, sigma, fit);
+    MeasuredFit none = fit;
+    none.refused = {};
+    const Posterior said(response, d, sigma, fit), energy_alone(response, d, sigma, none);
     const Points mean = said.mean();
+    EXPECT_EQ(mean, energy_alone.mean()) << "the answer leaves it out";
     for (int a = 0; a < asked; ++a) {
       const Eigen::Vector3d error = (truth.row(known + a) - mean.row(a)).transpose();
       inside += error.dot(said.covariance(a, 1).llt().solve(error)) <= 7.815 ? 1 : 0;
+      without += error.dot(energy_alone.covariance(a, 1).llt().solve(error)) <= 7.815 ? 1 : 0;
     }
   }
-  EXPECT_GT(refused, draws / 5);
-  EXPECT_GE(inside, 0.90 * refused * asked) << refused;
+  EXPECT_GT(refused, draws / 3);
+  EXPECT_GE(inside, 0.85 * refused * asked) << "of draws that happen to tell little";
+  EXPECT_LT(without, 0.70 * refused * asked);
 }
 
 }  // namespace brainshift::solve::smooth_motion_test

@@ -3,18 +3,22 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "solve/run/thinned_body.hpp"
 #include "tests/unit/solve/models.hpp"
 
 namespace brainshift::solve::other_load_test {
 
-/// Of more nodes than a thinned body has, held below and loaded on one half of its upper face.
-Model half_loaded(bool right) {
-  Model model = box_model(test::box_cells(8, model_side));
+constexpr int cells = 8;  // along each edge
+
+/// Of more nodes than a thinned body has, held below and loaded at every other node of its upper face.
+Model half_loaded(int which) {
+  Model model = box_model(test::box_cells(cells, model_side));
   hold_bottom(model);
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const Eigen::RowVector3d x = model.cloud.positions.row(a);
-    if (x[2] > model_side - 1e-9 && (x[0] > model_side / 2) == right) {
+    if (x[2] > model_side - 1e-9 && std::lround((x[0] + x[1]) * cells / model_side) % 2 == which) {
       model.conditions.displacement.row(a) << 0, 0, -4;
     }
   }
@@ -22,7 +26,7 @@ Model half_loaded(bool right) {
 }
 
 TEST(ThinFor, IsTheBodyOfARunUnderThatLoad) {
-  const Model own = half_loaded(false), other = half_loaded(true);
+  const Model own = half_loaded(0), other = half_loaded(1);
   KeptRun run;
   run.fine.body.positions = own.cloud.positions;
   run.origin.prescribed = own.conditions.displacement;
