@@ -124,6 +124,13 @@ Warnings warnings_of_levels(const solve::Model& model) {
         " mm above the whole brain, so that none has drained; is the level of this frame (LPS), and does "
         "gravity point the right way?");
   }
+  const auto sinks = [&](const auto& tissue) { return tissue.second.density > model.fluid->density; };
+  if (!model.fluid->gravity.isApprox(model.fluid->gravity_of_image) && std::ranges::none_of(model.materials, sinks)) {
+    warnings.push_back("gravity has turned since the image, and no tissue is denser than the fluid, " +
+                       with_digits(model.fluid->density) +
+                       " kg/m3, so that the brain floats up where it should sink: give the tissues their densities, as "
+                       "density=\"1040\" for the brain");
+  }
   if (model.resection && model.resection->fluid_level && top - *model.resection->fluid_level > skull) {
     warnings.push_back("the surface of the fluid in the cavity lies " +
                        with_digits(top - *model.resection->fluid_level) +

@@ -24,7 +24,7 @@ std::string turn_fault(const solve::Model& model, const Solution& solution);
 /// Of soft tissue, as fluid is modelled, that a drained level leaves with its whole weight.
 Warnings warnings_of_rooms(const solve::Model& model);
 
-/// Of levels of the fluid above or below the whole brain.
+/// Of levels of the fluid above or below the whole brain, and of tissues that float in it where gravity has turned.
 Warnings warnings_of_levels(const solve::Model& model);
 
 /// Of a head that is weighed as if it did not float.

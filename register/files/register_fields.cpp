@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "register/field/field_sampler.hpp"
 #include "register/warp/warp.hpp"
 #include "segmentation/files/refuse.hpp"
 #include "segmentation/files/vtu_file.hpp"
@@ -29,12 +30,29 @@ const VectorImage& RegisterFields::read(bool forward) {
   return *field;
 }
 
-const std::optional<LabelMap>& RegisterFields::removed() {
-  if (!looked_for_removed_ && towards_ == Towards::intraop && std::filesystem::exists(folder_ / removed_name)) {
+const std::optional<LabelMap>& RegisterFields::taken_out() {
+  if (!looked_for_removed_ && std::filesystem::exists(folder_ / removed_name)) {
     removed_ = read_label_map(folder_ / removed_name);
   }
   looked_for_removed_ = true;
   return removed_;
+}
+
+const std::optional<LabelMap>& RegisterFields::removed() {
+  static const std::optional<LabelMap> nothing;
+  return towards_ == Towards::intraop ? taken_out() : nothing;
+}
+
+bool RegisterFields::is_removed(const Eigen::Vector3d& place) {
+  if (!taken_out()) {
+    return false;
+  }
+  if (towards_ == Towards::intraop) {
+    return label_at(*removed_, place) != 0;
+  }
+  const FieldSampler sampler(of_points());
+  const Eigen::Vector3d index = sampler.to_index(place);
+  return sampler.inside(index) && label_at(*removed_, place + sampler.value(index)) != 0;
 }
 
 void RegisterFields::read_nodes() {

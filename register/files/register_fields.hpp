@@ -38,9 +38,10 @@ class RegisterFields {
   const VectorImage& of_points() { return read(towards_ == Towards::intraop); }
   const VectorImage& of_images() { return read(towards_ == Towards::preop); }
 
-  /// Whether a place of the preop brain lies in what a resection has taken out. Never towards preop: nothing is there
-  /// that could be taken along.
-  bool is_removed(const Eigen::Vector3d& place) { return removed() && label_at(*removed(), place) != 0; }
+  /// Whether a place, before it is moved, lies in what a resection has taken out: of the intraop brain, where the map
+  /// of points takes it.
+  bool is_removed(const Eigen::Vector3d& place);
+  /// What is taken out of images on the way; nothing towards preop, where it is not in them.
   const std::optional<LabelMap>& removed();
 
   /// How far the displacement may be off, mm, at points (n × 3, LPS) before they are moved: what the run has of
@@ -53,6 +54,7 @@ class RegisterFields {
 
  private:
   const VectorImage& read(bool forward);
+  const std::optional<LabelMap>& taken_out();
   /// Reads what is known at the nodes, once.
   void read_nodes();
 

@@ -110,6 +110,20 @@ TEST(AnswerWarnings, TellOfFluidThatStandsBelowTheBrain) {
   expect_one(warnings_of_levels(model), {"20 mm below the whole brain", "all of it has drained", "along gravity"});
 }
 
+TEST(AnswerWarnings, TellOfTissuesThatFloatWhereGravityHasTurned) {
+  solve::Model model;
+  model.cloud = ball();
+  model.materials = {{1, {.youngs_modulus = 3000}}, {2, {.youngs_modulus = 10}}};
+  const double top = model.cloud.positions.col(1).minCoeff();
+  model.fluid = solve::DrainedFluid{.gravity = {0, 9.8, 0}, .gravity_of_image = {0, 0, -9.8}, .level = top};
+  expect_one(warnings_of_levels(model), {"no tissue is denser than the fluid, 1007 kg/m3", "density=\"1040\""});
+  model.materials.at(1).density = 1040;
+  EXPECT_TRUE(warnings_of_levels(model).empty());
+  model.materials.at(1).density = 1000;
+  model.fluid->gravity_of_image = model.fluid->gravity;
+  EXPECT_TRUE(warnings_of_levels(model).empty()) << "what floats stays where it is";
+}
+
 TEST(AnswerWarnings, TellOfATissueAsSoftAsFluidThatIsNoRoom) {
   solve::Model model;
   model.materials = {{1, {.youngs_modulus = 3000}}, {2, {.youngs_modulus = 10}}};

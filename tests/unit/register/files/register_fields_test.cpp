@@ -30,6 +30,27 @@ TEST(RegisterFields, PointsTakeTheMapThatGoesTheirWayAndImagesTheOneThatComesBac
   EXPECT_EQ(back.of_images().at(0, 0, 0)[0], 1);
 }
 
+TEST(RegisterFields, KnowWhatWasTakenOutInEitherBrain) {
+  const test::ScratchFolder folder;
+  const auto write_shift = [&](const char* name, double x) {
+    write_image(folder / name,
+                field(grid({8, 4, 4}), [&](const Eigen::Vector3d&) { return Eigen::Vector3d(x, 0, 0); }));
+  };
+  write_shift(forward_name, 2);
+  write_shift(resampling_name, -2);
+  LabelMap removed{grid({8, 4, 4}), std::vector<std::uint16_t>(8 * 4 * 4, 0)};
+  const Eigen::Vector3d taken = removed.geometry.to_world({3, 1, 1}), moved = taken + Eigen::Vector3d(2, 0, 0);
+  removed.at(3, 1, 1) = 1;
+  write_image(folder / removed_name, removed);
+  RegisterFields there(folder.path(), Towards::intraop), back(folder.path(), Towards::preop);
+  EXPECT_TRUE(there.is_removed(taken));
+  EXPECT_FALSE(there.is_removed(moved));
+  EXPECT_TRUE(there.removed().has_value());
+  EXPECT_TRUE(back.is_removed(moved));
+  EXPECT_FALSE(back.is_removed(taken));
+  EXPECT_FALSE(back.removed().has_value()) << "images of the intraop brain have it no more";
+}
+
 /// A run whose solution has an error that grows to the left.
 class RegisterFieldsError : public ::testing::Test {
  protected:

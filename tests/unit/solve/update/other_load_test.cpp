@@ -14,7 +14,7 @@ constexpr int cells = 8;  // along each edge
 
 /// Of more nodes than a thinned body has, held below and loaded at every other node of its upper face.
 Model half_loaded(int which) {
-  Model model = box_model(test::box_cells(cells, model_side));
+  Model model = box_model(test::box_cells(cells, model_side), cells + 1);
   hold_bottom(model);
   for (Eigen::Index a = 0; a < model.cloud.positions.rows(); ++a) {
     const Eigen::RowVector3d x = model.cloud.positions.row(a);
