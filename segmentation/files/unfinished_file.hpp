@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "segmentation/files/not_written.hpp"
 
@@ -22,16 +23,17 @@ class UnfinishedFile {
   /// std::runtime_error, naming the other, where that is a folder or write-protected, or its folder takes no file.
   UnfinishedFile(const std::filesystem::path& file, const std::string& ending)
       : file_(file), place_(file), path_(file) {
-    if (std::filesystem::is_directory(file)) {
+    std::error_code unknown;  // of a folder that may not be entered: opening a file there tells it
+    if (std::filesystem::is_directory(file, unknown)) {
       throw std::runtime_error(file_.string() + ": is a folder; give the name of a file");
     }
-    if (std::filesystem::is_other(file)) {
+    if (std::filesystem::is_other(file, unknown)) {
       return;
     }
-    if (std::filesystem::exists(file)) {
+    if (std::filesystem::exists(file, unknown)) {
       place_ = std::filesystem::canonical(file);
     }
-    if (std::filesystem::exists(place_) && ::access(place_.c_str(), W_OK) != 0) {
+    if (std::filesystem::exists(place_, unknown) && ::access(place_.c_str(), W_OK) != 0) {
       throw std::runtime_error(file_.string() + ": is write-protected; give another name");
     }
     const std::string name = place_.string() + "." + std::to_string(::getpid()) + ".";
