@@ -210,9 +210,8 @@ void read_measured_load(const SolveJob& job, SolveInput& input) {
   if (how.surfaces && load.sigma.rows() > 0) {
     input.notes.push_back(
         "warning: two surfaces tell how the cortex moved along its normals, not how it slid along itself, and faults "
-        "of "
-        "neighbouring vertices are alike: the answer may be off by more than is said; measure points, or state a noise "
-        "as large as the cortex may have slid");
+        "of neighbouring vertices are alike: the answer may be off by more than is said; measure points, or state a "
+        "noise as large as the cortex may have slid");
   }
   naming(load_files(how), [&] {
     const solve::CraniotomyLoad taken = looked_through(load, model.cloud, how, input.notes);

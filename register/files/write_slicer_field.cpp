@@ -39,9 +39,13 @@ std::string header(const ImageGeometry& grid) {
 
 void write_slicer_field(const std::filesystem::path& file, const VectorImage& resampling) {
   const UnfinishedFile voxels(file, ""), compressed(file, ".gz");  // on the way to the whole one; gone in the end
-  OutStream plain(voxels.path());
-  plain.write(resampling.voxels.data(), resampling.voxels.size() * sizeof(resampling.voxels[0]));
-  plain.finish();
+  std::ofstream plain(voxels.path(), std::ios::binary);
+  plain.write(reinterpret_cast<const char*>(resampling.voxels.data()),
+              static_cast<std::streamsize>(resampling.voxels.size() * sizeof(resampling.voxels[0])));
+  plain.close();
+  if (!plain) {
+    fail_to_write(file);
+  }
   write_gzip(compressed.path(), voxels.path());
   const std::string head = header(resampling.geometry);
   std::ifstream packed(compressed.path(), std::ios::binary);

@@ -32,9 +32,9 @@ class UnfinishedFile {
     }
     if (std::filesystem::exists(file, unknown)) {
       place_ = std::filesystem::canonical(file);
-    }
-    if (std::filesystem::exists(place_, unknown) && ::access(place_.c_str(), W_OK) != 0) {
-      throw std::runtime_error(file_.string() + ": is write-protected; give another name");
+      if (::access(place_.c_str(), W_OK) != 0) {
+        throw std::runtime_error(file_.string() + ": is write-protected; give another name");
+      }
     }
     const std::string name = place_.string() + "." + std::to_string(::getpid()) + ".";
     int descriptor = -1;

@@ -171,7 +171,7 @@ class Likelihood {
         take_if_likelier(smooth, chosen, moved);
       }
     }
-    if (first == 0) {
+    if (!std::isfinite(moved.likely)) {  // none could be tried
       return fit;
     }
     const Sizes sizes = mean_sizes(shapes_of(moved.smooth), moved.place);

@@ -63,16 +63,20 @@ def is_newer(file, than):
         return False
 
 
+def is_outdated(folder, stages):
+    return is_newer(folder / "case.sh", folder / "marks" / stages[-1])
+
+
 def has_failed(folder, stages):
     """Whether its own run, of its files and options as they are, ended without a result."""
     last = read(folder, stages[-1])
-    return bool(last) and last.code != 0 and not is_newer(folder / "case.sh", folder / "marks" / stages[-1])
+    return bool(last) and last.code != 0 and not is_outdated(folder, stages)
 
 
 def fault(folder, stages):
     """Empty, or why a case has no result."""
     last = read(folder, stages[-1])
-    if last and is_newer(folder / "case.sh", folder / "marks" / stages[-1]):
+    if last and is_outdated(folder, stages):
         return "its files, its options or the program have changed since it was computed; the same command goes on"
     if last:
         return last.sentence or (f"ended with {last.code}" if last.code else "")
